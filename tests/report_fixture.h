@@ -4,7 +4,7 @@
 #ifndef WT_TESTS_REPORT_FIXTURE_H
 #define WT_TESTS_REPORT_FIXTURE_H
 
-#include "data/tables/tables.h"
+#include "core/table/registry.h"
 #include "weartrack/flow.h"
 
 #include <math.h>

@@ -5,8 +5,8 @@
 
 #include <stdlib.h>
 
-#include "base/array.h"
-#include "base/param.h"
+#include "core/base/array.h"
+#include "core/base/param.h"
 #include "weartrack/weartrack.h"
 
 /* Exit status: all that was asked for, nothing usable or a fault, a wrong call, a part of it. */

@@ -1,5 +1,5 @@
 /* weartrack collect: results of cases side by side. SPDX-License-Identifier: GPL-3.0-or-later */
-#include "cmd/tables.h"
+#include "cmd/table_output.h"
 
 /* The results that can be read; the call goes on without the others. */
 static size_t read_cases(cmd_session *s, wt_collected *cases, wt_result **results)

@@ -2,7 +2,7 @@
 #ifndef WT_CMD_COMPARE_H
 #define WT_CMD_COMPARE_H
 
-#include "cmd/tables.h"
+#include "cmd/table_output.h"
 
 /* A file: its tables, or why it has none. */
 typedef struct compare_input {

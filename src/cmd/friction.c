@@ -1,6 +1,6 @@
 /* weartrack friction: hysteresis friction, contact area and total friction against velocity.
  * SPDX-License-Identifier: GPL-3.0-or-later */
-#include "cmd/sliding.h"
+#include "cmd/sliding_options.h"
 
 /* The tables that follow that of friction, each where it has something to say. */
 enum { AREA, DIRECTIONS, SOFTENING, FLASH, ANISOTROPY, MAP, DECADES, N_FURTHER };

@@ -1,6 +1,6 @@
 /* weartrack identify: critical energy and wear rate from what is seen of a layer.
  * SPDX-License-Identifier: GPL-3.0-or-later */
-#include "cmd/sliding.h"
+#include "cmd/sliding_options.h"
 
 int cmd_identify(int argc, char **argv)
 {

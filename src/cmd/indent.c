@@ -1,6 +1,6 @@
 /* weartrack indent: contact point and modulus of every force curve.
  * SPDX-License-Identifier: GPL-3.0-or-later */
-#include "cmd/tables.h"
+#include "cmd/table_output.h"
 
 typedef struct own_options {
     const char *master;

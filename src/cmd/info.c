@@ -1,8 +1,8 @@
 /* weartrack info: what a file is. SPDX-License-Identifier: GPL-3.0-or-later */
 #include <string.h>
 
-#include "cmd/found.h"
-#include "data/tables/tables.h"
+#include "cmd/file_kind.h"
+#include "core/table/registry.h"
 
 static void print_facts(const char *name, const wt_table *facts)
 {

@@ -1,6 +1,6 @@
 /* weartrack layer: formation, wear, balance and thickness of the modified layer.
  * SPDX-License-Identifier: GPL-3.0-or-later */
-#include "cmd/sliding.h"
+#include "cmd/sliding_options.h"
 
 /* The tables, each where it is asked for. */
 enum {

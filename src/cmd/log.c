@@ -3,8 +3,8 @@
 #include <string.h>
 #include <time.h>
 
-#include "base/json.h"
 #include "cmd/cmd.h"
+#include "core/base/json.h"
 
 static const char *of; /* the subcommand; NULL: what is said is for people */
 

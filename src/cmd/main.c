@@ -4,8 +4,8 @@
 #include <signal.h>
 #include <string.h>
 
-#include "base/nearest.h"
 #include "cmd/cmd.h"
+#include "core/base/spell_suggest.h"
 
 int cmd_full_argc;
 char **cmd_full_argv;

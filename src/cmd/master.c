@@ -1,7 +1,7 @@
 /* weartrack master: shift factors, master curve, WLF and Prony series.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "cmd/master.h"
-#include "cmd/tables.h"
+#include "cmd/table_output.h"
 
 #include <string.h>
 

@@ -4,9 +4,9 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "base/utf8.h"
 #include "cmd/cmd.h"
-#include "data/tables/tables.h"
+#include "core/base/utf8.h"
+#include "core/table/registry.h"
 
 /* A character that a terminal might obey. */
 static bool is_control(const char *text)

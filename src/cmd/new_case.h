@@ -5,7 +5,7 @@
 
 #include <stdio.h>
 
-#include "cmd/found.h"
+#include "cmd/file_kind.h"
 
 /* What is not known stands in the case as these words, which no quantity and no tip is. */
 #define FILL_IN "FILL IN"

@@ -1,7 +1,7 @@
 /* The text of a new case. SPDX-License-Identifier: GPL-3.0-or-later */
 #include "cmd/new_case.h"
 
-#include "base/utf8.h"
+#include "core/base/utf8.h"
 
 #include <string.h>
 

@@ -4,8 +4,8 @@
 #include <stdarg.h>
 #include <string.h>
 
-#include "base/nearest.h"
 #include "cmd/cmd.h"
+#include "core/base/spell_suggest.h"
 
 enum { MAX_OPTIONS = 128, FIRST_CODE = 256, NAME_SIZE = 48, TEXT_SIZE = 512 };
 

@@ -4,7 +4,7 @@
 #include <string.h>
 #include <sys/stat.h>
 
-#include "cmd/tables.h"
+#include "cmd/table_output.h"
 
 static const wt_param rows[] = {
     {PARAM_TEXT_OF("output", cmd_common, output), .value = "PLACE", .letter = 'o',

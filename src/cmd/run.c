@@ -5,8 +5,8 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include "cmd/tables.h"
-#include "data/tables/tables.h"
+#include "cmd/table_output.h"
+#include "core/table/registry.h"
 
 static bool any_stage(const wt_table *plan)
 {

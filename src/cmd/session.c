@@ -1,7 +1,7 @@
 /* What every subcommand sets up before its job and says after it.
  * SPDX-License-Identifier: GPL-3.0-or-later */
-#include "base/nearest.h"
 #include "cmd/cmd.h"
+#include "core/base/spell_suggest.h"
 
 #include <string.h>
 

@@ -1,6 +1,6 @@
 /* weartrack summary: one row for each result. SPDX-License-Identifier: GPL-3.0-or-later */
 #include "cmd/export.h"
-#include "cmd/tables.h"
+#include "cmd/table_output.h"
 
 /* What becomes of one file. */
 typedef struct one_result {

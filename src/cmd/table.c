@@ -1,8 +1,8 @@
 /* weartrack table: one table of a result for other programs. SPDX-License-Identifier:
  * GPL-3.0-or-later */
-#include "base/nearest.h"
 #include "cmd/export.h"
-#include "cmd/tables.h"
+#include "cmd/table_output.h"
+#include "core/base/spell_suggest.h"
 
 #include <string.h>
 

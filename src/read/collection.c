@@ -1,9 +1,9 @@
 /* A ZIP archive of files of force curves. SPDX-License-Identifier: GPL-3.0-or-later */
 #include "read/collection.h"
 
-#include "read/bytes/archive.h"
 #include "read/bytes/input.h"
-#include "read/facts.h"
+#include "read/bytes/zip.h"
+#include "read/metadata.h"
 
 #include <stdlib.h>
 #include <string.h>

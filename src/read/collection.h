@@ -5,7 +5,7 @@
 #ifndef WT_READ_COLLECTION_H
 #define WT_READ_COLLECTION_H
 
-#include "read/force_source.h"
+#include "read/force_assembler.h"
 #include "read/reader.h"
 
 /* What the archive is read by, once content.c has found out that it is one: no reader of the set,

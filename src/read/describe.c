@@ -2,9 +2,9 @@
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
-#include "data/tables/tables.h"
-#include "read/facts.h"
+#include "core/table/registry.h"
 #include "read/formats.h"
+#include "read/metadata.h"
 
 wt_status wt_describe(const wt_formats *formats, wt_input *input, const wt_read_options *options,
                       wt_parselog *log, wt_table **facts, wt_error *err)

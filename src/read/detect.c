@@ -3,7 +3,7 @@
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
-#include "base/shortage.h"
+#include "core/base/resource_error.h"
 #include "read/formats.h"
 #include "read/text/text.h"
 

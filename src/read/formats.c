@@ -4,7 +4,7 @@
  */
 #include "read/formats.h"
 
-#include "base/array.h"
+#include "core/base/array.h"
 #include "read/embedded_formats.h"
 #include "read/text/text.h"
 

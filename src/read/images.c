@@ -1,7 +1,7 @@
 /* The list of images that a reader makes of a file. SPDX-License-Identifier: GPL-3.0-or-later */
 #include "read/images.h"
 
-#include "base/utf8.h"
+#include "core/base/utf8.h"
 #include "read/reader.h"
 
 #include <math.h>

@@ -7,7 +7,7 @@
 #define WT_READ_IMAGES_H
 
 #include "read/bytes/samples.h"
-#include "read/facts.h"
+#include "read/metadata.h"
 #include "weartrack/read.h"
 
 typedef struct image_list {

@@ -6,7 +6,7 @@
 #ifndef WT_READ_READER_H
 #define WT_READ_READER_H
 
-#include "read/facts.h"
+#include "read/metadata.h"
 #include "weartrack/read.h"
 
 /* The honest answers of a detector. */

@@ -5,7 +5,7 @@
 #include "report/browse.h"
 
 #include "report/curve_finder.h"
-#include "report/files.h"
+#include "report/report_files.h"
 #include "weartrack/report.h"
 
 #include <string.h>

@@ -5,8 +5,8 @@
 #ifndef WT_REPORT_BROWSE_H
 #define WT_REPORT_BROWSE_H
 
-#include "report/bound.h"
-#include "report/text.h"
+#include "report/report_tables.h"
+#include "report/report_text.h"
 
 /* Appends the curves of all groups, their samples and the choices made before as JSON that may
  * stand in a script element. */

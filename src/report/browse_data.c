@@ -5,7 +5,7 @@
  */
 #include "report/browse.h"
 
-#include "base/utf8.h"
+#include "core/base/utf8.h"
 #include "report/curve_finder.h"
 
 #include <math.h>

@@ -5,7 +5,7 @@
 #ifndef WT_REPORT_CURVE_FINDER_H
 #define WT_REPORT_CURVE_FINDER_H
 
-#include "report/bound.h"
+#include "report/report_tables.h"
 
 /* The rows of one curve. */
 typedef struct curve_block {

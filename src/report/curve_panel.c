@@ -4,7 +4,7 @@
  */
 #include "report/curve_panel.h"
 
-#include "base/utf8.h"
+#include "core/base/utf8.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -6,11 +6,11 @@
 #ifndef WT_REPORT_DRAWING_H
 #define WT_REPORT_DRAWING_H
 
-#include "report/bound.h"
+#include "report/display_units.h"
 #include "report/figure.h"
-#include "report/numbers.h"
-#include "report/text.h"
-#include "report/units.h"
+#include "report/number_format.h"
+#include "report/report_tables.h"
+#include "report/report_text.h"
 
 enum {
     DRAWING_SECTIONS = 64,

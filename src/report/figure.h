@@ -6,7 +6,7 @@
 #ifndef WT_REPORT_FIGURE_H
 #define WT_REPORT_FIGURE_H
 
-#include "data/schema.h"
+#include "core/table/schema.h"
 
 struct figure_drawing;
 

@@ -4,8 +4,8 @@
  */
 #include "report/figure_files.h"
 
-#include "report/files.h"
 #include "report/gnuplot.h"
+#include "report/report_files.h"
 #include "report/svg.h"
 
 #include <math.h>

@@ -4,9 +4,9 @@
  */
 #include "report/folder.h"
 
-#include "base/array.h"
-#include "base/temporary.h"
-#include "report/files.h"
+#include "core/base/array.h"
+#include "core/system/temporary.h"
+#include "report/report_files.h"
 #include "weartrack/report.h"
 
 #include <dirent.h>

@@ -2,8 +2,8 @@
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
-#include "base/program.h"
-#include "base/utf8.h"
+#include "core/base/utf8.h"
+#include "core/system/subprocess.h"
 #include "report/gnuplot.h"
 #include "weartrack/report.h"
 

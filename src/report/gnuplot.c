@@ -4,7 +4,7 @@
  */
 #include "report/gnuplot.h"
 
-#include "base/program.h"
+#include "core/system/subprocess.h"
 
 #include <math.h>
 #include <string.h>

@@ -22,8 +22,8 @@ typedef struct gnuplot_call {
 } gnuplot_call;
 
 /* Runs gnuplot without a shell, without standard input, without the user's settings, in the C
- * locale (base/program.h). WT_E_TOOL if it cannot be started, fails or takes too long; the error
- * carries its words. */
+ * locale (core/system/subprocess.h). WT_E_TOOL if it cannot be started, fails or takes too long;
+ * the error carries its words. */
 wt_status gnuplot_run(const gnuplot_call *call, wt_error *err) WT_NODISCARD;
 
 #endif

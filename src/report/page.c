@@ -4,9 +4,9 @@
  */
 #include "report/page.h"
 
-#include "base/array.h"
-#include "report/files.h"
+#include "core/base/array.h"
 #include "report/folder.h"
+#include "report/report_files.h"
 #include "report/svg.h"
 
 #include <string.h>

@@ -4,7 +4,7 @@
  */
 #include "report/page.h"
 
-#include "data/findings.h"
+#include "core/table/result_value.h"
 
 #include <math.h>
 

@@ -4,9 +4,9 @@
  */
 #include "report/page.h"
 
-#include "base/array.h"
-#include "base/number.h"
-#include "data/findings.h"
+#include "core/base/array.h"
+#include "core/base/number.h"
+#include "core/table/result_value.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -4,7 +4,7 @@
  */
 #include "report/page.h"
 
-#include "base/array.h"
+#include "core/base/array.h"
 
 #include <math.h>
 #include <string.h>

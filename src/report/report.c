@@ -4,13 +4,13 @@
  */
 #include "weartrack/report.h"
 
-#include "base/param.h"
-#include "report/catalogue.h"
+#include "core/base/param.h"
 #include "report/figure_files.h"
-#include "report/files.h"
 #include "report/folder.h"
 #include "report/gnuplot.h"
 #include "report/page.h"
+#include "report/report_files.h"
+#include "report/translations.h"
 
 #include <math.h>
 #include <stdlib.h>

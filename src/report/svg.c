@@ -4,8 +4,8 @@
  */
 #include "report/svg.h"
 
-#include "base/array.h"
-#include "base/number.h"
+#include "core/base/array.h"
+#include "core/base/number.h"
 
 #include <string.h>
 

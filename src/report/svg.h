@@ -5,7 +5,7 @@
 #ifndef WT_REPORT_SVG_H
 #define WT_REPORT_SVG_H
 
-#include "report/text.h"
+#include "report/report_text.h"
 
 /* Appends the <svg> element of `svg` to a page: without XML declaration, its ids and references
  * prefixed by `name` so that they are unique on the page, without gnuplot's own titles (they would

@@ -1,10 +1,10 @@
 /* Hysteresis friction of several materials on a self-affine road, set-up included; the textbook
- * method is that of flow/accuracy/textbook.h. SPDX-License-Identifier: GPL-3.0-or-later */
+ * method is that of study/textbook_methods.h. SPDX-License-Identifier: GPL-3.0-or-later */
 #include <math.h>
 #include <string.h>
 
 #include "bench/bench.h"
-#include "flow/accuracy/textbook.h"
+#include "study/textbook_methods.h"
 
 enum { VELOCITIES = 100, TERMS = 12, NODES = 1000, ANGLES = 100, MOST_KNOTS = 1000 };
 

@@ -4,16 +4,16 @@
  * section.
  *     .\" options            .\" parameters SECTION     <!-- parameters SECTION -->
  *     .\" end                .\" end                    <!-- end -->
- * .\" table NAME is for the columns and keys of a table, called as in data/tables/tables.h; a page
+ * .\" table NAME is for the columns and keys of a table, called as in core/table/registry.h; a page
  * with one has all of them. .\" subcommands, .\" results and .\" figures are for their lists, and
  * .\" limits for the limits of every number of a case or an option.
  * <!-- choices --> is for the types of those that are words.
  * After SECTION, "= NAME..." takes these alone and "but NAME..." all others.
  * Usage: docs_records PROGRAM FILE. SPDX-License-Identifier: GPL-3.0-or-later */
-#include "base/quantity.h"
-#include "data/tables/tables.h"
-#include "flow/case/things.h"
-#include "model/tip.h"
+#include "case/resources.h"
+#include "core/base/quantity.h"
+#include "core/table/registry.h"
+#include "indentation/law/tip.h"
 #include "params/sections.h"
 #include "weartrack/report.h"
 

@@ -2,7 +2,7 @@
 # no page or header has one that is not in their table. Run: cmake -DSOURCE=.. -P references.cmake.
 # SPDX-License-Identifier: GPL-3.0-or-later
 cmake_minimum_required(VERSION 3.25)
-file(READ ${SOURCE}/src/flow/answer/methods.c text)
+file(READ ${SOURCE}/src/case/answer/methods.c text)
 string(REPLACE ";" "," text "${text}")
 string(REGEX REPLACE "\"[ \n]+\"" "" text "${text}") # strings of several lines
 string(REGEX MATCHALL "\"[^\"\n]*\",[ \n]*\"10\\.[^\"]*\"" pairs "${text}")

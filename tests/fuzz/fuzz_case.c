@@ -2,7 +2,7 @@
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
-#include "flow/case/case.h"
+#include "case/case.h"
 
 #include <stdlib.h>
 

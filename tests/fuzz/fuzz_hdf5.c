@@ -3,8 +3,8 @@
  * a 'p', as changes of a sound result file (two bytes where, one how many, up to eight of value),
  * whose checksums are then made to agree. What is read can be written. SPDX-License-Identifier:
  * GPL-3.0-or-later */
-#include "data/store.h"
-#include "data/table_bytes.h"
+#include "core/store/store.h"
+#include "core/table/table_bytes.h"
 #include "writers/hdf5_damage.h"
 
 #include <endian.h>

@@ -1,6 +1,6 @@
 /* Any text as a unit, a quantity, one with an error, a list, of the kind that the first byte says:
  * what is taken is finite and possible. SPDX-License-Identifier: GPL-3.0-or-later */
-#include "base/quantity.h"
+#include "core/base/quantity.h"
 
 #include <math.h>
 #include <stdint.h>

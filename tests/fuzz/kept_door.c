@@ -1,7 +1,7 @@
-/* The doors of a fuzz target (base/door.h), in the place of src/base/door.c: one process for many
- * files, because a new one of a program with a sanitizer and a large corpus takes 10 ms, and a file
- * of HDF5 is read several times: the last answers are kept. What it is told lies in memory that
- * both share.
+/* The doors of a fuzz target (core/system/sandbox.h), in the place of src/core/system/sandbox.c:
+ * one process for many files, because a new one of a program with a sanitizer and a large corpus
+ * takes 10 ms, and a file of HDF5 is read several times: the last answers are kept. What it is told
+ * lies in memory that both share.
  *
  * It ends with every fault, or after READINGS files, for libraries keep what they open. A signal is
  * a fault of the library: no more than its file fails, as behind the real door; so is a heap in
@@ -9,7 +9,7 @@
  * reports there, in the code of weartrack, ends the target. SPDX-License-Identifier:
  * GPL-3.0-or-later
  */
-#include "base/door.h"
+#include "core/system/sandbox.h"
 
 #include <errno.h>
 #include <fcntl.h>

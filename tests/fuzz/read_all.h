@@ -6,8 +6,8 @@
 #ifndef TESTS_FUZZ_READ_ALL_H
 #define TESTS_FUZZ_READ_ALL_H
 
-#include "data/tables/tables.h"
-#include "read/force_source.h"
+#include "core/table/registry.h"
+#include "read/force_assembler.h"
 #include "read/formats.h"
 
 #include <math.h>

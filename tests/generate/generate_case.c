@@ -4,7 +4,7 @@
  * The same bytes every time; variants, for counting how often a stated interval holds the truth,
  * differ in their errors of measurement, ratios in how soft the track is. SPDX-License-Identifier:
  * GPL-3.0-or-later */
-#include "flow/run/steps.h"
+#include "case/run/stage_functions.h"
 #include "generate.h"
 
 #include <math.h>

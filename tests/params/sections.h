@@ -3,11 +3,11 @@
 #ifndef TESTS_PARAMS_SECTIONS_H
 #define TESTS_PARAMS_SECTIONS_H
 
-#include "base/param.h"
-#include "flow/case/case_sections.h"
-#include "flow/materials/rubber.h"
-#include "flow/sliding/counter_surface.h"
-#include "flow/work/inputs.h"
+#include "case/case_sections.h"
+#include "core/base/param.h"
+#include "dma/rubber.h"
+#include "friction/counter_surface.h"
+#include "job/inputs.h"
 
 enum { SECTION_TABLES = 4 };
 

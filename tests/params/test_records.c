@@ -1,7 +1,7 @@
 /* Every record of a parameter is sound: names, words, limits and default agree, and one name means
  * one thing wherever it stands. SPDX-License-Identifier: GPL-3.0-or-later */
-#include "flow/materials/rubber.h"
-#include "flow/sliding/counter_surface.h"
+#include "dma/rubber.h"
+#include "friction/counter_surface.h"
 #include "near.h"
 #include "params/sections.h"
 

@@ -5,7 +5,7 @@
 
 #include "truth.h"
 
-#include "fit/spot/height_image.h"
+#include "indentation/numerics/height_image.h"
 #include "weartrack/flow.h"
 #include "writers/nid_writer.h"
 

@@ -3,8 +3,8 @@
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "truth.h"
 
-#include "flow/answer/words.h"
-#include "flow/case/case.h"
+#include "case/answer/format_number.h"
+#include "case/case.h"
 #include "weartrack/flow.h"
 
 static wt_case *bundled;

@@ -2,8 +2,8 @@
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "near.h"
 
-#include "base/ends.h"
-#include "flow/answer/words.h"
+#include "case/answer/format_number.h"
+#include "core/base/range_text.h"
 #include "weartrack/fit.h"
 
 #include <math.h>

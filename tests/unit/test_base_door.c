@@ -2,8 +2,8 @@
  * is stopped before it is done, and named. SPDX-License-Identifier: GPL-3.0-or-later */
 #include "near.h"
 
-#include "base/door.h"
-#include "base/shortage.h"
+#include "core/base/resource_error.h"
+#include "core/system/sandbox.h"
 
 #include <errno.h>
 #include <fcntl.h>

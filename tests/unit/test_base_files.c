@@ -1,7 +1,7 @@
 /* Patterns, output files, digests, provenance. SPDX-License-Identifier: GPL-3.0-or-later */
-#include "base/digest.h"
-#include "base/mix.h"
-#include "base/temporary.h"
+#include "core/math/splitmix64.h"
+#include "core/system/digest.h"
+#include "core/system/temporary.h"
 #include "near.h"
 
 #include <dirent.h>

@@ -1,6 +1,6 @@
 /* Errors, the parse log, numbers, paths. SPDX-License-Identifier: GPL-3.0-or-later */
-#include "base/nearest.h"
-#include "base/utf8.h"
+#include "core/base/spell_suggest.h"
+#include "core/base/utf8.h"
 #include "near.h"
 #include "weartrack/base.h"
 

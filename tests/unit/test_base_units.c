@@ -1,8 +1,8 @@
 /* Units, quantities on the command line, SI prefixes. SPDX-License-Identifier: GPL-3.0-or-later */
-#include "base/number.h"
-#include "base/quantity.h"
-#include "base/shortage.h"
-#include "base/unit_known.h"
+#include "core/base/number.h"
+#include "core/base/quantity.h"
+#include "core/base/resource_error.h"
+#include "core/base/unit_known.h"
 #include "near.h"
 #include "weartrack/base.h"
 

@@ -1,8 +1,8 @@
 /* The bundled case gives back the truth behind its data, inside the intervals it states.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 
+#include "case/case.h"
 #include "cells.h"
-#include "flow/case/case.h"
 #include "weartrack/flow.h"
 
 #include <string.h>

@@ -2,7 +2,7 @@
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "near.h"
 
-#include "cmd/wrap.c" /* of the command, which is no library */
+#include "cmd/text_wrap.c" /* of the command, which is no library */
 
 #include <stdlib.h>
 

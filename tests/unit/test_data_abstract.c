@@ -2,7 +2,7 @@
  * the file. SPDX-License-Identifier: GPL-3.0-or-later */
 #include "near.h"
 
-#include "data/store.h"
+#include "core/store/store.h"
 
 #include <endian.h>
 #include <fcntl.h>

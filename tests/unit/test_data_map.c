@@ -1,8 +1,8 @@
 /* Maps of force curves in HDF5: what was put is what comes back, to the last bit, and HDF5 alone
  * reads it as weartrack-hdf5(5) says. A changed sample costs its curve and no other; counts that do
  * not agree are refused. */
-#include "data/hdf5_scope.h"
-#include "data/map.h"
+#include "core/store/force_map.h"
+#include "core/store/hdf5_scope.h"
 #include "weartrack/read.h"
 
 #include <endian.h>

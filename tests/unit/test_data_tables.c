@@ -3,8 +3,8 @@
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "near.h"
 
-#include "data/table.h"
-#include "data/tables/tables.h"
+#include "core/table/registry.h"
+#include "core/table/table.h"
 
 #include <string.h>
 

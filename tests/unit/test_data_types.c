@@ -1,7 +1,7 @@
 /* Force curves, sweeps, Prony series, tables. SPDX-License-Identifier: GPL-3.0-or-later */
 #include "near.h"
 
-#include "data/force_curve.h"
+#include "core/data/force_curve.h"
 #include "weartrack/data.h"
 
 #include <stdio.h>

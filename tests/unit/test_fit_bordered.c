@@ -2,9 +2,9 @@
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "near.h"
 
-#include "fit/dense.h"
-#include "fit/pool_gsl.h"
-#include "fit/sweeps/bordered.h"
+#include "core/math/arena_gsl.h"
+#include "core/math/cholesky_dense.h"
+#include "dma/numerics/bordered_matrix.h"
 
 #include <math.h>
 #include <stdint.h>

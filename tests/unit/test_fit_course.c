@@ -4,7 +4,7 @@
 #include "near.h"
 #include "truth.h"
 
-#include "fit/validation/course.h"
+#include "record/numerics/running_in_curve.h"
 
 #include <math.h>
 

@@ -5,7 +5,7 @@
  */
 #include "fitted_curve.h"
 
-#include "fit/indentation/curve_model.h"
+#include "indentation/numerics/curve_model.h"
 
 #include <stdlib.h>
 #include <string.h>

@@ -5,8 +5,8 @@
  */
 #include "fitted_curve.h"
 
-#include "flow/indentation/curve_tables.h"
-#include "model/thin_layer.h"
+#include "indentation/curve_tables.h"
+#include "indentation/law/thin_layer.h"
 
 #include <stdio.h>
 #include <string.h>

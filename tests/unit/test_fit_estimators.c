@@ -5,7 +5,7 @@
  */
 #include "fitted_curve.h"
 
-#include "fit/indentation/curve.h"
+#include "indentation/numerics/curve.h"
 
 static wt_indent_fit fit_of(const curve_truth *t, bool estimators)
 {

@@ -11,7 +11,7 @@
  */
 #include "near.h"
 
-#include "fit/indentation/curve.h"
+#include "indentation/numerics/curve.h"
 #include "weartrack/read.h"
 
 #include <stdio.h>

@@ -2,7 +2,7 @@
  * law, verdicts, draws. The material is not that of the fit: a sum of two Cole-Cole processes.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "counted.h"
-#include "fit/sweeps/shift_law.h"
+#include "dma/numerics/shift_law.h"
 #include "near.h"
 #include "weartrack/fit.h"
 

@@ -5,7 +5,7 @@
  */
 #include "fitted_curve.h"
 
-#include "fit/indentation/curve.h"
+#include "indentation/numerics/curve.h"
 
 #include <stdio.h>
 #include <stdlib.h>

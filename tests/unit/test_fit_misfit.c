@@ -5,7 +5,7 @@
  */
 #include "near.h"
 
-#include "fit/indentation/curve.h"
+#include "indentation/numerics/curve.h"
 #include "synthetic_curve.h"
 
 static curve_data data;

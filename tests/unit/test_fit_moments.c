@@ -2,7 +2,7 @@
  */
 #include "near.h"
 
-#include "fit/students_t.h"
+#include "core/math/students_t.h"
 
 static void known(void **state)
 {

@@ -5,8 +5,8 @@
 #include "near.h"
 #include "weartrack/fit.h"
 
+#include "dma/numerics/gaussian_process.h"
 #include "dma_data.h"
-#include "fit/ramp/smooth.h"
 
 #define TIDY WT_SHARED_DIR "/data/dma/tidy/"
 #define REFERENCE WT_SHARED_DIR "/data/dma-scans/tg-from-isotherms.csv"

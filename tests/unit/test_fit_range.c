@@ -6,7 +6,7 @@
 #include "counted.h"
 #include "fitted_curve.h"
 
-#include "fit/indentation/curve.h"
+#include "indentation/numerics/curve.h"
 
 #include <string.h>
 

@@ -1,9 +1,9 @@
 /* Friction records: cycles, running-in, steady mean, stick-slip, wear track, ball.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "counted.h"
-#include "fit/record/pauses.h"
-#include "fit/record/slow_scatter.h"
 #include "near.h"
+#include "record/numerics/autocorrelation.h"
+#include "record/numerics/pauses.h"
 #include "weartrack/fit.h"
 #include "weartrack/read.h"
 

@@ -1,8 +1,8 @@
 /* One value behind several, against closed forms and draws.
  * SPDX-License-Identifier: GPL-3.0-or-later */
-#include "fit/constant_pair.h"
-#include "fit/shared_value.h"
+#include "layer/numerics/correlated_pair.h"
 #include "near.h"
+#include "study/numerics/shared_value.h"
 
 #include <gsl/gsl_cdf.h>
 #include <gsl/gsl_randist.h>

@@ -5,8 +5,8 @@
 #include "near.h"
 #include "weartrack/fit.h"
 
+#include "dma/numerics/isotherm.h"
 #include "dma_data.h"
-#include "fit/sweeps/isotherm.h"
 
 static wt_master fit_good(const wt_sweep *sweep, const wt_master_options *options, wt_parselog *log)
 {

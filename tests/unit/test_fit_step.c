@@ -5,7 +5,7 @@
  */
 #include "near.h"
 
-#include "fit/sweeps/spectrum.h"
+#include "dma/numerics/spectrum.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -5,7 +5,7 @@
  */
 #include "near.h"
 
-#include "fit/indentation/curve.h"
+#include "indentation/numerics/curve.h"
 
 #include <stdlib.h>
 #include <string.h>

@@ -7,9 +7,9 @@
 #include "study/made_surface.h"
 #include "surface_reference.h"
 
-#include "base/array.h"
-#include "fit/surface/surface.h"
-#include "fit/surface/surface_heights.h"
+#include "core/base/array.h"
+#include "surface/numerics/height_grid.h"
+#include "surface/numerics/surface_analysis.h"
 
 #include <gsl/gsl_sf_psi.h>
 #include <string.h>

@@ -2,7 +2,7 @@
  * against values that are worked out otherwise here. SPDX-License-Identifier: GPL-3.0-or-later */
 #include "near.h"
 
-#include "fit/validation/agreement.h"
+#include "record/numerics/agreement.h"
 
 #include <math.h>
 #include <stdlib.h>

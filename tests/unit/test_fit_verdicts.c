@@ -5,8 +5,8 @@
 #include "counted.h"
 #include "fitted_curve.h"
 
-#include "fit/indentation/curve.h"
-#include "model/adhesion.h"
+#include "indentation/law/adhesion.h"
+#include "indentation/numerics/curve.h"
 
 #include <float.h>
 #include <stdlib.h>

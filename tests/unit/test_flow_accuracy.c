@@ -4,9 +4,9 @@
 #include "sliding.h"
 #include "truth.h"
 
-#include "flow/errors/coverage_share.h"
-#include "flow/errors/regenerate.h"
-#include "flow/work/draws.h"
+#include "job/random_draws.h"
+#include "study/coverage_share.h"
+#include "study/parametric_bootstrap.h"
 
 /* ---- numerical parts ------------------------------------------------------------------------- */
 

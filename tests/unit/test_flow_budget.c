@@ -2,8 +2,8 @@
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "truth.h"
 
-#include "fit/comparison/groups.h"
-#include "flow/indentation/common_errors.h"
+#include "indentation/calibration_errors.h"
+#include "indentation/numerics/group_statistics.h"
 
 enum { SPOTS = 4, CURVES = 8 };
 

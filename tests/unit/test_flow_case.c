@@ -3,7 +3,7 @@
 #include "near.h"
 #include "status_name.h"
 
-#include "flow/case/case.h"
+#include "case/case.h"
 
 #include <stdlib.h>
 #include <string.h>

@@ -3,7 +3,7 @@
 #include "cells.h"
 #include "near.h"
 
-#include "data/tables/tables.h"
+#include "core/table/registry.h"
 #include "weartrack/flow.h"
 
 #include <math.h>

@@ -4,10 +4,10 @@
 #include "cells.h"
 #include "sliding.h"
 
-#include "base/array.h"
-#include "fit/sweeps/posterior.h"
-#include "flow/plan/plan.h"
-#include "kernel/angular_panels.h"
+#include "case/plan/plan.h"
+#include "core/base/array.h"
+#include "dma/numerics/posterior.h"
+#include "friction/numerics/angular_panels.h"
 
 #include <stdlib.h>
 #include <string.h>

@@ -1,11 +1,11 @@
 /* Force curves drawn anew: what a noiseless one is fitted with comes back, and the intervals of
  * noisy ones hold it. The curve that the set is made of is that of synthetic_curve.h.
  * SPDX-License-Identifier: GPL-3.0-or-later */
-#include "flow/indentation/indent.h"
+#include "indentation/indent.h"
 #include "near.h"
 #include "synthetic_curve.h"
 
-#include "flow/indentation/curve_set.h"
+#include "indentation/curve_set.h"
 #include "weartrack/fit.h"
 
 #include <string.h>

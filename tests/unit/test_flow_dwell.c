@@ -5,7 +5,7 @@
 #include "cells.h"
 
 #include "dma_data.h"
-#include "fit/dwell/relaxation.h"
+#include "indentation/numerics/relaxation.h"
 #include "weartrack/flow.h"
 #include "writers/jpk_writer.h"
 

@@ -2,8 +2,8 @@
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "cells.h"
 
-#include "data/tables/tables.h"
-#include "flow/dwell/dwell.h"
+#include "core/table/registry.h"
+#include "indentation/dwell.h"
 
 #include <stdlib.h>
 

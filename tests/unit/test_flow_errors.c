@@ -3,7 +3,7 @@
  * nan, and is named. SPDX-License-Identifier: GPL-3.0-or-later */
 #include "report_fixture.h"
 
-#include "flow/indentation/indent.h"
+#include "indentation/indent.h"
 #include "truth.h"
 
 /* With the errors of all inputs; without any; a material without draws, with the error of the

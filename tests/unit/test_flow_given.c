@@ -1,7 +1,7 @@
 /* What is left out of sweeps, shifts that a law or a table gives, and what one quantity alone
  * tells. SPDX-License-Identifier: GPL-3.0-or-later */
-#include "flow/sweeps/ramp_windows.h"
-#include "flow/sweeps/sweep_input.h"
+#include "dma/ramp_windows.h"
+#include "dma/sweep_input.h"
 #include "near.h"
 
 #include "dma_data.h"

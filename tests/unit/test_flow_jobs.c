@@ -4,8 +4,8 @@
 #include "all_formats.h"
 #include "cells.h"
 
-#include "base/array.h"
-#include "flow/work/draws.h"
+#include "core/base/array.h"
+#include "job/random_draws.h"
 #include "weartrack/flow.h"
 #include "writers/jpk_writer.h"
 

@@ -3,16 +3,16 @@
  * stages run, and how often the inner work is done. The linker lays the counters around the
  * functions (see CMakeLists.txt), so the library has none.
  * SPDX-License-Identifier: GPL-3.0-or-later */
-#include "base/digest.h"
 #include "cells.h"
+#include "core/system/digest.h"
 
-#include "fit/indentation/curve.h"
-#include "fit/sweeps/superposition.h"
-#include "flow/plan/plan.h"
-#include "flow/sweeps/master.h"
-#include "kernel/friction.h"
-#include "kernel/layer.h"
-#include "model/root.h"
+#include "case/plan/plan.h"
+#include "core/math/root.h"
+#include "dma/master.h"
+#include "dma/numerics/superposition.h"
+#include "friction/numerics/friction_kernel.h"
+#include "indentation/numerics/curve.h"
+#include "layer/numerics/layer_kernel.h"
 #include "read/bytes/samples.h"
 #include "weartrack/flow.h"
 #include "weartrack/report.h"

@@ -2,7 +2,7 @@
  * alike. SPDX-License-Identifier: GPL-3.0-or-later */
 #include "cells.h"
 
-#include "flow/indentation/indent.h"
+#include "indentation/indent.h"
 
 enum { CURVES = 8 };
 

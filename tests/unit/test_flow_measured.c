@@ -4,7 +4,7 @@
 
 #include "cells.h"
 
-#include "base/array.h"
+#include "core/base/array.h"
 #include "weartrack/flow.h"
 
 #include <stdlib.h>

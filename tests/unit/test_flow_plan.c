@@ -1,8 +1,8 @@
 /* The plan: what runs, what is left out, and why. No data file exists in any of these cases.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 
+#include "case/plan/stages.h"
 #include "cells.h"
-#include "flow/plan/stages.h"
 #include "weartrack/flow.h"
 
 #include <stdlib.h>

@@ -3,8 +3,8 @@
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "truth.h"
 
-#include "base/normal.h"
-#include "flow/validation/running_in.h"
+#include "core/math/normal_quantile.h"
+#include "record/running_in_validation.h"
 #include "weartrack/flow.h"
 
 #include <math.h>

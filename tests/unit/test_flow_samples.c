@@ -2,7 +2,7 @@
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "near.h"
 
-#include "flow/sweeps/sweep_input.h"
+#include "dma/sweep_input.h"
 
 #include <stdio.h>
 #include <stdlib.h>

@@ -4,7 +4,7 @@
 #include "cells.h"
 #include "synthetic_curve.h"
 
-#include "model/adhesion.h"
+#include "indentation/law/adhesion.h"
 #include "weartrack/flow.h"
 
 #include <string.h>

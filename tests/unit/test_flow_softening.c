@@ -4,7 +4,7 @@
 #include "dma_data.h"
 #include "sliding.h"
 
-#include "data/tables/tables.h"
+#include "core/table/registry.h"
 #include "weartrack/flow.h"
 
 #include <stdlib.h>

@@ -4,9 +4,9 @@
 
 #include "study/made_surface.h"
 
-#include "base/array.h"
-#include "flow/sliding/counter_surface.h"
-#include "flow/work/draws.h"
+#include "core/base/array.h"
+#include "friction/counter_surface.h"
+#include "job/random_draws.h"
 #include "truth.h"
 #include "weartrack/flow.h"
 

@@ -1,8 +1,8 @@
 /* Estimates and lists as text. SPDX-License-Identifier: GPL-3.0-or-later */
 #include "near.h"
 
-#include "data/tables/tables.h"
-#include "flow/answer/words.h"
+#include "case/answer/format_number.h"
+#include "core/table/registry.h"
 #include "weartrack/flow.h"
 
 #include <locale.h>

@@ -4,7 +4,7 @@
 #include "sliding.h"
 #include "truth.h"
 
-#include "data/tables/tables.h"
+#include "core/table/registry.h"
 #include "weartrack/flow.h"
 
 #include <math.h>

@@ -4,7 +4,7 @@
 #include "sliding.h"
 #include "truth.h"
 
-#include "data/findings.h"
+#include "core/table/result_value.h"
 #include "weartrack/flow.h"
 
 static wt_layer_known known;

@@ -2,7 +2,7 @@
  * without the harm. SPDX-License-Identifier: GPL-3.0-or-later */
 #include "near.h"
 
-#include "data/hdf5_door.h"
+#include "core/store/hdf5_sandbox.h"
 #include "weartrack/data.h"
 #include "writers/hdf5_damage.h"
 

@@ -2,7 +2,7 @@
  * it notices nothing else. SPDX-License-Identifier: GPL-3.0-or-later */
 #include "near.h"
 
-#include "data/hdf5_door.h"
+#include "core/store/hdf5_sandbox.h"
 #include "watched.h"
 
 #include <errno.h>

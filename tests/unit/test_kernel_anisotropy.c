@@ -2,7 +2,7 @@
  * must obey. */
 #include "near.h"
 
-#include "kernel/angular_weight.h"
+#include "friction/numerics/angular_weight.h"
 #include "numeric/friction_scene.h"
 #include "weartrack/kernel.h"
 

@@ -1,9 +1,9 @@
 /* Energy density with depth, its source in friction, and the stiffness of a layered half-space. */
 #include "near.h"
 
-#include "base/exponential.h"
-#include "kernel/contact.h"
-#include "kernel/energy.h"
+#include "core/math/vector_exp.h"
+#include "friction/numerics/persson_contact.h"
+#include "layer/numerics/energy_density_kernel.h"
 #include "weartrack/kernel.h"
 
 #include <float.h>

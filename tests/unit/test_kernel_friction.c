@@ -1,7 +1,7 @@
 /* Friction against numeric cases, its stated errors, and the laws it must obey. */
 #include "near.h"
 
-#include "kernel/contact.h"
+#include "friction/numerics/persson_contact.h"
 #include "numeric/friction_scene.h"
 #include "weartrack/kernel.h"
 

@@ -2,8 +2,8 @@
  * must hold of them. */
 #include "near.h"
 
-#include "kernel/area_law.h"
-#include "kernel/contact.h"
+#include "friction/numerics/area_law.h"
+#include "friction/numerics/persson_contact.h"
 #include "numeric/friction_scene.h"
 #include "weartrack/kernel.h"
 

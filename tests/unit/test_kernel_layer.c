@@ -1,8 +1,8 @@
 /* The modified layer against numeric cases, and the laws that formation and wear must obey. */
 #include "near.h"
 
-#include "kernel/contact.h"
-#include "kernel/energy.h"
+#include "friction/numerics/persson_contact.h"
+#include "layer/numerics/energy_density_kernel.h"
 #include "numeric/cases.h"
 #include "weartrack/kernel.h"
 

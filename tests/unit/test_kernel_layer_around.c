@@ -3,7 +3,7 @@
  * GPL-3.0-or-later */
 #include "near.h"
 
-#include "fit/students_t.h"
+#include "core/math/students_t.h"
 #include "numeric/cases.h"
 #include "weartrack/fit.h"
 #include "weartrack/kernel.h"

@@ -1,7 +1,7 @@
 /* The modified layer beyond the balance at constant load, against numeric cases and laws. */
 #include "near.h"
 
-#include "kernel/layer.h"
+#include "layer/numerics/layer_kernel.h"
 #include "numeric/cases.h"
 #include "weartrack/kernel.h"
 

@@ -3,7 +3,7 @@
  */
 #include "near.h"
 
-#include "kernel/layer_moduli.h"
+#include "friction/numerics/layered_moduli.h"
 #include "weartrack/kernel.h"
 
 #include <complex.h>

@@ -1,8 +1,8 @@
 /* The kernel against the plain textbook method, which shares nothing with it but the laws. */
 #include "near.h"
 
-#include "flow/accuracy/textbook.c"
 #include "numeric/friction_scene.h"
+#include "study/textbook_methods.c"
 #include "weartrack/kernel.h"
 
 static void kernel_against_textbook(void **state)

@@ -5,7 +5,7 @@
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "truth.h"
 
-#include "data/store.h"
+#include "core/store/store.h"
 #include "dma_data.h"
 #include "weartrack/flow.h"
 #include "weartrack/report.h"

@@ -1,7 +1,7 @@
 /* When memory runs out inside a library that this one calls: UDUNITS, libxml2, the C library. Every
  * allocation of the process is one of those below, and each fails once, in a process of its own.
  * It must be said, or the result be the same. UDUNITS and libxml2 may crash or exit, which no
- * library can prevent (the command can, see src/cmd/memory.c), but nothing may be taken for
+ * library can prevent (the command can, see src/cmd/malloc_abort.c), but nothing may be taken for
  * something else. SPDX-License-Identifier: GPL-3.0-or-later */
 #include "near.h"
 #include "watched.h"

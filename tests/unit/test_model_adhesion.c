@@ -4,7 +4,7 @@
  */
 #include "reference_contact.h"
 
-#include "model/adhesion.h"
+#include "indentation/law/adhesion.h"
 
 static wt_contact_table *table_of(const wt_tip *tip)
 {

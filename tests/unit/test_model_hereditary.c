@@ -5,7 +5,7 @@
  */
 #include "reference_contact.h"
 
-#include "model/hereditary.h"
+#include "indentation/law/hereditary.h"
 
 enum { TERMS = 16, STEPS = 20000 };
 

@@ -1,8 +1,8 @@
 /* Materials: moduli, closed angular integrals, limits, what is refused. */
 #include "near.h"
 
-#include "kernel/angular_panels.h"
-#include "model/material_transverse.h"
+#include "dma/law/material_transverse.h"
+#include "friction/numerics/angular_panels.h"
 #include "weartrack/model.h"
 
 #include <float.h>

@@ -4,8 +4,8 @@
  */
 #include "near.h"
 
-#include "base/quantity.h"
-#include "model/tip.h"
+#include "core/base/quantity.h"
+#include "indentation/law/tip.h"
 #include "status_name.h"
 
 #include "weartrack/model.h"

@@ -4,7 +4,7 @@
  */
 #include "near.h"
 
-#include "read/bytes/archive.h"
+#include "read/bytes/zip.h"
 
 #include <stdio.h>
 #include <stdlib.h>

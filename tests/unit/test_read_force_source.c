@@ -5,8 +5,8 @@
  */
 #include "near.h"
 
-#include "data/tables/tables.h"
-#include "read/force_source.h"
+#include "core/table/registry.h"
+#include "read/force_assembler.h"
 
 #include <stdio.h>
 #include <string.h>

@@ -4,7 +4,7 @@
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
 #include "made_file.h"
-#include "read/force_source.h"
+#include "read/force_assembler.h"
 #include "read/jpk/jpk.h"
 
 #include "writers/jpk_writer.h"

@@ -2,11 +2,11 @@
  * of other programs. SPDX-License-Identifier: GPL-3.0-or-later */
 #include "made_file.h"
 
-#include "base/array.h"
-#include "base/digest.h"
-#include "fit/surface/surface.h"
-#include "fit/surface/surface_heights.h"
+#include "core/base/array.h"
+#include "core/system/digest.h"
 #include "fuzz/pack_list.h"
+#include "surface/numerics/height_grid.h"
+#include "surface/numerics/surface_analysis.h"
 
 #include <ctype.h>
 #include <math.h>

@@ -2,8 +2,8 @@
  * drawn in one is looked at where everything is drawn, in test_report_figures.c.
  *
  * SPDX-License-Identifier: GPL-3.0-or-later */
-#include "report/catalogue.h"
 #include "report/drawing.h"
+#include "report/translations.h"
 #include "report_place.h"
 
 #include <ctype.h>
@@ -227,8 +227,10 @@ static void find_texts(texts *said, texts *any)
     keep_figures(said);
     keep_tables(said);
     read_sources(WT_SOURCE_DIR "/src/report/*.c", any, said);
-    read_sources(WT_SOURCE_DIR "/src/flow/*/*.c", any, &unused);
-    read_sources(WT_SOURCE_DIR "/src/data/*.c", any, said);
+    read_sources(WT_SOURCE_DIR "/src/*/figures*.c", any, said);
+    read_sources(WT_SOURCE_DIR "/src/core/*/*.c", any, said);
+    read_sources(WT_SOURCE_DIR "/src/*/*.c", any, &unused);
+    read_sources(WT_SOURCE_DIR "/src/case/*/*.c", any, &unused);
     for (size_t i = 0; i < said->n; i++)
         keep(any, said->text[i]);
     sort(said);

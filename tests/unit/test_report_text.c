@@ -2,10 +2,10 @@
  *
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "near.h"
+#include "report/display_units.h"
 #include "report/drawing.h"
+#include "report/report_text.h"
 #include "report/svg.h"
-#include "report/text.h"
-#include "report/units.h"
 
 #include <locale.h>
 #include <string.h>

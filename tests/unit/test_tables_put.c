@@ -4,9 +4,9 @@
 #include "sliding.h"
 #include "truth.h"
 
-#include "base/array.h"
-#include "data/tables/tables.h"
-#include "flow/case/case.h"
+#include "case/case.h"
+#include "core/base/array.h"
+#include "core/table/registry.h"
 #include "weartrack/flow.h"
 #include "writers/jpk_writer.h"
 #include "writers/nid_writer.h"

@@ -2,8 +2,8 @@
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "cells.h"
 
-#include "data/store.h"
-#include "data/tables/tables.h"
+#include "core/store/store.h"
+#include "core/table/registry.h"
 
 #include <string.h>
 

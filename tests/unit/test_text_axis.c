@@ -1,7 +1,7 @@
 /* Places that are equal steps, as exports round them. SPDX-License-Identifier: GPL-3.0-or-later */
 #include "near.h"
 
-#include "base/array.h"
+#include "core/base/array.h"
 #include "read/text/text_axis.h"
 
 #include <math.h>

@@ -3,8 +3,8 @@
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "truth.h"
 
-#include "data/tables/tables.h"
-#include "flow/comparison/compare.h"
+#include "core/table/registry.h"
+#include "study/compare.h"
 #include "weartrack/flow.h"
 
 enum { SPOTS = 3, RATES = 2 };

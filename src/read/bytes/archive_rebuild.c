@@ -3,8 +3,8 @@
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
-#include "read/bytes/archive.h"
 #include "read/bytes/bytes.h"
+#include "read/bytes/zip.h"
 
 #include <stdlib.h>
 #include <string.h>

@@ -6,7 +6,7 @@
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
 #include "read/bytes/input.h"
-#include "data/hdf5_bytes.h"
+#include "core/store/hdf5_bytes.h"
 #include "read/bytes/scratch.h"
 
 #include <errno.h>

@@ -13,8 +13,8 @@ wt_status input_own(char *bytes, size_t length, const char *name, wt_input **inp
 wt_status input_of_file(int file, size_t size, const char *name, wt_input **input,
                         wt_error *err) WT_NODISCARD;
 
-/* Where HDF5 finds the bytes (data/hdf5_bytes.h): in the input, which must outlive them, or in its
- * file if that is not yet read as a whole. */
+/* Where HDF5 finds the bytes (core/store/hdf5_bytes.h): in the input, which must outlive them, or
+ * in its file if that is not yet read as a whole. */
 struct hdf5_bytes;
 wt_status input_hdf5(wt_input *input, struct hdf5_bytes *bytes, wt_error *err) WT_NODISCARD;
 

@@ -4,7 +4,7 @@
  */
 #include "read/bytes/samples.h"
 
-#include "base/wide.h"
+#include "core/math/simd.h"
 #include "read/bytes/bytes.h"
 
 #include <math.h>

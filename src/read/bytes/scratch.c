@@ -1,7 +1,7 @@
 /* Files without a name. SPDX-License-Identifier: GPL-3.0-or-later */
 #include "read/bytes/scratch.h"
 
-#include "base/temporary.h"
+#include "core/system/temporary.h"
 
 #include <errno.h>
 #include <fcntl.h>

@@ -1,7 +1,7 @@
 /* Parts of an input. SPDX-License-Identifier: GPL-3.0-or-later */
 #include "read/bytes/window.h"
 
-#include "base/shortage.h"
+#include "core/base/resource_error.h"
 #include "read/bytes/scratch.h"
 
 #include <errno.h>

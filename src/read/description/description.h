@@ -5,8 +5,8 @@
 #ifndef WT_READ_DESCRIPTION_H
 #define WT_READ_DESCRIPTION_H
 
-#include "base/embed.h"
-#include "base/pool.h"
+#include "core/base/arena.h"
+#include "core/system/embed.h"
 #include "read/reader.h"
 
 #include <regex.h>

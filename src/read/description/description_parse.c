@@ -2,7 +2,7 @@
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
-#include "base/shortage.h"
+#include "core/base/resource_error.h"
 #include "read/description/description_xml.h"
 #include "read/embedded_formats.h"
 

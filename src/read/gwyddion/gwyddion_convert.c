@@ -1,7 +1,7 @@
 /* Running Gwyddion on a file. SPDX-License-Identifier: GPL-3.0-or-later */
-#include "base/program.h"
-#include "base/temporary.h"
-#include "base/utf8.h"
+#include "core/base/utf8.h"
+#include "core/system/subprocess.h"
+#include "core/system/temporary.h"
 #include "read/bytes/input.h"
 #include "read/bytes/scratch.h"
 #include "read/gwyddion/gwyddion.h"

@@ -4,8 +4,8 @@
  */
 #include "read/hierarchy/curves_hdf5.h"
 
-#include "data/hdf5_scope.h"
-#include "data/store.h"
+#include "core/store/hdf5_scope.h"
+#include "core/store/store.h"
 #include "read/bytes/input.h"
 #include "read/bytes/spool.h"
 #include "read/bytes/window.h"

@@ -1,12 +1,12 @@
-/* HDF5 files of force curves, behind the door (data/hdf5_door.h): attributes and data sets of files
- * that may be damaged or made to do harm, and the way of their curves to text.
+/* HDF5 files of force curves, behind the door (core/store/hdf5_sandbox.h): attributes and data sets
+ * of files that may be damaged or made to do harm, and the way of their curves to text.
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
 #ifndef WT_READ_CURVES_HDF5_H
 #define WT_READ_CURVES_HDF5_H
 
-#include "data/hdf5_door.h"
+#include "core/store/hdf5_sandbox.h"
 #include "read/reader.h"
 
 enum { HDF5_TEXT = 128, HDF5_NAME = 64 };

@@ -8,7 +8,7 @@
 #define WT_READ_IBW_H
 
 #include "read/bytes/samples.h"
-#include "read/force_source.h"
+#include "read/force_assembler.h"
 #include "read/reader.h"
 
 enum { IBW_TEXT = 64, IBW_CHANNELS = 32, IBW_SEGMENTS = 64 };

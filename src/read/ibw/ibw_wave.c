@@ -1,7 +1,7 @@
 /* The wave: header, labels, note. SPDX-License-Identifier: GPL-3.0-or-later */
 #include "read/ibw/ibw.h"
 
-#include "base/clocale.h"
+#include "core/base/clocale.h"
 #include "read/bytes/bytes.h"
 
 #include <math.h>

@@ -5,7 +5,7 @@
  */
 #include "read/jpk/jpk.h"
 #include "read/bytes/window.h"
-#include "read/facts.h"
+#include "read/metadata.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -10,9 +10,9 @@
 #ifndef WT_READ_JPK_H
 #define WT_READ_JPK_H
 
-#include "read/bytes/archive.h"
 #include "read/bytes/samples.h"
-#include "read/force_source.h"
+#include "read/bytes/zip.h"
+#include "read/force_assembler.h"
 #include "read/jpk/properties.h"
 #include "read/reader.h"
 

@@ -4,7 +4,7 @@
  */
 #include "read/jpk/jpk.h"
 
-#include "base/number.h"
+#include "core/base/number.h"
 
 #include <errno.h>
 #include <math.h>

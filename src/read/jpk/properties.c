@@ -4,7 +4,7 @@
  */
 #include "read/jpk/properties.h"
 
-#include "base/number.h"
+#include "core/base/number.h"
 
 #include <stdint.h>
 #include <stdlib.h>

@@ -3,10 +3,10 @@
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
-#include "data/map.h"
-#include "data/store.h"
+#include "core/store/force_map.h"
+#include "core/store/store.h"
 #include "read/bytes/input.h"
-#include "read/force_source.h"
+#include "read/force_assembler.h"
 #include "read/reader.h"
 
 #include <math.h>

@@ -4,8 +4,8 @@
  */
 #include "read/nanoscope/nanoscope.h"
 
-#include "read/facts.h"
 #include "read/images.h"
+#include "read/metadata.h"
 
 #include <math.h>
 

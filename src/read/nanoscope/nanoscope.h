@@ -12,7 +12,7 @@
 
 #include "read/bytes/samples.h"
 #include "read/bytes/window.h"
-#include "read/force_source.h"
+#include "read/force_assembler.h"
 #include "read/reader.h"
 
 /* ---- the header: nanoscope_header.c -----------------------------------------------------------

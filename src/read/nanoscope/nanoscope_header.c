@@ -1,7 +1,7 @@
 /* The text at the beginning of a NanoScope file. SPDX-License-Identifier: GPL-3.0-or-later */
 #include "read/nanoscope/nanoscope.h"
 
-#include "base/number.h"
+#include "core/base/number.h"
 
 #include <ctype.h>
 #include <math.h>

@@ -5,7 +5,7 @@
  */
 #include "read/nanoscope/nanoscope.h"
 
-#include "base/number.h"
+#include "core/base/number.h"
 #include "read/bytes/bytes.h"
 #include "read/images.h"
 

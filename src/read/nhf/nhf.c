@@ -4,7 +4,7 @@
  */
 #include "read/nhf/nhf.h"
 
-#include "data/hdf5_scope.h"
+#include "core/store/hdf5_scope.h"
 #include "read/text/curve_text.h"
 #include "read/text/text.h"
 

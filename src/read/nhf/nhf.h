@@ -10,7 +10,7 @@
 #ifndef WT_READ_NHF_H
 #define WT_READ_NHF_H
 
-#include "read/force_source.h"
+#include "read/force_assembler.h"
 #include "read/hierarchy/curves_hdf5.h"
 
 typedef struct nhf_file {

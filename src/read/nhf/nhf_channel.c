@@ -4,8 +4,8 @@
  */
 #include "read/nhf/nhf.h"
 
-#include "data/hdf5_scope.h"
-#include "read/force_source.h"
+#include "core/store/hdf5_scope.h"
+#include "read/force_assembler.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -3,7 +3,7 @@
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
 #include "read/nid/nid.h"
-#include "read/facts.h"
+#include "read/metadata.h"
 
 #include <math.h>
 #include <string.h>

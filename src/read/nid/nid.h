@@ -9,7 +9,7 @@
 #define WT_READ_NID_H
 
 #include "read/bytes/window.h"
-#include "read/force_source.h"
+#include "read/force_assembler.h"
 #include "read/reader.h"
 
 /* ---- the header: nid_header.c ------------------------------------------------------------- */

@@ -7,7 +7,7 @@
  */
 #include "read/nid/nid.h"
 
-#include "base/number.h"
+#include "core/base/number.h"
 
 #include <math.h>
 #include <string.h>

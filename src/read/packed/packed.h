@@ -34,7 +34,7 @@ bool xls_is(const unsigned char *bytes, size_t length);
 wt_status gzip_unpack(wt_input *input, wt_input **content, wt_error *err) WT_NODISCARD;
 /* ECMA-376, part 1, 18. Charts have no rows and are left out. */
 wt_status xlsx_read(wt_input *input, workbook *book, wt_error *err) WT_NODISCARD;
-/* BIFF, behind the door (base/door.h). */
+/* BIFF, behind the door (core/system/sandbox.h). */
 wt_status xls_read(wt_input *input, workbook *book, wt_error *err) WT_NODISCARD;
 void workbook_clear(workbook *book);
 

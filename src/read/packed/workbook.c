@@ -1,7 +1,7 @@
 /* Sheets as text. SPDX-License-Identifier: GPL-3.0-or-later */
 #include "read/packed/packed.h"
 
-#include "base/array.h"
+#include "core/base/array.h"
 
 #include <stdlib.h>
 #include <string.h>

@@ -5,11 +5,11 @@
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
-#include "base/array.h"
-#include "base/clocale.h"
-#include "base/shortage.h"
+#include "core/base/array.h"
+#include "core/base/clocale.h"
+#include "core/base/resource_error.h"
 #include "read/bytes/bytes.h"
-#include "read/packed/compound.h"
+#include "read/packed/ole2.h"
 #include "read/packed/packed.h"
 
 #include <errno.h>

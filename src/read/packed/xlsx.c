@@ -3,8 +3,8 @@
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
-#include "base/array.h"
-#include "read/bytes/archive.h"
+#include "core/base/array.h"
+#include "read/bytes/zip.h"
 #include "read/packed/packed.h"
 
 #include <libxml/xmlreader.h>

@@ -9,9 +9,9 @@
 #include "read/bytes/bytes.h"
 #include "read/bytes/samples.h"
 #include "read/bytes/window.h"
-#include "read/facts.h"
-#include "read/force_source.h"
+#include "read/force_assembler.h"
 #include "read/images.h"
+#include "read/metadata.h"
 #include "read/reader.h"
 
 #include <math.h>

@@ -4,9 +4,9 @@
  */
 #include "read/text/text.h"
 
-#include "base/array.h"
-#include "base/number.h"
-#include "base/utf8.h"
+#include "core/base/array.h"
+#include "core/base/number.h"
+#include "core/base/utf8.h"
 
 #include <math.h>
 #include <stdlib.h>

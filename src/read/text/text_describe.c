@@ -4,12 +4,12 @@
  */
 #include "read/text/text.h"
 
-#include "base/clocale.h"
-#include "base/ends.h"
-#include "read/force_source.h"
+#include "core/base/clocale.h"
+#include "core/base/range_text.h"
+#include "read/force_assembler.h"
 
-#include "read/facts.h"
 #include "read/images.h"
+#include "read/metadata.h"
 
 #include <math.h>
 #include <stdio.h>

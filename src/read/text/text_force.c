@@ -4,7 +4,7 @@
  */
 #include "read/text/text.h"
 
-#include "read/force_source.h"
+#include "read/force_assembler.h"
 
 #include <math.h>
 #include <string.h>

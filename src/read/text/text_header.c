@@ -5,7 +5,7 @@
 #include "read/text/text_header.h"
 #include "read/text/text_rows.h"
 
-#include "base/utf8.h"
+#include "core/base/utf8.h"
 
 #include <math.h>
 #include <stdlib.h>

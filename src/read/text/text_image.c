@@ -2,7 +2,7 @@
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
-#include "base/array.h"
+#include "core/base/array.h"
 #include "read/images.h"
 #include "read/text/text.h"
 #include "read/text/text_axis.h"

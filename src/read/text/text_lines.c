@@ -4,8 +4,8 @@
  */
 #include "read/text/text.h"
 
-#include "base/shortage.h"
-#include "base/utf8.h"
+#include "core/base/resource_error.h"
+#include "core/base/utf8.h"
 
 #include <errno.h>
 #include <iconv.h>

@@ -4,7 +4,7 @@
  */
 #include "read/text/text_rows.h"
 
-#include "base/array.h"
+#include "core/base/array.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -5,7 +5,7 @@
  */
 #include "read/text/text_sweep.h"
 
-#include "base/array.h"
+#include "core/base/array.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -7,8 +7,8 @@
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
-#include "base/digest.h"
-#include "read/bytes/archive.h"
+#include "core/system/digest.h"
+#include "read/bytes/zip.h"
 #include "read/images.h"
 #include "read/reader.h"
 #include "read/x3p/x3p_document.h"

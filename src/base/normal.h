@@ -1,8 +1,0 @@
-/* The normal distribution. SPDX-License-Identifier: GPL-3.0-or-later */
-#ifndef WT_BASE_NORMAL_H
-#define WT_BASE_NORMAL_H
-
-/* 95 % lie within so many standard deviations of the mean. */
-#define NORMAL_95 1.959963984540054
-
-#endif

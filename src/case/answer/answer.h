@@ -1,0 +1,13 @@
+/* The answer of a run in plain sentences. Internal to case.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef WT_CASE_ANSWER_ANSWER_H
+#define WT_CASE_ANSWER_ANSWER_H
+
+#include "case/plan/plan.h"
+
+/* Table "answer", from what is in the result so far. */
+wt_status flow_answer(const wt_case *c, const flow_plan *plan, const wt_result *result,
+                      const wt_parselog *log, const wt_table *failures, wt_table **table,
+                      wt_error *err) WT_NODISCARD;
+
+#endif

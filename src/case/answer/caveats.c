@@ -1,0 +1,449 @@
+/* What must be said with the answer: what the numbers rest on and what they leave out.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#include "case/answer/caveats.h"
+
+#include "core/base/array.h"
+#include "core/base/clocale.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+static const char *const group_words[2] = {"bulk", "wear-track"};
+
+/* An indentation feels what is below a layer when it goes deeper than this share of it (Bueckle's
+ * rule for films). */
+#define DEEP_SHARE 0.1
+
+/* Doubtful ones, too: with a modulus. */
+static bool is_accepted(const table_view *indentation, size_t row)
+{
+    return wt_curve_usable_id(indentation_text(indentation, row, INDENTATION_VERDICT));
+}
+
+/* Median of a column over the accepted curves; NaN if there are none. */
+static double median_accepted(const table_view *indentation, indentation_column column)
+{
+    size_t n = 0;
+    double *values = malloc((indentation->n_rows + 1) * sizeof *values), median = (double)NAN;
+    if (values == NULL)
+        return (double)NAN;
+    for (size_t i = 0; i < indentation->n_rows; i++) {
+        double value = indentation_get(indentation, i, column);
+        if (!isnan(value) && is_accepted(indentation, i))
+            values[n++] = value;
+    }
+    if (n > 0)
+        median = numbers_median(values, n);
+    free(values);
+    return median;
+}
+
+/* How the spots of a group were found, as a sentence of "the ... curves". */
+static const char *spots_caveat(const answer_story *story, const char *spots)
+{
+    if (spots == NULL || strncmp(spots, "named", 5) == 0)
+        return NULL;
+    return story->c->compare.map_spots
+               ? "curves without a named spot count as a spot for each place, as the case says: if "
+                 "places are near to each other, the intervals are too narrow"
+               : "curves without a named spot count as one spot for each file: if some files are "
+                 "of one place, they are not independent and the intervals are too narrow";
+}
+
+/* What is true of both groups is said once. */
+static void indentation_caveats(answer_story *story)
+{
+    char reasons[2][512];
+    size_t rejected[2];
+    const char *spots[2];
+    for (int g = 0; g < 2; g++) {
+        const table_view *t = &story->indentation[g];
+        rejected[g] = words_of_rejected(t, reasons[g], sizeof reasons[g]);
+        spots[g] = spots_caveat(story, indentation_words(t, INDENTATION_KEY_SPOTS));
+    }
+    for (int g = 0; g < 2; g++) {
+        char text[512];
+        telling t = {text, sizeof text, 0};
+        if (story->indentation[g].table != NULL &&
+            tell_other_spectrum(&t, &story->indentation[g], g == 0 ? "bulk" : "track"))
+            answer_caveat(story, CAVEAT_VERDICT, "%s.", text);
+    }
+    for (int g = 0; g < 2; g++) {
+        const char *hidden = indentation_words(&story->indentation[g], INDENTATION_KEY_NOT_SHOWN),
+                   *before =
+                       g > 0 ? indentation_words(&story->indentation[0], INDENTATION_KEY_NOT_SHOWN)
+                             : NULL;
+        if (hidden != NULL && before == NULL)
+            answer_caveat(story, CAVEAT_CONDITIONS,
+                          "No indentation curve shows, and no interval of a modulus holds: %s.",
+                          hidden);
+    }
+    const bool both = spots[0] != NULL && spots[1] == spots[0];
+    for (int g = 0; g < (both ? 1 : 2); g++)
+        if (spots[g] != NULL)
+            answer_caveat(story, CAVEAT_VERDICT, "The %s %s.",
+                          both ? "bulk and wear-track" : group_words[g], spots[g]);
+    for (int g = 0; g < 2; g++)
+        if (rejected[g] > 0)
+            answer_caveat(story, CAVEAT_CONDITIONS, "%zu of %zu %s curves were rejected: %s.",
+                          rejected[g], story->indentation[g].n_rows, group_words[g], reasons[g]);
+}
+
+/* "1.3 % and 1.2 %", or one of them, by group. */
+static void list_gains(const double gain[2], char *text, size_t size)
+{
+    if (isnan(gain[0]) || isnan(gain[1]))
+        clocale_print(text, size, "%s modulus by %.2g %%", group_words[isnan(gain[0]) ? 1 : 0],
+                      isnan(gain[0]) ? gain[1] : gain[0]);
+    else if (fabs(gain[0] - gain[1]) < 0.005 * fabs(gain[0]))
+        clocale_print(text, size, "moduli by %.2g %%", gain[0]);
+    else
+        clocale_print(text, size, "bulk modulus by %.3g %% and that of the wear track by %.3g %%",
+                      gain[0], gain[1]);
+}
+
+/* What an error of calibration does: to a modulus by its gain, to the ratio only if the cantilevers
+ * were calibrated separately, or as far as the gains differ. */
+static void calibration_caveats(answer_story *story)
+{
+    double gain[2];
+    wt_estimate k[2];
+    for (int g = 0; g < 2; g++) {
+        gain[g] = median_accepted(&story->indentation[g], INDENTATION_SENSITIVITY_GAIN);
+        k[g] = indentation_value(&story->indentation[g], INDENTATION_KEY_SPRING_CONSTANT);
+    }
+    if (isnan(gain[0]) && isnan(gain[1]))
+        return;
+    char gains[160], lever[128] = "No error of the spring constant is stated";
+    const double error[2] = {100 * k[0].standard_error / k[0].value,
+                             100 * k[1].standard_error / k[1].value};
+    list_gains(gain, gains, sizeof gains);
+    if (error[0] > 0 && error[1] > 0 && fabs(error[0] - error[1]) > 1e-9 * error[0])
+        clocale_print(lever, sizeof lever,
+                      "The stated errors of the spring constants are %.2g %% and %.2g %%", error[0],
+                      error[1]);
+    else if (error[0] > 0 || error[1] > 0)
+        clocale_print(lever, sizeof lever, "The stated error of the spring constant is %.2g %%",
+                      error[0] > 0 ? error[0] : error[1]);
+    char text[1000];
+    telling t = {text, sizeof text, 0};
+    tell(
+        &t,
+        "An error of 1 %% in the deflection sensitivity changes the %s, one of the spring constant "
+        "by about as much as itself. %s",
+        gains, lever);
+    tell(&t, "; the intervals of the moduli hold what is stated, and nothing of what is not.");
+    /* of a group without a modulus there is no gain, and no ratio in which an error could cancel */
+    const char *cantilevers =
+        isnan(gain[0]) || isnan(gain[1])
+            ? NULL
+            : comparison_words(&story->found.comparison, COMPARISON_KEY_CANTILEVERS);
+    const char *includes = comparison_words(&story->found.comparison, COMPARISON_KEY_INCLUDES);
+    if (cantilevers != NULL && strcmp(cantilevers, "one") == 0)
+        tell(&t,
+             " Track and bulk are taken to be indented with one cantilever, %s: its errors cancel "
+             "in the ratio, but for %.2g %% in each 1 %% of sensitivity.",
+             story->c->compare.levers == WT_LEVERS_ONE ? "as the case says"
+                                                       : "for no spring constants differ",
+             fabs(gain[1] - gain[0]));
+    else if (cantilevers != NULL)
+        tell(&t,
+             " Track and bulk were indented with different cantilevers (bulk %s, track %s), whose "
+             "errors do not cancel in the ratio%s%s.",
+             words_of_value(k[0]).text, words_of_value(k[1]).text,
+             includes != NULL ? "; its interval includes: " : "", includes != NULL ? includes : "");
+    answer_caveat(story, CAVEAT_MODULI, "%s", text);
+}
+
+/* What the case does not say is taken from the material, or taken to be equal. */
+static void temperature_caveats(answer_story *story)
+{
+    const double sliding = friction_value(&story->found.friction, FRICTION_KEY_TEMPERATURE).value;
+    if (story->found.friction.table != NULL && isnan(story->c->sliding.temperature.value)) {
+        if (isnan(sliding))
+            answer_caveat(story, CAVEAT_FRICTION,
+                          "Neither the case nor its material says a temperature: friction is that "
+                          "at the temperature the material was given for.");
+        else
+            answer_caveat(story, CAVEAT_FRICTION,
+                          "The case does not say the temperature of sliding: friction is that at "
+                          "the reference temperature of the material, %s.",
+                          words_of_celsius(sliding).text);
+    }
+    if (story->dma_comparison.table != NULL && isnan(story->c->compare.temperature.value))
+        answer_caveat(
+            story, CAVEAT_MODULI,
+            "The case does not say the temperature of indentation: it is compared with DMA at "
+            "the reference temperature, %s.",
+            words_of_celsius(
+                dma_comparison_value(&story->dma_comparison, DMA_COMPARISON_KEY_TEMPERATURE).value)
+                .text);
+}
+
+/* What was done to the track before the ratio was taken. */
+static void ratio_caveats(answer_story *story)
+{
+    const table_view *comparison = &story->found.comparison;
+    const wt_compare_job *job = &story->c->compare;
+    const double track = job->track_temperature.value;
+    if (comparison->table == NULL)
+        return;
+    if (isnan(track))
+        answer_caveat(story, CAVEAT_CONDITIONS,
+                      "The case does not say that the track was indented at another temperature "
+                      "than the bulk: they are taken to be as warm as each other.");
+    if (isnan(comparison_value(comparison, COMPARISON_KEY_MODULUS_RATIO).value))
+        return;
+    if (!isnan(track) && track != job->temperature.value)
+        answer_caveat(
+            story, CAVEAT_VERDICT,
+            "The track was indented at %s: the ratio is brought to the temperature of the bulk "
+            "by %s; the moduli of bulk and track are as measured.",
+            words_of_celsius(track).text,
+            isnan(job->temperature_slope.value) ? "the DMA" : "the temperature slope given");
+    const char *rates = comparison_words(comparison, COMPARISON_KEY_RATES);
+    if (strncmp(rates, "brought", 7) == 0)
+        answer_caveat(story, CAVEAT_VERDICT,
+                      "Bulk and track have no indentation rate in common: the rates are %s.",
+                      rates);
+}
+
+/* " The intervals of friction hold: ...; not the choices of the model, nor, because no error is
+ * known: ..." */
+static void tell_interval(telling *t, const char *whose, const finding *f)
+{
+    tell(t, " The interval of the %s holds: %s; not the model%s%s.", whose, f->includes,
+         f->lacks != NULL ? ", nor, because no error is known: " : "",
+         f->lacks != NULL ? f->lacks : "");
+}
+
+/* What material_caveats says. */
+static bool is_superposition(const answer_story *story, const char *text)
+{
+    const table_view *shifts = &story->shift_factors;
+    const char *verdict =
+        shifts->table == NULL ? NULL : shift_factors_words(shifts, SHIFT_FACTORS_KEY_SUPERPOSITION);
+    const char *because = verdict != NULL ? strstr(verdict, ": ") : NULL;
+    return because != NULL && strstr(text, because) != NULL;
+}
+
+/* The first warnings in full, the others by number. */
+static void warnings(answer_story *story)
+{
+    enum { SHOWN = 5 }; /* as many as a sentence holds */
+    size_t n = 0;
+    for (size_t i = 0; i < wt_parselog_count(story->log); i++) {
+        wt_log_entry entry = wt_parselog_get(story->log, i);
+        if (entry.severity != WT_NOTE && !is_superposition(story, entry.text) && ++n <= SHOWN)
+            answer_caveat(
+                story, CAVEAT_DATA, "%s%s%s: %s.", entry.severity == WT_LOSS ? "Lost" : "Warning",
+                entry.file[0] != '\0' ? " of " : "", wt_path_base(entry.file), entry.text);
+    }
+    if (n > SHOWN)
+        answer_caveat(story, CAVEAT_DATA, "%zu more warning%s in the table notes.", n - SHOWN,
+                      n == SHOWN + 1 ? " is" : "s are");
+}
+
+static void comparison_caveats(answer_story *story)
+{
+    const table_view *dma = &story->dma_comparison;
+    const char *unit = comparison_words(&story->found.comparison, COMPARISON_KEY_UNIT_OF_ANALYSIS);
+    const char *statement = dma_comparison_words(dma, DMA_COMPARISON_KEY_MATERIAL_STATEMENT);
+    const size_t extrapolated = n_extrapolated(dma);
+    if (unit != NULL && strncmp(unit, "curve", 5) == 0)
+        answer_caveat(story, CAVEAT_VERDICT,
+                      "The tables name no spots: each curve counts as one in the comparison, which "
+                      "makes its interval too narrow if some are of one place.");
+    if (extrapolated > 0)
+        answer_caveat(story, CAVEAT_CONDITIONS,
+                      "%zu of %zu comparisons with DMA lie outside the measured frequencies.",
+                      extrapolated, dma->n_rows);
+    if (statement != NULL)
+        answer_caveat(story, CAVEAT_DATA, "Comparison with DMA: %s.", statement);
+}
+
+static void tell_moduli_of_layer(telling *t, const table_view *friction)
+{
+    const char *const shear = friction_words(friction, FRICTION_KEY_LAYER_SHEAR);
+    const char *const moduli = friction_words(friction, FRICTION_KEY_LAYER_MODULI);
+    const double outside = friction_value(friction, FRICTION_KEY_LAYER_OUTSIDE).value;
+    if (moduli == NULL) {
+        tell(t,
+             " The modulus of the layer is the bulk's times one ratio at all frequencies, and its "
+             "shear stress is %s; neither is measured at the frequencies of sliding.",
+             shear != NULL ? shear : "scaled by the same ratio");
+        return;
+    }
+    tell(t, " The moduli of the layer are %s; its shear stress is %s.", moduli,
+         shear != NULL ? shear : "scaled by their ratio");
+    if (isnan(outside))
+        tell(t, " Which frequencies they were measured at is not known.");
+    else
+        tell(t,
+             " %.3g %% of the hysteresis on it are of frequencies at which they were not measured.",
+             100 * outside);
+}
+
+static void material_caveats(answer_story *story)
+{
+    const table_view *shifts = &story->shift_factors;
+    if (shifts->table == NULL)
+        return;
+    const char *superposition = shift_factors_words(shifts, SHIFT_FACTORS_KEY_SUPERPOSITION);
+    size_t undetermined = 0;
+    for (size_t i = 0; i < shifts->n_rows; i++)
+        undetermined += !(shift_factors_get(shifts, i, SHIFT_FACTORS_DETERMINED) > 0);
+    if (strncmp(superposition, "fails", 5) == 0)
+        answer_caveat(story, CAVEAT_DATA,
+                      "Time-temperature superposition %s. What rests on the master curve is "
+                      "doubtful.",
+                      superposition);
+    else if (shifts->n_rows < 2)
+        answer_caveat(story, CAVEAT_DATA,
+                      "The material is known from one isotherm: no time-temperature superposition "
+                      "widens its frequencies.");
+    else if (strncmp(superposition, "cannot say", 10) == 0)
+        answer_caveat(story, CAVEAT_DATA,
+                      "Whether time-temperature superposition holds the data %s.", superposition);
+    if (undetermined > 0)
+        answer_caveat(story, CAVEAT_DATA,
+                      "The shift of %zu of %zu isotherms is not determined by the data; they are "
+                      "not in the master curve.",
+                      undetermined, shifts->n_rows);
+}
+
+static void tell_theory(telling *t, const table_view *friction)
+{
+    const char *softening = friction_words(friction, FRICTION_KEY_SOFTENING);
+    const bool flash = friction_words(friction, FRICTION_KEY_FLASH) != NULL;
+    const char *temperature = flash ? "with a flash temperature" : "at one temperature";
+    const char *heating = flash ? "" : "no flash heating, ";
+    if (softening != NULL)
+        tell(t,
+             "Friction is that of Persson's theory %s with moduli that soften with "
+             "strain (%s; the largest strain met is %.3g): %sdry contact.",
+             temperature, softening, friction_value(friction, FRICTION_KEY_STRAIN).value, heating);
+    else
+        tell(t,
+             "Friction is that of Persson's theory for small strain %s: %sno strain softening, dry "
+             "contact.",
+             temperature, heating);
+    if (friction_words(friction, FRICTION_KEY_LAYER_THICKNESS) != NULL)
+        tell_moduli_of_layer(t, friction);
+}
+
+static void friction_caveats(answer_story *story)
+{
+    const table_view *friction = &story->found.friction;
+    if (friction->table == NULL)
+        return;
+    const finding hysteresis = finding_of_friction(&story->found, FRICTION_KEY_HYSTERESIS);
+    const double share = largest_share(friction);
+    const char *statement = friction_words(friction, FRICTION_KEY_MATERIAL_STATEMENT);
+    char text[1100];
+    telling t = {text, sizeof text, 0};
+    if (statement != NULL)
+        answer_caveat(story, CAVEAT_DATA, "Friction: %s.", statement);
+    if (share >= ANSWER_ODD_SHARE)
+        answer_caveat(story, CAVEAT_FRICTION,
+                      "Up to %s of the hysteresis friction comes from frequencies outside the "
+                      "measured range of the material.",
+                      words_of_share(share).text);
+    if (friction->n_rows > 0 && isnan(friction_get(friction, 0, FRICTION_EXTRAPOLATED_SHARE)))
+        answer_caveat(story, CAVEAT_FRICTION,
+                      "How much of the hysteresis friction comes from frequencies that were not "
+                      "measured is not known: the material does not say which were.");
+    tell_theory(&t, friction);
+    tell_interval(&t, "friction", &hysteresis);
+    answer_caveat(story, CAVEAT_FRICTION, "%s", text);
+    if (isnan(story->c->sliding.reference_velocity) && friction->n_rows > 1)
+        answer_caveat(story, CAVEAT_CONDITIONS,
+                      "The case does not say at which velocity the answer is wanted: %s is a "
+                      "default.",
+                      words_of(hysteresis.velocity, "m/s").text);
+}
+
+/* Where the layer is outside the range of its model, or of what indented it. */
+static void depth_caveats(answer_story *story, double thickness)
+{
+    if (!isfinite(thickness))
+        return;
+    if (story->roughness.n_rows > 0) {
+        const double longest = 1 / roughness_get(&story->roughness, 0, ROUGHNESS_WAVENUMBER);
+        if (thickness > longest)
+            answer_caveat(story, CAVEAT_THICKNESS,
+                          "The layer is thicker than the longest wave of the roughness reaches "
+                          "(1/q0 = %s): the layer model is outside its range.",
+                          words_of(longest, "m").text);
+    }
+    const double depth = median_accepted(&story->indentation[1], INDENTATION_MAX_INDENTATION);
+    if (thickness > 0 && depth > DEEP_SHARE * thickness)
+        answer_caveat(
+            story, CAVEAT_VERDICT,
+            "Indentations in the track go %s deep, %.2g times the thickness of the layer: the "
+            "bulk below it is felt, so the layer differs more than the ratio says.",
+            words_of(depth, "m").text, depth / thickness);
+}
+
+static void layer_caveats(answer_story *story)
+{
+    const table_view *layer = &story->found.layer;
+    if (layer->table == NULL)
+        return;
+    const finding thickness = finding_of_thickness(&story->found);
+    const char *from = layer_words(layer, LAYER_KEY_CRITICAL_ENERGY_FROM);
+    const number_words energy = words_of_known(layer_value(layer, LAYER_KEY_CRITICAL_ENERGY));
+    char text[1100];
+    telling t = {text, sizeof text, 0};
+    const char *closure = layer_words(layer, LAYER_KEY_CLOSURE),
+               *energy_from = layer_words(layer, LAYER_KEY_ENERGY_FROM);
+    if (closure != NULL)
+        tell(&t, "The barrier and the activation volume are given: nothing in this case measures "
+                 "them.");
+    else if (strncmp(from, "calibrated", 10) == 0)
+        tell(&t,
+             "The critical energy U_c = %s is calibrated so that the observed thickness is the "
+             "balance: the thickness is put in, not predicted.",
+             energy.text);
+    else
+        tell(&t, "The critical energy U_c = %s is given: nothing in this case measures it.",
+             energy.text);
+    tell(&t,
+         " The layer model (%s closure, wear by Archard's law) is not validated against "
+         "measured thicknesses. ",
+         closure != NULL ? "activated" : "energy");
+    const char *const but =
+        story->layer_balances.table != NULL ? " but in the table layer_balances" : "";
+    if (energy_from != NULL)
+        tell(&t, "What modifies the rubber is %s; the layer does not act back on it%s.",
+             energy_from, but);
+    else
+        tell(&t,
+             "Its energy is the hysteresis of the bulk alone: the layer does not act back on it%s, "
+             "and shearing of the surface is not counted.",
+             but);
+    tell_interval(&t, "thickness", &thickness);
+    answer_caveat(story, CAVEAT_THICKNESS, "%s", text);
+    depth_caveats(story, thickness.number.value);
+}
+
+void answer_caveats(answer_story *story)
+{
+    const size_t failed = story->failures.n_rows;
+    if (failed > 0)
+        answer_caveat(story, CAVEAT_WHOLE,
+                      "%zu file%s or stage%s failed and %s not in these results; the table "
+                      "failures lists them.",
+                      failed, failed == 1 ? "" : "s", failed == 1 ? "" : "s",
+                      failed == 1 ? "is" : "are");
+    indentation_caveats(story);
+    calibration_caveats(story);
+    comparison_caveats(story);
+    material_caveats(story);
+    friction_caveats(story);
+    layer_caveats(story);
+    temperature_caveats(story);
+    ratio_caveats(story);
+    warnings(story); /* behind what the results say of the data themselves */
+}

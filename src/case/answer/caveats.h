@@ -1,0 +1,10 @@
+/* What must be said with the answer. Internal to case. SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef WT_CASE_ANSWER_CAVEATS_H
+#define WT_CASE_ANSWER_CAVEATS_H
+
+#include "case/answer/answer_context.h"
+
+/* Remembers them all. */
+void answer_caveats(answer_story *story);
+
+#endif

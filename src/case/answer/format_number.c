@@ -1,0 +1,398 @@
+/* Numbers in the sentences of an answer. SPDX-License-Identifier: GPL-3.0-or-later */
+#include "case/answer/format_number.h"
+
+#include "core/base/clocale.h"
+#include "core/base/number.h"
+#include "core/base/range_text.h"
+#include "core/math/normal_quantile.h"
+#include "weartrack/fit.h"
+
+#include <math.h>
+#include <stdarg.h>
+#include <string.h>
+
+void tell(telling *t, const char *format, ...)
+{
+    const bool room = t->used < t->size;
+    va_list arguments;
+    va_start(arguments, format);
+    const int n = clocale_vprint(room ? t->text + t->used : NULL, room ? t->size - t->used : 0,
+                                 format, arguments);
+    va_end(arguments);
+    t->used += n > 0 ? (size_t)n : 0;
+}
+
+/* mm^3/(N m) in a specific wear rate of 1 m^2/N. */
+#define MM3_PER_N_M 1e9
+
+static void print_plain(double value, int digits, number_words *words)
+{
+    clocale_print(words->text, sizeof words->text, "%#.*g", digits, value);
+    const size_t length = strlen(words->text);
+    if (words->text[length - 1] == '.') /* all digits before it */
+        words->text[length - 1] = '\0';
+}
+
+static number_words words_with(double value, const char *unit, int digits)
+{
+    number_words words = {""};
+    if (isnan(value))
+        snprintf(words.text, sizeof words.text, "not known");
+    else if (isinf(value))
+        snprintf(words.text, sizeof words.text, "without limit");
+    else if (strcmp(unit, "1") == 0)
+        print_plain(value, digits, &words);
+    else if (strcmp(unit, "m^2/N") == 0 && value != 0) {
+        print_plain(MM3_PER_N_M * value, digits, &words);
+        clocale_append(words.text, sizeof words.text, " mm^3/(N m)");
+    } else if (value == 0) /* exactly: no digits of it are known or not */
+        snprintf(words.text, sizeof words.text, "0 %s", unit);
+    else
+        wt_format_si(value, unit, digits, words.text, sizeof words.text);
+    return words;
+}
+
+number_words words_of(double value, const char *unit)
+{
+    return words_with(value, unit, 3);
+}
+
+number_words words_of_pair(double low, double high, int digits)
+{
+    number_words words = {""};
+    digits = ends_digits(low, high, digits);
+    const double larger = fmax(fabs(low), fabs(high));
+    const int decimals = larger > 0 ? digits - 1 - (int)floor(log10(larger)) : 0;
+    const bool plain = decimals >= 0 && decimals < 9; /* else with a power of ten */
+    clocale_print(words.text, sizeof words.text, plain ? "from %.*f to %.*f" : "from %.*g to %.*g",
+                  plain ? decimals : digits, low, plain ? decimals : digits, high);
+    return words;
+}
+
+number_words words_of_value(wt_estimate e)
+{
+    return words_of(e.value, e.unit);
+}
+
+/* Value and error in one scale and with the same decimals, two digits of the error: "3.16 ± 0.96
+ * um", "0.1050 ± 0.0029", "1230 ± 230 s"; "3.16 um (error not known)". As on the page, six digits
+ * at most. */
+number_words words_of_estimate(wt_estimate e)
+{
+    number_words value = words_of(e.value, e.unit), words = value;
+    if (isfinite(e.value) && isnan(e.standard_error))
+        snprintf(words.text, sizeof words.text, "%.60s (error not known)", value.text);
+    if (!isfinite(e.value) || !(e.standard_error > 0) || !isfinite(e.standard_error))
+        return words;
+    const char *suffix = strchr(value.text, ' ');
+    size_t length = suffix == NULL ? strlen(value.text) : (size_t)(suffix - value.text);
+    double shown = (double)NAN;
+    if (!wt_number_parse(value.text, length, '.', &shown) || !(fabs(shown) > 0))
+        return words;
+    const double scale = pow(10.0, round(log10(fabs(shown / e.value))));
+    const double error = e.standard_error * scale;
+    const int most = 5 - (int)floor(log10(fabs(shown))),
+              needed = 1 - (int)floor(log10(error) + 1e-9);
+    if (most < 0 || most > 9 || error >= 1e6) /* with a power of ten, or no number any more */
+        clocale_print(words.text, sizeof words.text, "%.*s \xc2\xb1 %.2g%.40s", (int)length,
+                      value.text, error, suffix == NULL ? "" : suffix);
+    else {
+        const int decimals = needed < 0 ? 0 : needed < most ? needed : most;
+        clocale_print(words.text, sizeof words.text,
+                      needed <= most ? "%.*f \xc2\xb1 %.*f%.40s" : "%.*f \xc2\xb1 %.*g%.40s",
+                      decimals, number_to_tens(e.value * scale, needed),
+                      needed <= most ? decimals : 2, number_to_tens(error, needed),
+                      suffix == NULL ? "" : suffix);
+    }
+    return words;
+}
+
+number_words words_between(wt_estimate e, double low, double high)
+{
+    const int digits = finding_digits(e.value, low, high);
+    number_words words = words_with(e.value, e.unit, digits);
+    telling t = {words.text, sizeof words.text, strlen(words.text)};
+    if (isfinite(e.value) && isnan(high))
+        tell(&t, " (error not known)");
+    else if (isfinite(e.value) && high > e.value)
+        tell(&t, " (95 %%: %s to %s)", words_with(low, e.unit, digits).text,
+             words_with(high, e.unit, digits).text);
+    return words;
+}
+
+number_words words_of_known(wt_estimate e)
+{
+    const double half = NORMAL_95 * e.standard_error;
+    return words_between(e, e.value - half, e.value + half);
+}
+
+number_words words_of_positive(wt_estimate e)
+{
+    const double factor = exp(NORMAL_95 * e.standard_error / e.value);
+    return words_between(e, e.value / factor, e.value * factor);
+}
+
+number_words words_of_celsius(double kelvin)
+{
+    number_words words;
+    clocale_print(words.text, sizeof words.text,
+                  "%.1f \xc2\xb0"
+                  "C",
+                  kelvin - WT_ZERO_CELSIUS);
+    return words;
+}
+
+/* ---- findings -------------------------------------------------------------------------------- */
+
+/* A change is told in per cent. */
+static bool is_change(const finding *f)
+{
+    return f->neutral == 0;
+}
+
+static number_words number_of_finding(const finding *f, double value, int digits)
+{
+    if (!is_change(f) || !isfinite(value))
+        return words_with(value, f->number.unit, digits);
+    const double half = 100 * (f->high - f->low) / 2; /* a narrow interval is no number twice */
+    const int decimals = half > 0 && half < 1 ? (int)fmin(3, ceil(-log10(half))) : 0;
+    number_words words;
+    clocale_print(words.text, sizeof words.text, "%+.*f %%", decimals, 100 * value);
+    return words;
+}
+
+number_words words_of_number(const finding *f)
+{
+    return number_of_finding(f, f->number.value, finding_digits(f->number.value, f->low, f->high));
+}
+
+finding_words words_of_interval(const finding *f)
+{
+    const int digits = finding_digits(f->number.value, f->low, f->high);
+    finding_words words;
+    if (isnan(f->low) || isnan(f->high))
+        snprintf(words.text, sizeof words.text, "error not known");
+    else
+        clocale_print(words.text, sizeof words.text, "95 %% interval %s to %s",
+                      number_of_finding(f, f->low, digits).text,
+                      number_of_finding(f, f->high, digits).text);
+    return words;
+}
+
+finding_words words_of_range(const finding *f)
+{
+    finding_words words = {""};
+    if (!isnan(f->range.low))
+        clocale_print(words.text, sizeof words.text, "%s to %s over all choices of the model",
+                      number_of_finding(f, f->range.low, 3).text,
+                      number_of_finding(f, f->range.high, 3).text);
+    return words;
+}
+
+finding_words words_of_choices(const finding *f)
+{
+    finding_words words = {""};
+    telling t = {words.text, sizeof words.text, 0};
+    const finding_range *r = &f->range;
+    const struct {
+        double value;
+        const char *choice, *tried;
+    } ends[2] = {{r->low, r->low_choice, r->low_tried}, {r->high, r->high_choice, r->high_tried}};
+    for (int i = 0; i < 2 && !isnan(r->low); i++) {
+        tell(&t, "%s%s", i > 0 ? " to " : "over all choices of the model ",
+             number_of_finding(f, ends[i].value, 3).text);
+        if (ends[i].choice[0] != '\0')
+            tell(&t, " (%s: %s)", ends[i].choice, ends[i].tried);
+        else
+            tell(&t, " (as used)");
+    }
+    return words;
+}
+
+finding_words words_of_finding(const finding *f)
+{
+    const finding_words range = words_of_range(f);
+    finding_words words;
+    clocale_print(words.text, sizeof words.text, "%s (%s%s%s)", words_of_number(f).text,
+                  words_of_interval(f).text, range.text[0] != '\0' ? "; " : "", range.text);
+    return words;
+}
+
+number_words words_of_frequency(const finding *f)
+{
+    number_words words = {""};
+    const number_words low = words_of(f->frequency[0], "rad/s"),
+                       high = words_of(f->frequency[1], "rad/s");
+    const bool one = strcmp(low.text, high.text) == 0;
+    if (!isnan(f->frequency[0]))
+        clocale_print(words.text, sizeof words.text, " at %.40s%s%.40s", low.text,
+                      one ? "" : " to ", one ? "" : high.text);
+    return words;
+}
+
+const char *words_of_origin(const finding_tables *tables)
+{
+    const char *from = layer_words(&tables->layer, LAYER_KEY_CRITICAL_ENERGY_FROM);
+    if (layer_words(&tables->layer, LAYER_KEY_CLOSURE) != NULL)
+        return "predicted from a given barrier";
+    return from != NULL && strncmp(from, "calibrated", 10) == 0
+               ? "put in, not predicted: U_c is calibrated to it"
+               : "predicted from a given U_c";
+}
+
+/* Of the rates that both groups have, where the moduli of all rates say something else. */
+void tell_rates(telling *t, const finding_tables *tables)
+{
+    const char *rates = comparison_words(&tables->comparison, COMPARISON_KEY_RATES);
+    const double of_all = finding_ratio_of_all(tables);
+    if (!isnan(of_all) && rates != NULL)
+        tell(t, ", for the rates are %s; the moduli of all rates have the ratio %s", rates,
+             words_of(of_all, "1").text);
+}
+
+void tell_ratio(telling *t, const finding_tables *tables)
+{
+    const finding ratio = finding_of_ratio(tables);
+    tell(t, "%s", ratio.verdict != NULL ? ratio.verdict : "");
+    if (isnan(ratio.low))
+        return;
+    tell(t, "; E_track/E_bulk = %s%s", words_of_finding(&ratio).text,
+         words_of_frequency(&ratio).text);
+    tell_rates(t, tables);
+}
+
+/* The ratio of one spot has no error, and an interval without it looks as if it had. */
+static const char *without_ratio(const finding *f)
+{
+    const bool lacks = f->lacks != NULL && strstr(f->lacks, "modulus ratio") != NULL;
+    return lacks && !isnan(f->low) ? ", without the error of the modulus ratio, which is not known"
+                                   : "";
+}
+
+bool layer_ages(const finding_tables *tables)
+{
+    return isinf(layer_value(&tables->layer, LAYER_KEY_BALANCE_THICKNESS).value) &&
+           layer_value(&tables->layer, LAYER_KEY_WEAR_RATE).value > 0;
+}
+
+void tell_thickness(telling *t, const finding_tables *tables)
+{
+    const finding thickness = finding_of_thickness(tables);
+    const finding_words range = words_of_range(&thickness);
+    const char *open = range.text[0] != '\0' ? " (" : "", *close = *open != '\0' ? ")" : "";
+    if (isinf(thickness.number.value))
+        tell(t, "%s",
+             layer_ages(tables) ? "the rubber ages: in time all of it is modified"
+                                : "without wear the layer grows without end");
+    else if (!(thickness.number.value > 0))
+        tell(t, "no layer where formation balances wear%s%s%s, %s", open, range.text, close,
+             words_of_origin(tables));
+    else
+        tell(t, "layer of %s where formation balances wear, %s%s",
+             words_of_finding(&thickness).text, words_of_origin(tables), without_ratio(&thickness));
+}
+
+void tell_change(telling *t, const finding_tables *tables, bool with_choices)
+{
+    const finding change = finding_of_friction(tables, FRICTION_KEY_RELATIVE_CHANGE);
+    const finding_sign sign = finding_sign_of(&change);
+    const finding_words range = with_choices ? words_of_choices(&change) : words_of_range(&change);
+    const char *and = range.text[0] != '\0' ? "; " : "";
+    if (!(friction_value(&tables->friction, FRICTION_KEY_LAYER_THICKNESS).value > 0)) {
+        tell(t, "no change, for wear leaves no layer%s%s", and, range.text);
+        return;
+    }
+    tell(t, "%s: %s (%s%s)%s%s",
+         sign == FINDING_OPEN   ? "open whether the layer lowers or raises friction"
+         : sign == FINDING_LESS ? "less friction with the layer"
+                                : "more friction with the layer",
+         words_of_number(&change).text, words_of_interval(&change).text, without_ratio(&change),
+         and, range.text);
+}
+
+/* ---- what several sentences tell ------------------------------------------------------------- */
+
+double largest_share(const table_view *friction)
+{
+    double share = 0;
+    for (size_t i = 0; i < friction->n_rows; i++)
+        share = fmax(share, friction_get(friction, i, FRICTION_EXTRAPOLATED_SHARE));
+    return share;
+}
+
+number_words words_of_share(double share)
+{
+    number_words words;
+    clocale_print(words.text, sizeof words.text, share >= 0.1 ? "%.0f %%" : "%.2g %%", 100 * share);
+    return words;
+}
+
+bool ratio_to_dma(const table_view *dma, double *low, double *high)
+{
+    *low = *high = (double)NAN;
+    for (size_t i = 0; i < dma->n_rows; i++) {
+        if (strcmp(dma_comparison_text(dma, i, DMA_COMPARISON_GROUP), "bulk") != 0)
+            continue;
+        const double ratio = dma_comparison_get(dma, i, DMA_COMPARISON_RATIO);
+        *low = fmin(*low, ratio);
+        *high = fmax(*high, ratio);
+    }
+    return !isnan(*low);
+}
+
+bool is_other_rubber(double low, double high)
+{
+    return low < 1 / ANSWER_DMA_FACTOR || high > ANSWER_DMA_FACTOR;
+}
+
+size_t n_extrapolated(const table_view *dma)
+{
+    size_t n = 0;
+    for (size_t i = 0; i < dma->n_rows; i++)
+        n += dma_comparison_get(dma, i, DMA_COMPARISON_EXTRAPOLATED) > 0;
+    return n;
+}
+
+bool tell_other_spectrum(telling *t, const table_view *indentation, const char *group)
+{
+    size_t tried = 0, others = 0;
+    if (isnan(indentation_value(indentation, INDENTATION_KEY_SPECTRUM_TEMPERATURE).value))
+        return false;
+    for (size_t i = 0; i < indentation->n_rows; i++) {
+        /* without times there is no memory to be tried */
+        if (isnan(indentation_get(indentation, i, INDENTATION_MODULUS)) ||
+            isnan(indentation_get(indentation, i, INDENTATION_LOAD_TIME)))
+            continue;
+        tried++;
+        others += isnan(indentation_get(indentation, i, INDENTATION_SPECTRUM_FACTOR)) ? 1 : 0;
+    }
+    if (others == 0)
+        return false;
+    tell(t,
+         "%zu of %zu curves of the %s are not of the spectrum of the DMA: their moduli are fitted "
+         "without it, and the ratio of track and bulk is one of moduli at the rates that both "
+         "have, not of factors on the spectrum; another temperature than that stated or another "
+         "rubber would do it, or a layer of another spectrum, to which no one ratio holds at all "
+         "frequencies",
+         others, tried, group);
+    return true;
+}
+
+size_t words_of_rejected(const table_view *indentation, char *text, size_t size)
+{
+    size_t counts[WT_CURVE_UNREADABLE + 1] = {0}, total = 0, used = 0;
+    text[0] = '\0';
+    for (size_t i = 0; i < indentation->n_rows; i++) {
+        const char *verdict = indentation_text(indentation, i, INDENTATION_VERDICT);
+        for (int v = WT_CURVE_DOUBTFUL + 1; v <= WT_CURVE_UNREADABLE; v++)
+            if (strcmp(verdict, wt_curve_verdict_id((wt_curve_verdict)v)) == 0)
+                counts[v]++;
+    }
+    for (int v = WT_CURVE_DOUBTFUL + 1; v <= WT_CURVE_UNREADABLE; v++) {
+        total += counts[v];
+        if (counts[v] > 0 && used < size)
+            used += (size_t)snprintf(text + used, size - used, "%s%zu %s", used > 0 ? ", " : "",
+                                     counts[v], wt_curve_verdict_text((wt_curve_verdict)v));
+    }
+    return total;
+}

@@ -1,0 +1,361 @@
+/* The methods that a result was made by: what each did, in a sentence for a paper with the numbers
+ * of that result, and where it is described. Declared here, once. SPDX-License-Identifier:
+ * GPL-3.0-or-later */
+#include "case/answer/format_number.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "core/base/array.h"
+#include "core/base/number.h"
+#include "core/table/table_rows.h"
+#include "weartrack/flow.h"
+
+/* One method: of results with its table, if that says so. */
+typedef struct method {
+    const char *name;
+    const table_schema *table;
+    bool (*used)(const table_view *table); /* NULL: always */
+    void (*say)(telling *t, const table_view *table);
+    const char *reference, *doi; /* as journals print them; "" where there is none */
+} method;
+
+/* ---- indentation ----------------------------------------------------------------------------- */
+
+static bool tip_is(const table_view *table, const char *words)
+{
+    const char *tip = indentation_words(table, INDENTATION_KEY_TIP);
+    return tip != NULL && strstr(tip, words) != NULL;
+}
+
+static bool is_blunted(const table_view *table)
+{
+    return tip_is(table, "blunted pyramid");
+}
+
+static bool is_other_tip(const table_view *table)
+{
+    return !is_blunted(table);
+}
+
+static void say_indentation(telling *t, const table_view *table)
+{
+    const char *tip = indentation_words(table, INDENTATION_KEY_TIP),
+               *ratio = indentation_words(table, INDENTATION_KEY_POISSON_RATIO),
+               *accepted = indentation_words(table, INDENTATION_KEY_N_ACCEPTED);
+    tell(t,
+         "Young's modulus of each of %zu force curve%s%s%s%s was fitted together with the line of "
+         "the baseline and the contact point",
+         table->n_rows, table->n_rows == 1 ? "" : "s", accepted != NULL ? " (" : "",
+         accepted != NULL ? accepted : "", accepted != NULL ? " of them accepted)" : "");
+    tell(t, ", with the contact law of the tip (%s)", tip != NULL ? tip : "not stated");
+    tell(t, ratio != NULL ? " and a Poisson's ratio of %s." : ".%s", ratio != NULL ? ratio : "");
+}
+
+static void say_thermal(telling *t, const table_view *table)
+{
+    const wt_estimate constant = thermal_value(table, THERMAL_KEY_SPRING_CONSTANT);
+    tell(t, "The spring constant of the cantilever%s%s was determined from its thermal noise.",
+         isfinite(constant.value) ? ", " : "",
+         isfinite(constant.value) ? words_of_estimate(constant).text : "");
+}
+
+/* ---- comparison ------------------------------------------------------------------------------ */
+
+static void say_welch(telling *t, const table_view *table)
+{
+    const char *unit = comparison_words(table, COMPARISON_KEY_UNIT_OF_ANALYSIS);
+    const wt_estimate ratio = comparison_value(table, COMPARISON_KEY_MODULUS_RATIO);
+    tell(t, "Wear track and bulk were compared by Welch's t test of the logarithm of the modulus");
+    if (unit != NULL)
+        tell(t, ", with the %s as the unit of analysis", unit);
+    if (isfinite(ratio.value))
+        tell(t, "; the ratio of their geometric means is %s", words_of_estimate(ratio).text);
+    tell(t, ".");
+}
+
+static void say_mann_whitney(telling *t, const table_view *table)
+{
+    (void)table;
+    tell(t, "The test of Mann and Whitney was done beside it.");
+}
+
+static bool has_rates(const table_view *table)
+{
+    return table->n_rows > 2;
+}
+
+static void say_holm(telling *t, const table_view *table)
+{
+    tell(t, "The p-values of %zu indentation rates were corrected by the method of Holm.",
+         table->n_rows - 1);
+}
+
+static void say_hedges(telling *t, const table_view *table)
+{
+    (void)table;
+    tell(t, "The effect size is Hedges' g.");
+}
+
+/* ---- material -------------------------------------------------------------------------------- */
+
+static void say_shifting(telling *t, const table_view *table)
+{
+    const double reference =
+        shift_factors_value(table, SHIFT_FACTORS_KEY_REFERENCE_TEMPERATURE).value;
+    const char *by = shift_factors_words(table, SHIFT_FACTORS_KEY_SHIFTED_BY);
+    if (table->n_rows == 1)
+        tell(t,
+             "One relaxation spectrum was fitted to the isotherm at %s, with its smoothness and "
+             "the noise by restricted maximum likelihood.",
+             words_of_celsius(reference).text);
+    else
+        tell(t,
+             "%zu isotherms were shifted to %s%s%s so that one relaxation spectrum lies behind all "
+             "of them, with its smoothness and their noise by restricted maximum likelihood "
+             "(superposition %s).",
+             table->n_rows, words_of_celsius(reference).text, by != NULL ? " by the " : "",
+             by != NULL ? by : "", shift_factors_words(table, SHIFT_FACTORS_KEY_SUPERPOSITION));
+}
+
+static bool has_wlf(const table_view *table)
+{
+    return isfinite(shift_factors_value(table, SHIFT_FACTORS_KEY_WLF_C1).value);
+}
+
+static void say_wlf(telling *t, const table_view *table)
+{
+    const wt_estimate c1 = shift_factors_value(table, SHIFT_FACTORS_KEY_WLF_C1),
+                      c2 = shift_factors_value(table, SHIFT_FACTORS_KEY_WLF_C2);
+    tell(t,
+         "The shift factors follow the law of Williams, Landel and Ferry with C1 = %s and "
+         "C2 = %s.",
+         words_of_estimate(c1).text, words_of_estimate(c2).text);
+}
+
+static bool has_energy(const table_view *table)
+{
+    return isfinite(shift_factors_value(table, SHIFT_FACTORS_KEY_ACTIVATION_ENERGY).value);
+}
+
+static void say_arrhenius(telling *t, const table_view *table)
+{
+    const wt_estimate energy = shift_factors_value(table, SHIFT_FACTORS_KEY_ACTIVATION_ENERGY);
+    tell(t, "The shift factors follow Arrhenius' law%s with an activation energy of %s.",
+         has_wlf(table) ? " in the cold" : "", words_of_estimate(energy).text);
+}
+
+static bool has_zener(const table_view *table)
+{
+    return prony_reduced_words(table, PRONY_REDUCED_KEY_BETTER) != NULL;
+}
+
+static void say_zener(telling *t, const table_view *table)
+{
+    tell(t,
+         "A Prony series of %zu term%s and a fractional Zener law were compared by Akaike's "
+         "criterion with the correction for few points.",
+         table->n_rows, table->n_rows == 1 ? "" : "s");
+}
+
+static void say_payne(telling *t, const table_view *table)
+{
+    tell(t, "The softening with strain in %zu strain sweep%s was described by the law of Kraus.",
+         table->n_rows, table->n_rows == 1 ? "" : "s");
+}
+
+/* ---- sliding --------------------------------------------------------------------------------- */
+
+static void say_spectrum(telling *t, const table_view *table)
+{
+    const char *scans = power_spectrum_words(table, POWER_SPECTRUM_KEY_N_SCANS);
+    const bool one = scans != NULL && strcmp(scans, "1") == 0;
+    tell(t, "The power spectrum of the counter surface was computed from %s scan%s.",
+         scans != NULL ? scans : "its", one ? "" : "s");
+}
+
+static void say_friction(telling *t, const table_view *table)
+{
+    const wt_estimate pressure = friction_value(table, FRICTION_KEY_PRESSURE),
+                      temperature = friction_value(table, FRICTION_KEY_TEMPERATURE),
+                      shear = friction_value(table, FRICTION_KEY_SHEAR_STRESS);
+    tell(t,
+         "Contact area and hysteresis friction were computed by Persson's theory at a nominal "
+         "pressure of %s and %s",
+         words_of_value(pressure).text, words_of_celsius(temperature.value).text);
+    if (isfinite(shear.value))
+        tell(t, ", with a shear stress of %s in the real contact", words_of_estimate(shear).text);
+    const char *draws = friction_words(table, FRICTION_KEY_REPLICATES);
+    if (draws != NULL && strcmp(draws, "0") != 0)
+        tell(t, "; intervals by %s draws of what has an error", draws);
+    tell(t, ".");
+}
+
+static double gamma_of(const table_view *table)
+{
+    const char *words = friction_words(table, FRICTION_KEY_GAMMA);
+    double gamma = 1;
+    return words != NULL && number_read(words, strlen(words), &gamma) ? gamma : 1;
+}
+
+static bool has_gamma(const table_view *table)
+{
+    return gamma_of(table) != 1;
+}
+
+static void say_gamma(telling *t, const table_view *table)
+{
+    tell(t, "The energy of partial contact was lowered by the factor gamma = %g.", gamma_of(table));
+}
+
+static void say_softening(telling *t, const table_view *table)
+{
+    tell(t, "The moduli soften with the strain at each length scale (%s).",
+         softening_words(table, SOFTENING_KEY_SOURCE));
+}
+
+static void say_flash(telling *t, const table_view *table)
+{
+    const wt_estimate around = flash_value(table, FLASH_KEY_SURROUNDINGS);
+    tell(t, "The flash temperature at each length scale was computed with surroundings at %s.",
+         words_of_celsius(around.value).text);
+}
+
+static void say_layer(telling *t, const table_view *table)
+{
+    const wt_estimate critical = layer_value(table, LAYER_KEY_CRITICAL_ENERGY);
+    const char *const closure = layer_words(table, LAYER_KEY_CLOSURE);
+    if (closure != NULL) {
+        tell(t, "The thickness of the modified layer follows from its formation by this law: %s.",
+             closure);
+        return;
+    }
+    tell(t,
+         "The thickness of the modified layer follows from the energy dissipated below the "
+         "surface over a critical energy of %s (%s).",
+         words_of_estimate(critical).text, layer_words(table, LAYER_KEY_CRITICAL_ENERGY_FROM));
+}
+
+static void say_archard(telling *t, const table_view *table)
+{
+    const wt_estimate rate = layer_value(table, LAYER_KEY_WEAR_RATE);
+    tell(t, "It wears by Archard's law with a specific wear rate of %s.",
+         words_of_estimate(rate).text);
+}
+
+static bool tells_depth(const table_view *table)
+{
+    return isfinite(track_layer_value(table, TRACK_LAYER_KEY_LEAST).value);
+}
+
+static void say_track_layer(telling *t, const table_view *table)
+{
+    const wt_estimate depth = track_layer_value(table, TRACK_LAYER_KEY_DEPTH),
+                      least = track_layer_value(table, TRACK_LAYER_KEY_LEAST);
+    tell(t,
+         "Which thickness of a layer on the bulk the curves of the track allow was tested for each "
+         "one from %s on by the change of the modulus over an indentation of %s",
+         words_of_value(least).text, words_of_value(depth).text);
+    tell(t, ", with the ratio of the moduli, beside the change of the bulk, at 5 %%, by a contact "
+            "law fitted to the integral equation for a bonded layer on a half-space.");
+}
+
+/* ---- the list -------------------------------------------------------------------------------- */
+
+static const method methods[] = {
+    {"spring constant by thermal noise", &thermal_schema, NULL, say_thermal,
+     "H.-J. Butt and M. Jaschke, Nanotechnology 6 (1995) 1", "10.1088/0957-4484/6/1/001"},
+    {"contact law of a blunted pyramid", &indentation_schema, is_blunted, say_indentation,
+     "F. Rico et al., Phys. Rev. E 72 (2005) 021914", "10.1103/PhysRevE.72.021914"},
+    {"contact law of the tip", &indentation_schema, is_other_tip, say_indentation,
+     "I. N. Sneddon, Int. J. Eng. Sci. 3 (1965) 47", "10.1016/0020-7225(65)90019-4"},
+    {"Welch's t test", &comparison_schema, NULL, say_welch, "B. L. Welch, Biometrika 34 (1947) 28",
+     "10.1093/biomet/34.1-2.28"},
+    {"test of Mann and Whitney", &comparison_schema, NULL, say_mann_whitney,
+     "H. B. Mann and D. R. Whitney, Ann. Math. Stat. 18 (1947) 50", "10.1214/aoms/1177730491"},
+    {"Holm's correction", &comparison_schema, has_rates, say_holm,
+     "S. Holm, Scand. J. Stat. 6 (1979) 65", ""},
+    {"Hedges' g", &comparison_schema, NULL, say_hedges, "L. V. Hedges, J. Educ. Stat. 6 (1981) 107",
+     "10.3102/10769986006002107"},
+    {"one relaxation spectrum", &shift_factors_schema, NULL, say_shifting,
+     "S. N. Wood and M. Fasiolo, Biometrics 73 (2017) 1071", "10.1111/biom.12666"},
+    {"law of Williams, Landel and Ferry", &shift_factors_schema, has_wlf, say_wlf,
+     "M. L. Williams, R. F. Landel and J. D. Ferry, J. Am. Chem. Soc. 77 (1955) 3701",
+     "10.1021/ja01619a008"},
+    {"Arrhenius' law", &shift_factors_schema, has_energy, say_arrhenius, "", ""},
+    {"corrected criterion of Akaike", &prony_reduced_schema, has_zener, say_zener,
+     "C. M. Hurvich and C.-L. Tsai, Biometrika 76 (1989) 297", "10.1093/biomet/76.2.297"},
+    {"law of Kraus", &payne_schema, NULL, say_payne,
+     "G. Kraus, J. Appl. Polym. Sci., Appl. Polym. Symp. 39 (1984) 75, as in Rutherford et al., "
+     "Polymers 15 (2023) 1675",
+     "10.3390/polym15071675"},
+    {"power spectrum of height maps", &power_spectrum_schema, NULL, say_spectrum,
+     "T. D. B. Jacobs, T. Junge and L. Pastewka, Surf. Topogr.: Metrol. Prop. 5 (2017) 013001",
+     "10.1088/2051-672X/aa51f8"},
+    {"Persson's theory of contact and friction", &friction_schema, NULL, say_friction,
+     "B. N. J. Persson, J. Chem. Phys. 115 (2001) 3840", "10.1063/1.1388626"},
+    {"factor gamma of partial contact", &friction_schema, has_gamma, say_gamma,
+     "M. Scaraggi and B. N. J. Persson, J. Phys.: Condens. Matter 27 (2015) 105102",
+     "10.1088/0953-8984/27/10/105102"},
+    {"softening with strain in friction", &softening_schema, NULL, say_softening,
+     "B. Lorenz et al., J. Chem. Phys. 142 (2015) 194701", "10.1063/1.4919221"},
+    {"flash temperature", &flash_schema, NULL, say_flash,
+     "B. N. J. Persson, J. Phys.: Condens. Matter 18 (2006) 7789", "10.1088/0953-8984/18/32/025"},
+    {"formation of the modified layer", &layer_schema, NULL, say_layer,
+     "M. Mokhtari, thesis, University of Twente (2015)", "10.3990/1.9789036540018"},
+    {"layer on a half-space", &track_layer_schema, tells_depth, say_track_layer,
+     "D. M. Burmister, J. Appl. Phys. 16 (1945) 89", "10.1063/1.1707558"},
+    {"Archard's law of wear", &layer_schema, NULL, say_archard,
+     "J. F. Archard, J. Appl. Phys. 24 (1953) 981", "10.1063/1.1721448"},
+};
+
+TABLE_ROW(methods, METHODS, const char *method, *text, *reference, *doi;)
+
+/* Tables of a schema have its name, or that with a suffix: of groups and samples. */
+static const char *suffix_of(const table_schema *schema, const wt_table *table)
+{
+    const char *const name = wt_table_name(table);
+    const size_t length = strlen(schema->name);
+    if (strncmp(name, schema->name, length) != 0)
+        return NULL;
+    if (length > 0 && schema->name[length - 1] == '/')
+        return name + length;
+    return name[length] == '\0' ? "" : name[length] == '/' ? name + length + 1 : NULL;
+}
+
+/* A sentence that is there already is not said again: two groups may have one tip. */
+static bool is_said(const wt_table *table, const char *text)
+{
+    for (size_t row = 0; table != NULL && row < wt_table_n_rows(table); row++)
+        if (strcmp(wt_table_text(table, row, METHODS_TEXT), text) == 0)
+            return true;
+    return false;
+}
+
+static void add_method(table_writer *writer, const method *m, const wt_result *result)
+{
+    char text[1024];
+    for (size_t i = 0; i < wt_result_n_tables(result); i++) {
+        const wt_table *const table = wt_result_table(result, i);
+        const char *const suffix = suffix_of(m->table, table);
+        table_view view;
+        telling sentence = {text, sizeof text, 0};
+        if (suffix == NULL || table_bind(table, m->table, suffix, &view, NULL) != WT_OK ||
+            (m->used != NULL && !m->used(&view)))
+            continue;
+        text[0] = '\0';
+        if (suffix[0] != '\0')
+            tell(&sentence, "%s: ", suffix);
+        m->say(&sentence, &view);
+        if (!is_said(writer->table, text))
+            TABLE_ADD(methods, writer, m->name, text, m->reference, m->doi);
+    }
+}
+
+wt_status wt_methods_table(const wt_result *result, wt_table **table, wt_error *err)
+{
+    table_writer writer = table_begin(&methods_schema, err);
+    for (size_t i = 0; i < COUNT_OF(methods); i++)
+        add_method(&writer, &methods[i], result);
+    return table_end(&writer, table);
+}

@@ -1,0 +1,89 @@
+/* The files of a case and how they are read.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#include "case/case_sections.h"
+
+#include "indentation/indent.h"
+#include "read/read_params.h"
+
+#include <math.h>
+
+static case_files no_files(void)
+{
+    return (case_files){.spring_constant = {(double)NAN, 0, 0, "N/m"},
+                        .sensitivity = {(double)NAN, 0, 0, "m/V"}};
+}
+
+static const wt_param rows[] = {SPRING_CONSTANT(case_files, PARAM_NO_OPTION, indent_error_check),
+                                SENSITIVITY(case_files, PARAM_NO_OPTION, indent_error_check)};
+PARAM_TABLE(case_group_params, case_files, rows, no_files, NO_PARTS)
+
+/* What the attributes of a node say on top of what is there. */
+static wt_status read_attributes(wt_case *c, const xmlNode *node, wt_file_set *set,
+                                 case_files *lever, wt_error *err)
+{
+    case_files *stated = pool_alloc(&c->memory, 1, sizeof *stated);
+    if (stated == NULL)
+        return wt_fail(err, WT_E_MEMORY, "out of memory");
+    *stated = *lever;
+    wt_status status = case_read_params(c, node, case_group_params(), stated, err);
+    if (status == WT_OK)
+        status = case_read_params(c, node, wt_file_set_params(), set, err);
+    *lever = *stated;
+    set->read.spring_constant = lever->spring_constant.value;
+    set->read.sensitivity = lever->sensitivity.value;
+    return status;
+}
+
+static bool is_same_value(double a, double b)
+{
+    return !(a < b) && !(a > b) && !isnan(a) && !isnan(b);
+}
+
+/* One value for the group, or none if its files differ, and an error that is none too small. */
+static void join_file(wt_estimate *group, double *error, wt_estimate of_file, bool first)
+{
+    const double relative = of_file.standard_error / of_file.value;
+    if (first) {
+        *group = of_file;
+        *error = relative > 0 ? relative : (double)NAN;
+        return;
+    }
+    *error = relative > 0 && !isnan(*error) ? fmax(*error, relative) : (double)NAN;
+    if (is_same_value(group->value, of_file.value))
+        group->standard_error = fmax(group->standard_error, of_file.standard_error);
+    else
+        group->value = (double)NAN;
+}
+
+wt_status case_read_files(wt_case *c, const xmlNode *parent, const char *name, case_files *files,
+                          wt_error *err)
+{
+    size_t n = 0;
+    for (const xmlNode *node = case_child(parent, name); node != NULL; node = case_next(node, name))
+        n++;
+    wt_file_set *common = pool_alloc(&c->memory, 1, sizeof *common);
+    const char **patterns = pool_alloc(&c->memory, n, sizeof *patterns);
+    files->sets = pool_alloc(&c->memory, n, sizeof *files->sets);
+    if (common == NULL || patterns == NULL || files->sets == NULL)
+        return wt_fail(err, WT_E_MEMORY, "out of memory");
+    *common = (wt_file_set){.folder = c->folder, .read = wt_read_defaults()};
+    case_files group = no_files();
+    wt_status status = read_attributes(c, parent, common, &group, err);
+    files->n = n;
+    files->next = c->roles;
+    c->roles = files;
+    const xmlNode *node = case_child(parent, name);
+    for (size_t i = 0; status == WT_OK && i < n; i++, node = case_next(node, name)) {
+        wt_file_set *set = &files->sets[i];
+        case_files lever = group;
+        *set = *common;
+        status = read_attributes(c, node, set, &lever, err);
+        if (status == WT_OK)
+            status = case_node_text(c, node, &patterns[i], err);
+        set->patterns = &patterns[i];
+        set->n_patterns = 1;
+        join_file(&files->spring_constant, &files->lever_error, lever.spring_constant, i == 0);
+        join_file(&files->sensitivity, &files->sensitivity_error, lever.sensitivity, i == 0);
+    }
+    return status;
+}

@@ -1,0 +1,123 @@
+/* Reading parameters and text from the nodes of a case file.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#include "case/case_node.h"
+
+#include "core/base/param.h"
+
+#include <string.h>
+
+static bool is_called(const xmlNode *node, const char *name)
+{
+    return node->type == XML_ELEMENT_NODE && strcmp((const char *)node->name, name) == 0;
+}
+
+xmlNode *case_child(const xmlNode *parent, const char *name)
+{
+    for (xmlNode *node = parent->children; node != NULL; node = node->next)
+        if (is_called(node, name))
+            return node;
+    return NULL;
+}
+
+xmlNode *case_next(const xmlNode *node, const char *name)
+{
+    for (xmlNode *next = node->next; next != NULL; next = next->next)
+        if (is_called(next, name))
+            return next;
+    return NULL;
+}
+
+wt_status case_at(const xmlNode *node, wt_status status, wt_error *err)
+{
+    wt_error_place(err, "line %ld, <%s>", xmlGetLineNo(node), (const char *)node->name);
+    return status;
+}
+
+const char *case_param_name(const char *section, const char *param)
+{
+    const size_t n = strlen(section);
+    return strncmp(param, section, n) == 0 && param[n] == '-' ? param + n + 1 : param;
+}
+
+wt_status case_at_param(const xmlNode *section, wt_status status, wt_error *err)
+{
+    if (status == WT_OK)
+        return WT_OK;
+    const char *param = err != NULL ? err->place : "";
+    const xmlNode *node = case_child(section, case_param_name((const char *)section->name, param));
+    return case_at(node != NULL ? node : section, status, err);
+}
+
+/* Text owned by the case, blanks around it removed; takes `raw`. */
+static wt_status keep_text(wt_case *c, xmlChar *raw, const char **text, wt_error *err)
+{
+    static const char blanks[] = " \t\r\n";
+    char *copy = NULL;
+    if (raw != NULL) {
+        const char *begin = (const char *)raw + strspn((const char *)raw, blanks);
+        size_t length = strlen(begin);
+        while (length > 0 && strchr(blanks, begin[length - 1]) != NULL)
+            length--;
+        copy = pool_text(&c->memory, begin, length);
+    }
+    xmlFree(raw);
+    if (copy == NULL)
+        return wt_fail(err, WT_E_MEMORY, "out of memory");
+    *text = copy;
+    return WT_OK;
+}
+
+wt_status case_node_text(wt_case *c, const xmlNode *node, const char **text, wt_error *err)
+{
+    return keep_text(c, xmlNodeGetContent(node), text, err);
+}
+
+static wt_status read_attribute(wt_case *c, const xmlNode *section, const char *param,
+                                const char *name, case_setting *setting, wt_error *err)
+{
+    const char *text = NULL;
+    wt_status status = keep_text(c, xmlGetProp(section, (const xmlChar *)name), &text, err);
+    if (status == WT_OK)
+        status =
+            wt_params_set(setting->params, param, setting->structure, text, &setting->given, err);
+    if (status != WT_OK)
+        wt_error_place(err, "line %ld, attribute %s of <%s>", xmlGetLineNo(section), name,
+                       (const char *)section->name);
+    return status;
+}
+
+/* Every element of the name: the schema lets only that of a list stand there again. */
+static wt_status read_param(wt_case *c, const xmlNode *section, const char *param,
+                            case_setting *setting, wt_error *err)
+{
+    const char *name = case_param_name((const char *)section->name, param), *text = NULL;
+    const xmlNode *node = case_child(section, name);
+    if (node == NULL && xmlHasProp(section, (const xmlChar *)name) != NULL)
+        return read_attribute(c, section, param, name, setting, err);
+    for (; node != NULL; node = case_next(node, name)) {
+        wt_status status = keep_text(c, xmlNodeGetContent(node), &text, err);
+        if (status == WT_OK)
+            status = wt_params_set(setting->params, param, setting->structure, text,
+                                   &setting->given, err);
+        if (status != WT_OK)
+            return case_at(node, status, err);
+    }
+    return WT_OK;
+}
+
+wt_status case_read_params(wt_case *c, const xmlNode *section, const wt_params *params,
+                           void *structure, wt_error *err)
+{
+    case_setting *setting = pool_alloc(&c->memory, 1, sizeof *setting);
+    if (setting == NULL)
+        return wt_fail(err, WT_E_MEMORY, "out of memory");
+    *setting = (case_setting){params, structure, 0, c->settings};
+    c->settings = setting;
+    wt_status status = WT_OK;
+    for (size_t i = 0; status == WT_OK && i < wt_params_count(params); i++) {
+        const wt_param *param = wt_params_get(params, i);
+        if ((param->flags & PARAM_NO_CASE) == 0)
+            status = read_param(c, section, param->name, setting, err);
+    }
+    return status;
+}

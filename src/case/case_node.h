@@ -1,0 +1,30 @@
+/* Reading parameters and text from the nodes of a case file. Internal to case.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef WT_CASE_CASE_NODE_H
+#define WT_CASE_CASE_NODE_H
+
+#include "case/case.h"
+
+#include <libxml/tree.h>
+
+/* First child element of that name, NULL if there is none. */
+xmlNode *case_child(const xmlNode *parent, const char *name);
+/* Next sibling element of that name. */
+xmlNode *case_next(const xmlNode *node, const char *name);
+
+/* Adds "line N, <name>" to an error and returns `status`. */
+wt_status case_at(const xmlNode *node, wt_status status, wt_error *err);
+/* The same of an error whose place is the name of a parameter in this section. */
+wt_status case_at_param(const xmlNode *section, wt_status status, wt_error *err);
+
+/* Text of a node, owned by the case. */
+wt_status case_node_text(wt_case *c, const xmlNode *node, const char **text,
+                         wt_error *err) WT_NODISCARD;
+/* The name of a parameter in a section: in <sliding>, "sliding-temperature" is "temperature". */
+const char *case_param_name(const char *section, const char *param);
+/* Sets every parameter of the table that is there, as an element or as an attribute of `section`.
+ * The structure must live as long as the case. */
+wt_status case_read_params(wt_case *c, const xmlNode *section, const wt_params *params,
+                           void *structure, wt_error *err) WT_NODISCARD;
+
+#endif

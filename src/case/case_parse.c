@@ -1,0 +1,226 @@
+/* XML, schema, sections: the text of a case file to a case.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#include "case/case_sections.h"
+
+#include <libxml/parser.h>
+#include <libxml/xmlschemas.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* A case is written by hand; anything larger is something else. */
+#define MAX_CASE_BYTES ((size_t)4 << 20)
+
+/* ---- schema messages in our form ------------------------------------------------------------- */
+
+/* The text between `begin` and `end` in a message; "" if they are not there. */
+static void text_between(const char *message, const char *begin, const char *end, char *out,
+                         size_t size)
+{
+    out[0] = '\0';
+    const char *from = strstr(message, begin);
+    if (from == NULL)
+        return;
+    from += strlen(begin);
+    const char *to = strstr(from, end);
+    size_t length = to == NULL ? strlen(from) : (size_t)(to - from);
+    if (length >= size)
+        length = size - 1;
+    memcpy(out, from, length);
+    out[length] = '\0';
+}
+
+typedef struct complaint {
+    bool any;
+    long line;
+    char message[512];
+} complaint;
+
+/* Keeps the first message: the others follow from it. */
+static void keep_first_message(void *user, xmlErrorPtr error)
+{
+    complaint *c = user;
+    if (c->any || error == NULL)
+        return;
+    c->any = true;
+    c->line = error->line;
+    snprintf(c->message, sizeof c->message, "%s", error->message != NULL ? error->message : "");
+    c->message[strcspn(c->message, "\n")] = '\0';
+}
+
+static wt_status schema_error(const complaint *c, wt_error *err)
+{
+    char element[96], expected[160], value[96], said[256];
+    text_between(c->message, "Element '", "'", element, sizeof element);
+    text_between(c->message, "Expected is ", ".", expected, sizeof expected);
+    if (expected[0] == '\0')
+        text_between(c->message, "is not an element of the set {", "}", expected, sizeof expected);
+    text_between(c->message, "The value '", "'", value, sizeof value);
+    text_between(c->message, "': ", "\n", said, sizeof said);
+    char *tail = strstr(said, " Expected is");
+    if (tail != NULL)
+        *tail = '\0';
+    const size_t length = strlen(said);
+    if (length > 0 && said[length - 1] == '.') /* more follows in the sentence */
+        said[length - 1] = '\0';
+    wt_fail(err, WT_E_SCHEMA, "%s", said[0] != '\0' ? said : c->message);
+    wt_error_place(err, "line %ld", c->line);
+    if (expected[0] != '\0')
+        wt_error_expected(err, "%s", expected);
+    if (value[0] != '\0')
+        wt_error_found(err, "\"%s\" in <%s>", value, element);
+    else if (element[0] != '\0')
+        wt_error_found(err, "<%s>", element);
+    wt_error_advice(err, "weartrack-case(5) lists the elements of every section");
+    return WT_E_SCHEMA;
+}
+
+static wt_status validate_case(xmlDoc *doc, wt_error *err)
+{
+    complaint c = {0};
+    const char *text = wt_case_schema();
+    xmlSchemaParserCtxt *parser = xmlSchemaNewMemParserCtxt(text, (int)strlen(text));
+    xmlSchema *schema = parser == NULL ? NULL : xmlSchemaParse(parser);
+    xmlSchemaValidCtxt *valid = schema == NULL ? NULL : xmlSchemaNewValidCtxt(schema);
+    if (valid != NULL)
+        xmlSchemaSetValidStructuredErrors(valid, keep_first_message, &c);
+    const int result = valid == NULL ? 0 : xmlSchemaValidateDoc(valid, doc);
+    wt_status status = WT_OK;
+    if (valid == NULL)
+        status = wt_fail(err, WT_E_MEMORY, "no memory for the schema of case files");
+    else if (result > 0 || c.any)
+        status = schema_error(&c, err);
+    else if (result < 0)
+        status = wt_fail(err, WT_E_INTERNAL, "the case file could not be checked");
+    xmlSchemaFreeValidCtxt(valid);
+    xmlSchemaFree(schema);
+    xmlSchemaFreeParserCtxt(parser);
+    return status;
+}
+
+/* ---- document -------------------------------------------------------------------------------- */
+
+static wt_status read_document(const wt_case *c, xmlDoc **out, wt_error *err)
+{
+    const int options = XML_PARSE_NONET | XML_PARSE_NOERROR | XML_PARSE_NOWARNING;
+    xmlParserCtxt *context = xmlNewParserCtxt();
+    if (context == NULL)
+        return wt_fail(err, WT_E_MEMORY, "out of memory");
+    wt_status status = WT_OK;
+    xmlDoc *doc = xmlCtxtReadMemory(context, c->xml, (int)c->xml_length, NULL, NULL, options);
+    const size_t beginning = c->xml_length < 16 ? c->xml_length : 16; /* byte order, blanks */
+    if (doc == NULL && memchr(c->xml, '<', beginning) == NULL) {
+        status = wt_fail(err, WT_E_SCHEMA, "is no case file");
+        wt_error_expected(err, "an XML file that begins with <?xml or <case");
+        wt_error_advice(err, "`weartrack new-case FILE...` writes one for measured files; "
+                             "`weartrack info FILE` says what this one is");
+    } else if (doc == NULL) {
+        const xmlError *last = xmlCtxtGetLastError(context);
+        char message[200];
+        snprintf(message, sizeof message, "%s",
+                 last != NULL && last->message != NULL ? last->message : "not well-formed");
+        message[strcspn(message, "\n")] = '\0';
+        status = wt_fail(err, WT_E_SCHEMA, "not well-formed XML: %s", message);
+        if (last != NULL)
+            wt_error_place(err, "line %d", last->line);
+        wt_error_advice(err, "`xmllint --noout FILE` shows all such places");
+    } else if (doc->intSubset != NULL || doc->extSubset != NULL) {
+        status = wt_fail(err, WT_E_SCHEMA, "a case file has no document type declaration");
+        wt_error_found(err, "<!DOCTYPE ...>");
+        wt_error_advice(err, "delete the declaration; entities are not used");
+    }
+    xmlFreeParserCtxt(context);
+    if (status != WT_OK) {
+        xmlFreeDoc(doc);
+        return status;
+    }
+    *out = doc;
+    return WT_OK;
+}
+
+static wt_status parse_case(wt_case *c, wt_error *err)
+{
+    static const struct {
+        const char *name;
+        wt_status (*read)(wt_case *c, const xmlNode *section, wt_error *err);
+    } sections[] = {
+        {"indentation", case_read_indentation},
+        {"dma", case_read_dma},
+        {"roughness", case_read_roughness},
+        {"sliding", case_read_sliding},
+        {"record", case_read_record}, /* may tell the wear of the layer */
+        {"layer", case_read_layer},
+        {"identify", case_read_identify},
+        {"compare", case_read_compare},
+        {"report", case_read_report},
+    };
+    xmlDoc *doc = NULL;
+    wt_status status = read_document(c, &doc, err);
+    if (status == WT_OK)
+        status = validate_case(doc, err);
+    const xmlNode *root = status == WT_OK ? xmlDocGetRootElement(doc) : NULL;
+    const struct {
+        const char *name;
+        const char **text;
+    } labels[] = {{"title", &c->title}, {"sample", &c->sample}, {"condition", &c->condition}};
+    for (size_t i = 0; status == WT_OK && i < sizeof labels / sizeof labels[0]; i++) {
+        const xmlNode *label = case_child(root, labels[i].name);
+        if (label != NULL)
+            status = case_node_text(c, label, labels[i].text, err);
+    }
+    for (size_t i = 0; status == WT_OK && i < sizeof sections / sizeof sections[0]; i++) {
+        const xmlNode *section = case_child(root, sections[i].name);
+        if (section != NULL)
+            status = sections[i].read(c, section, err);
+    }
+    xmlFreeDoc(doc);
+    return status;
+}
+
+wt_status case_from_bytes(const void *bytes, size_t length, const char *path, wt_case **out,
+                          wt_error *err)
+{
+    if (length == 0 || length > MAX_CASE_BYTES) {
+        wt_fail(err, WT_E_SCHEMA, "this is no case file");
+        wt_error_file(err, path);
+        wt_error_expected(err, "XML of 1 byte to 4 MiB");
+        wt_error_found(err, "%zu bytes", length);
+        return WT_E_SCHEMA;
+    }
+    wt_case *c = case_new();
+    char *folder = wt_path_folder(path);
+    if (c != NULL && folder != NULL) {
+        c->xml_length = length;
+        c->path = pool_text(&c->memory, path, strlen(path));
+        c->folder = pool_text(&c->memory, folder, strlen(folder));
+        c->xml = pool_text(&c->memory, bytes, length);
+    }
+    const wt_status status = c == NULL || c->path == NULL || c->folder == NULL || c->xml == NULL
+                                 ? wt_fail(err, WT_E_MEMORY, "out of memory")
+                                 : parse_case(c, err);
+    free(folder);
+    if (status == WT_OK) {
+        *out = c;
+    } else {
+        wt_error_file(err, path);
+        wt_case_free(c);
+    }
+    return status;
+}
+
+wt_status wt_case_read(const char *path, wt_case **out, wt_error *err)
+{
+    if (path == NULL || out == NULL)
+        return wt_fail(err, WT_E_ARG, "no case file");
+    wt_input *input = NULL;
+    const unsigned char *bytes = NULL;
+    size_t length = 0;
+    wt_status status = wt_input_open(path, &input, err);
+    if (status == WT_OK)
+        status = wt_input_bytes(input, &bytes, &length, err);
+    if (status == WT_OK)
+        status = case_from_bytes(bytes, length, path, out, err);
+    else
+        wt_error_file(err, path);
+    wt_input_close(input);
+    return status;
+}

@@ -1,0 +1,396 @@
+/* The sections of a case file: their parameters, and what is in them beside.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#include "case/case_sections.h"
+#include "dma/rubber.h"
+#include "friction/counter_surface.h"
+#include "record/record.h"
+
+#include "core/base/array.h"
+#include "job/inputs.h"
+#include "report/report_files.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* ---- indentation ----------------------------------------------------------------------------- */
+
+static wt_status read_group(wt_case *c, const xmlNode *section, const char *name, case_files *files,
+                            wt_error *err)
+{
+    const xmlNode *group = case_child(section, name);
+    return group == NULL ? WT_OK : case_read_files(c, group, "files", files, err);
+}
+
+static wt_status check_disjoint(const wt_case *c, const xmlNode *section, wt_error *err)
+{
+    for (size_t i = 0; i < c->bulk.n; i++)
+        for (size_t j = 0; j < c->track.n; j++)
+            if (strcmp(c->bulk.sets[i].patterns[0], c->track.sets[j].patterns[0]) == 0) {
+                wt_fail(err, WT_E_ARG, "the same files are bulk and wear track");
+                wt_error_found(err, "\"%s\" in both", c->bulk.sets[i].patterns[0]);
+                return case_at(case_child(section, "track"), WT_E_ARG, err);
+            }
+    return WT_OK;
+}
+
+/* The file of the choices, relative to the case. */
+static wt_status read_choices(wt_case *c, const xmlNode *section, wt_error *err)
+{
+    const xmlNode *node = case_child(section, "choices");
+    const char *name = NULL;
+    if (node == NULL)
+        return WT_OK;
+    const wt_status status = case_node_text(c, node, &name, err);
+    if (status != WT_OK)
+        return status;
+    char *path = wt_path_join(c->folder, name);
+    c->indent.choices = path != NULL ? pool_text(&c->memory, path, strlen(path)) : NULL;
+    free(path);
+    return c->indent.choices != NULL ? WT_OK : wt_fail(err, WT_E_MEMORY, "out of memory");
+}
+
+wt_status case_read_indentation(wt_case *c, const xmlNode *section, wt_error *err)
+{
+    wt_status status = case_read_params(c, section, wt_indent_job_params(), &c->indent, err);
+    if (status == WT_OK)
+        status = read_choices(c, section, err);
+    if (status == WT_OK)
+        status = case_read_params(c, section, wt_compare_job_params(), &c->compare, err);
+    if (status == WT_OK)
+        status = read_group(c, section, "bulk", &c->bulk, err);
+    if (status == WT_OK)
+        status = read_group(c, section, "track", &c->track, err);
+    return status == WT_OK ? check_disjoint(c, section, err) : status;
+}
+
+/* ---- dma ------------------------------------------------------------------------------------- */
+
+static wt_prony no_prony(void)
+{
+    return (wt_prony){.frequency_min = (double)NAN, .frequency_max = (double)NAN};
+}
+
+static const wt_param prony_rows[] = {
+    {PARAM_CHOICE_OF("deformation", wt_prony, deformation, "tension|shear"),
+     .flags = PARAM_REQUIRED | PARAM_NO_OPTION, .help = "how the moduli are meant"},
+    {PARAM("equilibrium", wt_prony, equilibrium_modulus, WT_Q_MODULUS, AT_LEAST(0)),
+     .flags = PARAM_REQUIRED | PARAM_NO_OPTION, .help = "modulus after a long time"},
+    {PARAM("frequency-min", wt_prony, frequency_min, WT_Q_ANGULAR_FREQUENCY, ABOVE(0)), .unset = "",
+     .flags = PARAM_NO_OPTION, .help = "where measurement begins to back it"},
+    {PARAM("frequency-max", wt_prony, frequency_max, WT_Q_ANGULAR_FREQUENCY, ABOVE(0)), .unset = "",
+     .flags = PARAM_NO_OPTION, .help = "where measurement ceases to back it"},
+};
+PARAM_TABLE(case_prony_params, wt_prony, prony_rows, no_prony, NO_PARTS)
+
+typedef struct term {
+    double time, modulus;
+} term;
+
+static term no_term(void)
+{
+    return (term){(double)NAN, (double)NAN};
+}
+
+static const wt_param term_rows[] = {
+    {PARAM("time", term, time, WT_Q_TIME, ABOVE(0)), .flags = PARAM_REQUIRED | PARAM_NO_OPTION,
+     .help = "relaxation time"},
+    {PARAM("modulus", term, modulus, WT_Q_MODULUS, AT_LEAST(0)),
+     .flags = PARAM_REQUIRED | PARAM_NO_OPTION, .help = "of the term"},
+};
+PARAM_TABLE(case_term_params, term, term_rows, no_term, NO_PARTS)
+
+static case_wlf no_wlf(void)
+{
+    return (case_wlf){.c1 = {(double)NAN, 0, 0, "1"}, .c2 = {(double)NAN, 0, 0, "K"}};
+}
+
+static const wt_param wlf_rows[] = {
+    {PARAM("c1", case_wlf, c1, WT_Q_NONE, ABOVE(0)), .flags = PARAM_REQUIRED | PARAM_NO_OPTION,
+     .help = "first constant"},
+    {PARAM("c2", case_wlf, c2, WT_Q_TEMPERATURE_DIFFERENCE, ABOVE(0)),
+     .flags = PARAM_REQUIRED | PARAM_NO_OPTION, .help = "second constant"},
+};
+PARAM_TABLE(case_wlf_params, case_wlf, wlf_rows, no_wlf, NO_PARTS)
+
+static wt_status read_terms(wt_case *c, const xmlNode *node, wt_error *err)
+{
+    wt_prony *p = &c->prony;
+    *p = no_prony();
+    wt_status status = case_read_params(c, node, case_prony_params(), p, err);
+    size_t n = 0;
+    for (const xmlNode *t = case_child(node, "term"); t != NULL; t = case_next(t, "term"))
+        n++;
+    term *terms = pool_alloc(&c->memory, n, sizeof *terms);
+    p->relaxation_time = pool_alloc(&c->memory, n, sizeof *p->relaxation_time);
+    p->modulus = pool_alloc(&c->memory, n, sizeof *p->modulus);
+    if (terms == NULL || p->relaxation_time == NULL || p->modulus == NULL)
+        return wt_fail(err, WT_E_MEMORY, "out of memory");
+    for (const xmlNode *t = case_child(node, "term"); status == WT_OK && t != NULL;
+         t = case_next(t, "term")) {
+        status = case_read_params(c, t, case_term_params(), &terms[p->n], err);
+        p->relaxation_time[p->n] = terms[p->n].time;
+        p->modulus[p->n] = terms[p->n].modulus;
+        p->n++;
+    }
+    c->has_material = status == WT_OK;
+    return status;
+}
+
+static wt_status read_points(wt_case *c, const xmlNode *section, wt_error *err)
+{
+    c->kind = WT_RUBBER_TABLE;
+    c->has_material = true;
+    return case_read_files(c, section, "table", &c->points, err);
+}
+
+static wt_status read_zener(wt_case *c, const xmlNode *node, wt_error *err)
+{
+    wt_rubber rubber = {0};
+    c->kind = WT_RUBBER_ZENER;
+    c->has_material = true;
+    wt_status status = case_read_params(c, node, flow_zener_params(), &c->zener, err);
+    if (status == WT_OK) {
+        status = flow_rubber_zener(&c->zener, c->master.poisson_ratio, &rubber, err);
+        if (status != WT_OK)
+            case_at(node, status, err);
+        wt_rubber_clear(&rubber);
+    }
+    return status;
+}
+
+static wt_status read_wlf(wt_case *c, const xmlNode *node, wt_error *err)
+{
+    wt_status status = case_read_params(c, node, case_wlf_params(), &c->wlf, err);
+    if (status == WT_OK && isnan(c->master.fit.reference_temperature)) {
+        wt_fail(err, WT_E_MISSING, "WLF constants mean nothing without their temperature");
+        wt_error_expected(err, "<reference-temperature> in <dma>");
+        return case_at(node, WT_E_MISSING, err);
+    }
+    c->has_wlf = status == WT_OK;
+    return status;
+}
+
+wt_status case_read_dma(wt_case *c, const xmlNode *section, wt_error *err)
+{
+    const xmlNode *prony = case_child(section, "prony"), *wlf = case_child(section, "wlf"),
+                  *zener = case_child(section, "fractional-zener"),
+                  *transverse = case_child(section, "transverse");
+    wt_status status = case_read_params(c, section, wt_master_job_params(), &c->master, err);
+    if (status == WT_OK)
+        status = case_read_params(c, section, wt_reduction_params(), &c->master.reduction, err);
+    if (status == WT_OK)
+        status = case_read_params(c, section, wt_ramp_job_params(), &c->ramp, err);
+    if (status == WT_OK)
+        status = case_read_params(c, section, wt_rubber_options_params(), &c->rubber, err);
+    if (status == WT_OK && prony != NULL)
+        status = read_terms(c, prony, err);
+    if (status == WT_OK && case_child(section, "table") != NULL)
+        status = read_points(c, section, err);
+    if (status == WT_OK && zener != NULL)
+        status = read_zener(c, zener, err);
+    if (status == WT_OK && c->has_material && c->rubber.moduli == WT_MODULI_POINTS) {
+        wt_fail(err, WT_E_ARG, "a given material has no isotherms whose points could be taken");
+        wt_error_advice(err, "delete <moduli>, or give <files>");
+        return case_at(case_child(section, "moduli"), WT_E_ARG, err);
+    }
+    if (status == WT_OK && wlf != NULL)
+        status = read_wlf(c, wlf, err);
+    if (status == WT_OK && !c->has_material)
+        status = case_read_files(c, section, "files", &c->dma, err);
+    c->is_transverse = transverse != NULL;
+    if (status == WT_OK && transverse != NULL)
+        status = case_read_params(c, transverse, wt_transverse_params(), &c->transverse, err);
+    return status;
+}
+
+/* ---- roughness, sliding, layer --------------------------------------------------------------- */
+
+static wt_status read_measured(wt_case *c, const xmlNode *section, wt_error *err)
+{
+    wt_status status = case_read_files(c, section, "files", &c->height_maps, err);
+    if (status == WT_OK)
+        status = case_read_params(c, section, wt_topography_job_params(), &c->topography, err);
+    c->topography.sets = c->height_maps.sets;
+    c->topography.n_sets = c->height_maps.n;
+    return status;
+}
+
+wt_status case_read_roughness(wt_case *c, const xmlNode *section, wt_error *err)
+{
+    const xmlNode *law = case_child(section, "self-affine");
+    const xmlNode *spectrum = case_child(section, "spectrum");
+    wt_status status = WT_OK;
+    if (law != NULL) {
+        c->has_self_affine = c->surface.self_affine = true;
+        status = case_read_params(c, law, flow_self_affine_params(), &c->surface, err);
+        if (status == WT_OK && (status = flow_surface_check(&c->surface, err)) != WT_OK)
+            case_at(law, status, err);
+        return status;
+    }
+    if (spectrum == NULL)
+        return read_measured(c, section, err);
+    c->has_spectrum = true;
+    c->surface.c0 = (wt_estimate){1, 0, 0, "1"};
+    status = case_read_files(c, spectrum, "file", &c->spectrum, err);
+    if (status == WT_OK)
+        status = case_read_params(c, spectrum, flow_spectrum_params(), &c->surface, err);
+    return status;
+}
+
+wt_status case_read_sliding(wt_case *c, const xmlNode *section, wt_error *err)
+{
+    const xmlNode *softening = case_child(section, "strain-softening");
+    c->has_sliding = true;
+    c->softens = softening != NULL;
+    wt_status status = case_read_params(c, section, wt_sliding_params(), &c->sliding, err);
+    if (status == WT_OK && wt_anisotropy_check(&c->sliding.anisotropy, err) != WT_OK)
+        return case_at(section, WT_E_RANGE, err);
+    if (status == WT_OK && softening != NULL && case_child(softening, "file") != NULL)
+        status = case_read_files(c, softening, "file", &c->softening, err);
+    if (status == WT_OK && softening == NULL && case_child(section, "strain-factor") != NULL) {
+        wt_fail(err, WT_E_ARG, "<strain-factor> goes with <strain-softening>");
+        return case_at(case_child(section, "strain-factor"), WT_E_ARG, err);
+    }
+    return status;
+}
+
+/* As that of the bulk, and its files with those of the case. */
+static wt_status read_layer_material(wt_case *c, const xmlNode *node, wt_error *err)
+{
+    static const char *const instead[] = {"modulus-ratio", "ratio-slope", "ratio-by-rate"};
+    wt_case *own = c->layer_material = case_new();
+    if (own == NULL)
+        return wt_fail(err, WT_E_MEMORY, "out of memory");
+    for (size_t i = 0; i < COUNT_OF(instead); i++)
+        if (case_child(node->parent, instead[i]) != NULL) {
+            wt_fail(err, WT_E_ARG, "the layer has a material of its own and a modulus ratio");
+            wt_error_advice(err, "delete <material> or <%s>", instead[i]);
+            return case_at(case_child(node->parent, instead[i]), WT_E_ARG, err);
+        }
+    own->path = c->path;
+    own->folder = c->folder;
+    wt_status status = case_read_dma(own, node, err);
+    if (status == WT_OK && own->is_transverse) {
+        wt_fail(err, WT_E_ARG, "a layer's own material is the same in all directions");
+        wt_error_advice(err, "delete <transverse>");
+        return case_at(case_child(node, "transverse"), WT_E_ARG, err);
+    }
+    while (own->roles != NULL) {
+        case_files *const role = own->roles;
+        own->roles = role->next;
+        role->next = c->roles;
+        c->roles = role;
+    }
+    return status;
+}
+
+static wt_status check_ratio_slope(const wt_case *c, const xmlNode *section, wt_error *err)
+{
+    const xmlNode *const slope = case_child(section, "ratio-slope");
+    if (slope == NULL || !c->known.by_rate)
+        return WT_OK;
+    wt_fail(err, WT_E_ARG, "the slope of the modulus ratio is given and measured");
+    wt_error_advice(err, "delete <ratio-slope> or <ratio-by-rate>");
+    return case_at(slope, WT_E_ARG, err);
+}
+
+wt_status case_read_layer(wt_case *c, const xmlNode *section, wt_error *err)
+{
+    const xmlNode *ratio = case_child(section, "modulus-ratio"),
+                  *material = case_child(section, "material");
+    c->has_layer = true;
+    c->has_modulus_ratio = ratio != NULL;
+    wt_status status = case_read_params(c, section, wt_layer_job_params(), &c->layer, err);
+    if (status == WT_OK)
+        status = case_read_params(c, section, wt_layer_known_params(), &c->known, err);
+    if (status == WT_OK)
+        status = check_ratio_slope(c, section, err);
+    wt_layer_job checked = c->layer;
+    if (c->record.n > 0 && isnan(checked.specific_wear_rate.value)) {
+        c->has_wear = true;                   /* or a result of weartrack record has it */
+        checked.specific_wear_rate.value = 1; /* whatever they will tell */
+    }
+    if (status == WT_OK)
+        status = case_at_param(section, wt_layer_job_check(&checked, err), err);
+    if (status == WT_OK && material != NULL)
+        status = read_layer_material(c, material, err);
+    if (status == WT_OK && ratio != NULL && c->bulk.n > 0 && c->track.n > 0) {
+        wt_fail(err, WT_E_ARG, "the modulus ratio is given and measured");
+        wt_error_advice(err, "delete <modulus-ratio>, or the curves of bulk or track");
+        return case_at(ratio, WT_E_ARG, err);
+    }
+    return status;
+}
+
+wt_status case_read_identify(wt_case *c, const xmlNode *section, wt_error *err)
+{
+    c->identifies = true;
+    return case_read_params(c, section, wt_identify_job_params(), &c->identify, err);
+}
+
+/* ---- record ---------------------------------------------------------------------------------- */
+
+wt_status case_read_record(wt_case *c, const xmlNode *section, wt_error *err)
+{
+    wt_status status = case_read_params(c, section, wt_record_job_params(), &c->records, err);
+    if (status == WT_OK)
+        status = case_read_params(c, section, wt_validation_job_params(), &c->validation, err);
+    if (status == WT_OK && case_child(section, "profile") != NULL) {
+        status = case_read_files(c, section, "profile", &c->profile, err);
+        c->records.profile = status == WT_OK ? c->profile.sets[0].patterns[0] : NULL;
+        c->records.profile_set = c->profile.sets;
+    }
+    if (status == WT_OK)
+        status = case_at_param(section, wt_record_job_check(&c->records, err), err);
+    if (status == WT_OK)
+        status = case_read_files(c, section, "files", &c->record, err);
+    c->has_wear = wear_is_asked(&c->records);
+    return status;
+}
+
+/* ---- compare, report ------------------------------------------------------------------------- */
+
+wt_status case_read_compare(wt_case *c, const xmlNode *section, wt_error *err)
+{
+    (void)err;
+    c->has_compare = true;
+    c->compare_groups = case_child(section, "track-to-bulk") != NULL;
+    c->compare_rates = case_child(section, "by-rate") != NULL;
+    c->compare_dma = case_child(section, "indentation-to-dma") != NULL;
+    return WT_OK;
+}
+
+static wt_status unknown_name(const xmlNode *node, const char *name, const char *kind,
+                              wt_error *err)
+{
+    wt_fail(err, WT_E_NOT_FOUND, "no %s is called \"%s\"", kind, name);
+    wt_error_advice(err, "weartrack-case(5) lists the results and figures");
+    return case_at(node, WT_E_NOT_FOUND, err);
+}
+
+wt_status case_read_report(wt_case *c, const xmlNode *section, wt_error *err)
+{
+    const char *style = NULL;
+    wt_status status = case_read_params(c, section, wt_report_params(), &c->report, err);
+    if (status == WT_OK && style_find(c->report.style, &style, err) != WT_OK)
+        status = case_at(section, WT_E_NOT_FOUND, err);
+    for (const xmlNode *node = section->children; status == WT_OK && node != NULL;
+         node = node->next) {
+        const char *name = NULL;
+        flow_things things = 0;
+        if (node->type != XML_ELEMENT_NODE)
+            continue;
+        status = case_node_text(c, node, &name, err);
+        if (status != WT_OK)
+            break;
+        const bool figure = strcmp((const char *)node->name, "figure") == 0;
+        const bool known =
+            figure ? flow_things_of_figure(name, &things) : flow_things_of_table(name, &things);
+        if (!known)
+            status = unknown_name(node, name, figure ? "figure" : "result", err);
+        c->has_asked = true;
+        c->asked |= things;
+    }
+    return status;
+}

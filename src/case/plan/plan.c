@@ -1,0 +1,258 @@
+/* The plan: which stages this case needs, and why the others are left out.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#include "case/plan/plan.h"
+
+#include "core/table/registry.h"
+
+#include <math.h>
+#include <string.h>
+
+/* ---- what is there, what is wanted ----------------------------------------------------------- */
+
+static flow_things sources_of(const wt_case *c)
+{
+#define SOURCE_BIT(id, words, missing, there) ((there) ? FLOW_BIT(FLOW_##id) : 0) |
+    return SOURCES(SOURCE_BIT) 0;
+}
+
+/* A call that says what it wants is not a matter of the case. */
+static bool is_switched_off(const wt_case *c)
+{
+    return !c->called && !c->validation.wanted;
+}
+
+/* What a record tells beside the results and figures that are listed. */
+static flow_things held_records(const wt_case *c)
+{
+    const bool held = c->has_asked && !c->called && c->validation.wanted && c->record.n > 0;
+    return held ? (FLOW_VALIDATIONS | FLOW_BIT(FLOW_WEAR)) & ~c->asked : 0;
+}
+
+static flow_things wanted_by(const wt_case *c)
+{
+    flow_things wanted = c->has_asked ? c->asked : FLOW_TABLES & ~FLOW_BY_NAME;
+    if (c->has_compare && !c->compare_groups)
+        wanted &= ~(FLOW_BIT(FLOW_COMPARISON) | FLOW_BIT(FLOW_TRACK_LAYER));
+    if (c->has_compare && !c->compare_rates)
+        wanted &= ~FLOW_BIT(FLOW_MODULUS_RATE);
+    if (c->has_compare && !c->compare_dma)
+        wanted &= ~FLOW_BIT(FLOW_DMA_COMPARISON);
+    if (is_switched_off(c))
+        wanted &= ~FLOW_VALIDATIONS;
+    return wanted | held_records(c);
+}
+
+flow_things flow_needs(const flow_plan *plan, size_t stage, unsigned level)
+{
+    const flow_things needs = flow_stage_needs(stage, level),
+                      softening = FLOW_BIT(FLOW_GIVEN_SOFTENING) | FLOW_BIT(FLOW_ASKED_SOFTENING);
+    const bool slides = (needs & FLOW_BIT(FLOW_CONDITIONS)) != 0,
+               wears = (needs & FLOW_BIT(FLOW_LAYER_PARAMETERS)) != 0;
+    return needs | (slides && (plan->sources & softening) != 0 ? FLOW_BIT(FLOW_SOFTENING) : 0) |
+           (wears && (plan->sources & FLOW_BIT(FLOW_MEASURED_WEAR)) != 0 ? FLOW_BIT(FLOW_WEAR) : 0);
+}
+
+bool flow_can(const flow_plan *plan, size_t stage, unsigned level, flow_things there)
+{
+    const flow_things any = flow_stages[stage].any;
+    return (flow_needs(plan, stage, level) & ~there) == 0 && (any == 0 || (any & there) != 0);
+}
+
+/* ---- choosing -------------------------------------------------------------------------------- */
+
+/* Stages whose needs can all be met, and how full they can be; one pass suffices since the table is
+ * in order. */
+static void find_able(flow_plan *plan, bool able[FLOW_N_STAGES])
+{
+    flow_things reachable = plan->sources;
+    for (size_t i = 0; i < FLOW_N_STAGES; i++) {
+        able[i] = flow_can(plan, i, 0, reachable);
+        if (!able[i])
+            continue;
+        while (plan->level[i] < flow_stage_levels(i) &&
+               flow_can(plan, i, plan->level[i] + 1, reachable))
+            plan->level[i]++;
+        reachable |= flow_stages[i].gives;
+    }
+}
+
+/* What a stage is to be given, some of which may be out of reach. */
+static flow_things things_taken(const flow_plan *plan, size_t stage)
+{
+    return flow_needs(plan, stage, plan->level[stage]) | flow_stages[stage].any;
+}
+
+/* Whether stage a is to be preferred to b for what they both give: the one that takes more into
+ * account; but what does the same and more that nobody asked for is not. */
+static bool is_better(const flow_plan *plan, size_t a, size_t b)
+{
+    const flow_stage *s = &flow_stages[a], *t = &flow_stages[b];
+    const flow_things of_a = things_taken(plan, a), of_b = things_taken(plan, b);
+    const int more = flow_things_count(of_a) - flow_things_count(of_b);
+    const int idle = flow_things_count(s->gives & ~plan->required) -
+                     flow_things_count(t->gives & ~plan->required);
+    const bool same_way = (of_a & ~of_b) == 0 || (of_b & ~of_a) == 0;
+    if (idle != 0 && (same_way || more == 0))
+        return idle < 0;
+    return more > 0;
+}
+
+/* Chooses the best stage that gives a thing, then what it needs. */
+static void choose_stage(flow_plan *plan, const bool able[FLOW_N_STAGES], flow_thing thing,
+                         const char *because)
+{
+    size_t best = FLOW_N_STAGES;
+    for (size_t i = 0; i < FLOW_N_STAGES; i++) {
+        if (!able[i] || !(flow_stages[i].gives & FLOW_BIT(thing)))
+            continue;
+        if (plan->chosen[i])
+            return;
+        if (best == FLOW_N_STAGES || is_better(plan, i, best))
+            best = i;
+    }
+    if (best == FLOW_N_STAGES)
+        return;
+    plan->chosen[best] = true;
+    snprintf(plan->because[best], sizeof plan->because[best], "runs because %s", because);
+    for (unsigned t = FLOW_FIRST_TABLE; t < FLOW_N_THINGS; t++) {
+        if (!(things_taken(plan, best) & FLOW_BIT(t)))
+            continue;
+        char reason[128];
+        plan->required |= FLOW_BIT(t);
+        snprintf(reason, sizeof reason, "%s needs its %s", flow_stages[best].id,
+                 flow_thing_rows[t].words);
+        choose_stage(plan, able, (flow_thing)t, reason);
+    }
+}
+
+static flow_things missing_of_stage(const flow_plan *plan, size_t stage);
+
+/* Sources whose absence keeps one of the needs from being met: of the first of them, one for each
+ * way of meeting it. None if all can be. */
+static flow_things missing_sources(const flow_plan *plan, flow_things needs)
+{
+    for (unsigned t = 0; t < FLOW_N_THINGS; t++) {
+        if (!(needs & FLOW_BIT(t)) || (plan->sources & FLOW_BIT(t)))
+            continue;
+        if (t < FLOW_FIRST_TABLE)
+            return FLOW_BIT(t);
+        flow_things missing = 0;
+        bool possible = false;
+        for (size_t i = 0; i < FLOW_N_STAGES && !possible; i++) {
+            if (!(flow_stages[i].gives & FLOW_BIT(t)))
+                continue;
+            flow_things here = missing_of_stage(plan, i);
+            possible = here == 0;
+            missing |= here;
+        }
+        if (!possible)
+            return missing;
+    }
+    return 0;
+}
+
+static flow_things missing_of_stage(const flow_plan *plan, size_t stage)
+{
+    const flow_things any = flow_stages[stage].any;
+    flow_things missing = missing_sources(plan, flow_needs(plan, stage, 0));
+    for (unsigned t = 0; missing == 0 && t < FLOW_N_THINGS; t++)
+        if ((any & FLOW_BIT(t)) != 0 && missing_sources(plan, FLOW_BIT(t)) == 0)
+            return 0;
+    for (unsigned t = 0; t < FLOW_N_THINGS; t++)
+        if ((any & FLOW_BIT(t)) != 0)
+            missing |= missing_sources(plan, FLOW_BIT(t));
+    return missing;
+}
+
+/* "the case has no bulk curves (...) and no modulus ratio (...)" */
+static void list_missing(flow_things missing, char *text, size_t size)
+{
+    size_t used = (size_t)snprintf(text, size, "the case has ");
+    for (unsigned t = 0; t < FLOW_FIRST_TABLE && used < size; t++, missing >>= 1)
+        if (missing & 1)
+            used += (size_t)snprintf(text + used, size - used, "%s%s", flow_thing_rows[t].missing,
+                                     missing > 1 ? " and " : "");
+}
+
+/* A stage that runs, but not at its fullest. */
+static void say_without(flow_plan *plan, size_t i)
+{
+    const unsigned level = plan->level[i];
+    if (level == flow_stage_levels(i))
+        return;
+    const flow_more *more = &flow_stages[i].more[level];
+    const size_t used = strlen(plan->because[i]);
+    list_missing(missing_sources(plan, more->things), plan->without[i], sizeof plan->without[i]);
+    snprintf(plan->because[i] + used, sizeof plan->because[i] - used, "; without %s, for %s",
+             more->words, plan->without[i]);
+}
+
+static void say_why_not(flow_plan *plan, size_t i, bool able)
+{
+    char *because = plan->because[i];
+    const size_t size = sizeof plan->because[i];
+    if (!able) {
+        char missing[256];
+        list_missing(missing_of_stage(plan, i), missing, sizeof missing);
+        snprintf(because, size, "left out because %s", missing);
+        return;
+    }
+    flow_things useful = flow_stages[i].gives & plan->required;
+    for (size_t k = 0; useful != 0 && k < FLOW_N_STAGES; k++) {
+        if (plan->chosen[k] && (useful & ~flow_stages[k].gives) == 0) {
+            snprintf(because, size, "left out because %s gives its results and more",
+                     flow_stages[k].id);
+            return;
+        }
+    }
+    snprintf(because, size, "left out because nothing that is asked for needs it");
+}
+
+void flow_plan_make(const wt_case *c, flow_plan *plan)
+{
+    bool able[FLOW_N_STAGES] = {false};
+    *plan = (flow_plan){.sources = sources_of(c), .wanted = wanted_by(c)};
+    plan->required = plan->wanted;
+    find_able(plan, able);
+    for (unsigned t = FLOW_FIRST_TABLE; t < FLOW_FIRST_INNER; t++) {
+        if (!(plan->wanted & FLOW_BIT(t)))
+            continue;
+        char reason[128];
+        if (held_records(c) & FLOW_BIT(t))
+            snprintf(reason, sizeof reason, "the case has a record, which is held against it");
+        else
+            snprintf(reason, sizeof reason, "%s is asked for", flow_thing_rows[t].words);
+        choose_stage(plan, able, (flow_thing)t, reason);
+    }
+    for (size_t i = 0; i < FLOW_N_STAGES; i++)
+        if (plan->chosen[i])
+            say_without(plan, i);
+        else if (able[i] && is_switched_off(c) && (flow_stages[i].gives & FLOW_VALIDATIONS) != 0)
+            snprintf(plan->because[i], sizeof plan->because[i],
+                     "left out because the case switches it off (<validate> in <record>)");
+        else
+            say_why_not(plan, i, able[i]);
+}
+
+wt_status wt_plan(const wt_case *c, wt_table **result, wt_error *err)
+{
+    if (c == NULL || result == NULL)
+        return wt_fail(err, WT_E_ARG, "no case");
+    flow_plan plan;
+    flow_plan_make(c, &plan);
+    table_writer t = table_begin(&plan_schema, err);
+    for (size_t i = 0; i < FLOW_N_STAGES; i++) {
+        char title[160], needs[256], gives[256];
+        flow_stage_title(i, plan.level[i], title, sizeof title);
+        flow_things_list(things_taken(&plan, i), needs, sizeof needs);
+        flow_things_list(flow_stages[i].gives, gives, sizeof gives);
+        table_row(&t);
+        plan_put_text(&t, PLAN_STAGE, flow_stages[i].id);
+        plan_put_text(&t, PLAN_TITLE, title);
+        plan_put(&t, PLAN_RUNS, plan.chosen[i]);
+        plan_put_text(&t, PLAN_BECAUSE, plan.because[i]);
+        plan_put_text(&t, PLAN_NEEDS, needs);
+        plan_put_text(&t, PLAN_GIVES, gives);
+    }
+    return table_end(&t, result);
+}

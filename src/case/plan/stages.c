@@ -1,0 +1,50 @@
+/* The table of stages. SPDX-License-Identifier: GPL-3.0-or-later */
+#include "case/plan/stages.h"
+
+#include <stdio.h>
+
+#define B(thing) FLOW_BIT(FLOW_##thing)
+
+static const flow_more mores[FLOW_N_EXTRAS][FLOW_MOST_MORE] = {
+    [FLOW_BY_SPECTRUM] = {{B(RUBBER), ", by the spectrum of the material",
+                           "the spectrum of the material"}},
+    [FLOW_AT_ONE_RATE] = {{B(RUBBER), ", at one rate and temperature by the material",
+                           "the material"}},
+    [FLOW_AND_TRACK] = {{B(INDENTATION_TRACK), " and wear track", "the wear track"}},
+    [FLOW_AND_LAYER] = {{B(LAYER) | B(MODULUS_RATIO), ", with and without the layer", "the layer"}},
+    [FLOW_AND_RATIO] = {{B(MODULUS_RATIO), ", and what it does to friction",
+                         "the modulus ratio of the layer"}},
+    [FLOW_AND_BALANCE] = {{B(LAYER), ", beside that of the theory", "the thickness of the theory"}},
+    [FLOW_AND_WEAR] = {{B(WEAR), ", with the wear as measured", "the measured wear"}},
+    [FLOW_AND_THICKNESS] = {{B(LAYER_PARAMETERS), ", thickness of the layer", "the layer"},
+                            {B(MODULUS_RATIO), ", friction with it",
+                             "the modulus ratio of the layer"}},
+};
+
+#define STAGE_ROW(id, name, title, needs, any, more, gives, step)                                  \
+    [FLOW_STAGE_##id] = {#name, title, needs, any, mores[more], gives},
+const flow_stage flow_stages[FLOW_N_STAGES] = {STAGES(STAGE_ROW)};
+
+unsigned flow_stage_levels(size_t stage)
+{
+    unsigned n = 0;
+    while (n < FLOW_MOST_MORE && flow_stages[stage].more[n].things != 0)
+        n++;
+    return n;
+}
+
+flow_things flow_stage_needs(size_t stage, unsigned level)
+{
+    flow_things needs = flow_stages[stage].needs;
+    for (unsigned i = 0; i < level; i++)
+        needs |= flow_stages[stage].more[i].things;
+    return needs;
+}
+
+void flow_stage_title(size_t stage, unsigned level, char *text, size_t size)
+{
+    const flow_stage *s = &flow_stages[stage];
+    size_t used = (size_t)snprintf(text, size, "%s", s->title);
+    for (unsigned i = 0; i < level && used < size; i++)
+        used += (size_t)snprintf(text + used, size - used, "%s", s->more[i].title);
+}

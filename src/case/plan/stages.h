@@ -1,0 +1,171 @@
+/* The stages of a run: a stage is a row here and a function in run/steps.c. Internal
+ * to flow. SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef WT_CASE_PLAN_STAGES_H
+#define WT_CASE_PLAN_STAGES_H
+
+#include "case/resources.h"
+
+/* What a stage takes into account where it is to be had. */
+typedef enum flow_extra {
+    FLOW_NO_MORE,
+    FLOW_BY_SPECTRUM,
+    FLOW_AT_ONE_RATE,
+    FLOW_AND_TRACK,
+    FLOW_AND_LAYER,
+    FLOW_AND_THICKNESS,
+    FLOW_AND_RATIO,
+    FLOW_AND_BALANCE,
+    FLOW_AND_WEAR,
+    FLOW_N_EXTRAS
+} flow_extra;
+
+/* id, name, title, what it needs, of what it needs one at least (0: nothing of the kind) and takes
+ * all there is, what it takes into account beside, what it gives, its function.
+ * In an order in which every stage comes after those it needs, and the fuller of two that give the
+ * same before the plainer one, which then stands in if the fuller one fails. */
+#define STAGES(X)                                                                                  \
+    X(MASTER_CURVE, master_curve, "Shift factors, WLF law, master curve, Prony series",            \
+      B(DMA_FILES), 0, FLOW_NO_MORE,                                                               \
+      B(SHIFT_FACTORS) | B(MASTER_CURVE) | B(PRONY) | B(RELAXATION_SPECTRUM) | B(PRONY_REDUCED) |  \
+          B(MATERIAL_DRAWS) | B(SERIES_DRAWS) | B(RUBBER),                                         \
+      flow_step_master)                                                                            \
+    X(RAMP, ramp, "Glass transition and moduli against temperature", B(DMA_FILES), 0,              \
+      FLOW_NO_MORE, B(RAMP) | B(GLASS_TRANSITION) | B(MODULI_AT), flow_step_ramp)                  \
+    X(PAYNE, payne, "Softening with strain", B(DMA_FILES), 0, FLOW_NO_MORE,                        \
+      B(PAYNE) | B(PAYNE_SWEEP), flow_step_payne)                                                  \
+    X(GIVEN_MATERIAL, given_material, "Material as given in the case", B(GIVEN_MATERIAL), 0,       \
+      FLOW_NO_MORE, B(RUBBER), flow_step_given_material)                                           \
+    X(LAYER_MATERIAL, layer_material, "Material of the layer", B(GIVEN_LAYER_MATERIAL), 0,         \
+      FLOW_NO_MORE, B(MODULUS_RATIO), flow_step_layer_material)                                    \
+    X(INDENTATION_BULK, indentation_bulk, "Contact point and modulus of every bulk curve",         \
+      B(BULK_CURVES), 0, FLOW_BY_SPECTRUM, B(INDENTATION_BULK) | B(CURVE_BULK) | B(DEPTH_BULK),    \
+      flow_step_bulk)                                                                              \
+    X(INDENTATION_TRACK, indentation_track, "Contact point and modulus of every wear-track curve", \
+      B(TRACK_CURVES), 0, FLOW_BY_SPECTRUM,                                                        \
+      B(INDENTATION_TRACK) | B(CURVE_TRACK) | B(DEPTH_TRACK), flow_step_track)                     \
+    X(COMPARISON, comparison, "Wear track against bulk",                                           \
+      B(INDENTATION_BULK) | B(INDENTATION_TRACK), 0, FLOW_AT_ONE_RATE,                             \
+      B(MODULUS_GROUPS) | B(MODULUS_BUDGET) | B(COMPARISON) | B(MODULUS_RATE) | B(MODULUS_RATIO),  \
+      flow_step_compare)                                                                           \
+    X(GROUPS, groups, "Modulus of the groups", 0, B(INDENTATION_BULK) | B(INDENTATION_TRACK),      \
+      FLOW_NO_MORE, B(MODULUS_GROUPS) | B(MODULUS_BUDGET) | B(MODULUS_RATE), flow_step_groups)     \
+    X(DMA_COMPARISON, dma_comparison, "Indentation against DMA, bulk",                             \
+      B(INDENTATION_BULK) | B(RUBBER), 0, FLOW_AND_TRACK, B(DMA_COMPARISON),                       \
+      flow_step_dma_comparison)                                                                    \
+    X(WEAR, wear, "Friction and wear as measured", B(RECORD_FILES) | B(GIVEN_WEAR), 0,             \
+      FLOW_NO_MORE, B(RECORD) | B(RECORD_CYCLES) | B(WEAR), flow_step_wear)                        \
+    X(RECORD, record, "Friction as measured", B(RECORD_FILES), 0, FLOW_NO_MORE,                    \
+      B(RECORD) | B(RECORD_CYCLES), flow_step_record)                                              \
+    X(ROUGHNESS, roughness, "Power spectrum of the counter surface", B(COUNTER_SURFACE), 0,        \
+      FLOW_NO_MORE, B(ROUGHNESS) | B(SURFACE), flow_step_roughness)                                \
+    X(TOPOGRAPHY, topography, "Power spectrum of the measured counter surface", B(HEIGHT_MAPS), 0, \
+      FLOW_NO_MORE,                                                                                \
+      B(POWER_SPECTRUM) | B(PLACE_ERRORS) | B(ANGULAR_SPECTRUM) | B(SURFACES) | B(HEIGHT_MAP) |    \
+          B(HEIGHT_PROFILE) | B(ROUGHNESS) | B(SURFACE),                                           \
+      flow_step_topography)                                                                        \
+    X(GIVEN_RATIO, given_ratio, "Modulus ratio as given in the case", B(GIVEN_RATIO), 0,           \
+      FLOW_NO_MORE, B(MODULUS_RATIO), flow_step_given_ratio)                                       \
+    X(GIVEN_SOFTENING, given_softening, "Softening with strain as given in the case",              \
+      B(GIVEN_SOFTENING), 0, FLOW_NO_MORE, B(SOFTENING), flow_step_given_softening)                \
+    X(SWEPT_SOFTENING, swept_softening, "Softening with strain for the sliding contact",           \
+      B(PAYNE_SWEEP) | B(ASKED_SOFTENING), 0, FLOW_NO_MORE, B(SOFTENING),                          \
+      flow_step_swept_softening)                                                                   \
+    X(LAYER, layer, "Formation, wear and thickness of the modified layer",                         \
+      B(RUBBER) | B(SURFACE) | B(CONDITIONS) | B(LAYER_PARAMETERS), 0, FLOW_NO_MORE, B(LAYER),     \
+      flow_step_layer)                                                                             \
+    X(TRACK_LAYER, track_layer, "Thickness of the layer by the curves",                            \
+      B(INDENTATION_BULK) | B(INDENTATION_TRACK) | B(COMPARISON), 0, FLOW_AND_BALANCE,             \
+      B(TRACK_LAYER), flow_step_track_layer)                                                       \
+    X(ENERGY_DENSITY, energy_density, "Energy density against depth",                              \
+      B(RUBBER) | B(SURFACE) | B(CONDITIONS) | B(LAYER_PARAMETERS), 0, FLOW_NO_MORE,               \
+      B(ENERGY_DENSITY), flow_step_energy_density)                                                 \
+    X(FRICTION, friction, "Contact area and friction", B(RUBBER) | B(SURFACE) | B(CONDITIONS), 0,  \
+      FLOW_AND_LAYER, B(FRICTION), flow_step_friction)                                             \
+    X(CONTACT_AREA, contact_area, "Contact area against magnification",                            \
+      B(RUBBER) | B(SURFACE) | B(CONDITIONS), 0, FLOW_NO_MORE, B(CONTACT_AREA),                    \
+      flow_step_contact_area)                                                                      \
+    X(DIRECTIONS, directions, "What the directions of the material do",                            \
+      B(RUBBER) | B(SURFACE) | B(CONDITIONS) | B(GIVEN_DIRECTIONS), 0, FLOW_NO_MORE,               \
+      B(DIRECTIONS), flow_step_directions)                                                         \
+    X(SOFTENING_EFFECT, softening_effect, "What softening with strain does",                       \
+      B(RUBBER) | B(SURFACE) | B(CONDITIONS) | B(SOFTENING), 0, FLOW_NO_MORE, B(SOFTENING_EFFECT), \
+      flow_step_softening_effect)                                                                  \
+    X(ANISOTROPY, anisotropy, "What the direction of sliding does",                                \
+      B(RUBBER) | B(SURFACE) | B(CONDITIONS) | B(GIVEN_ANISOTROPY), 0, FLOW_NO_MORE,               \
+      B(ANISOTROPY), flow_step_anisotropy)                                                         \
+    X(FRICTION_MAP, friction_map, "Friction at several temperatures and pressures",                \
+      B(RUBBER) | B(SURFACE) | B(CONDITIONS) | B(ASKED_MAP), 0, FLOW_NO_MORE, B(FRICTION_MAP),     \
+      flow_step_friction_map)                                                                      \
+    X(FRICTION_DECADES, friction_decades, "Friction by decades of the wavenumber",                 \
+      B(RUBBER) | B(SURFACE) | B(CONDITIONS) | B(ASKED_DECADES), 0, FLOW_NO_MORE,                  \
+      B(FRICTION_DECADES), flow_step_friction_decades)                                             \
+    X(LAYER_BANDS, layer_bands, "Modified bands in time",                                          \
+      B(RUBBER) | B(SURFACE) | B(CONDITIONS) | B(LAYER_PARAMETERS) | B(ASKED_BANDS), 0,            \
+      FLOW_NO_MORE, B(LAYER_BANDS), flow_step_layer_bands)                                         \
+    X(RUNNING_IN, running_in, "Friction with the layer in running-in",                             \
+      B(RUBBER) | B(SURFACE) | B(CONDITIONS) | B(LAYER_PARAMETERS) | B(MODULUS_RATIO) |            \
+          B(ASKED_RUNNING_IN),                                                                     \
+      0, FLOW_NO_MORE, B(RUNNING_IN), flow_step_running_in)                                        \
+    X(LAYER_BALANCES, layer_balances, "Balances of a layer that acts back on its energy",          \
+      B(RUBBER) | B(SURFACE) | B(CONDITIONS) | B(LAYER_PARAMETERS) | B(MODULUS_RATIO) |            \
+          B(ASKED_FEEDBACK),                                                                       \
+      0, FLOW_NO_MORE, B(LAYER_BALANCES), flow_step_layer_balances)                                \
+    X(EXISTENCE, existence, "Where a layer exists",                                                \
+      B(RUBBER) | B(SURFACE) | B(CONDITIONS) | B(LAYER_PARAMETERS) | B(ASKED_EXISTENCE), 0,        \
+      FLOW_AND_RATIO, B(EXISTENCE), flow_step_existence)                                           \
+    X(IDENTIFICATION, identification, "Critical energy and wear rate of the layer that is seen",   \
+      B(RUBBER) | B(SURFACE) | B(CONDITIONS) | B(ASKED_IDENTIFICATION), 0, FLOW_AND_WEAR,          \
+      B(IDENTIFICATION), flow_step_identification)                                                 \
+    X(FLASH_EFFECT, flash_effect, "What the flash temperature does",                               \
+      B(RUBBER) | B(SURFACE) | B(CONDITIONS) | B(ASKED_FLASH), 0, FLOW_NO_MORE, B(FLASH_EFFECT),   \
+      flow_step_flash_effect)                                                                      \
+    X(WHAT_IF, what_if, "What if a choice of the model were another: friction",                    \
+      B(RUBBER) | B(SURFACE) | B(CONDITIONS), 0, FLOW_AND_THICKNESS, B(WHAT_IF),                   \
+      flow_step_what_if)                                                                           \
+    X(VALIDATION, validation, "Measured friction against predicted friction",                      \
+      B(RUBBER) | B(SURFACE) | B(CONDITIONS) | B(RECORD) | B(WHAT_IF), 0, FLOW_AND_LAYER,          \
+      B(VALIDATION) | B(VALIDATION_CHOICES) | B(VALIDATION_SOURCES), flow_step_validation)         \
+    X(VALIDATION_RUNNING_IN, validation_running_in, "Measured running-in against the layer",       \
+      B(RUBBER) | B(SURFACE) | B(CONDITIONS) | B(LAYER_PARAMETERS) | B(MODULUS_RATIO) |            \
+          B(RECORD) | B(RECORD_CYCLES),                                                            \
+      0, FLOW_NO_MORE, B(VALIDATION_RUNNING_IN) | B(VALIDATION_COURSE),                            \
+      flow_step_validation_running_in)                                                             \
+    X(ERROR_BUDGET, error_budget, "Which error costs the numbers most: friction",                  \
+      B(RUBBER) | B(SURFACE) | B(CONDITIONS) | B(WHAT_IF), 0, FLOW_AND_THICKNESS, B(ERROR_BUDGET), \
+      flow_step_budget)                                                                            \
+    X(COVERAGE, coverage, "How often the stated intervals hold: friction",                         \
+      B(RUBBER) | B(SURFACE) | B(CONDITIONS), 0, FLOW_AND_THICKNESS, B(COVERAGE),                  \
+      flow_step_coverage)                                                                          \
+    X(WORK_PRECISION, work_precision, "Error against run time: friction",                          \
+      B(RUBBER) | B(SURFACE) | B(CONDITIONS), 0, FLOW_AND_THICKNESS, B(WORK_PRECISION),            \
+      flow_step_precision)
+
+#define STAGE_ID(id, ...) FLOW_STAGE_##id,
+typedef enum flow_stage_id { STAGES(STAGE_ID) FLOW_N_STAGES } flow_stage_id;
+
+/* What a stage takes into account beside its needs, at most: the rows of STAGES have two. */
+enum { FLOW_MOST_MORE = 2 };
+
+/* Whole or not at all: its things, the words behind the title of the stage, and in "without ...".
+ */
+typedef struct flow_more {
+    flow_things things;
+    const char *title, *words;
+} flow_more;
+
+typedef struct flow_stage {
+    const char *id, *title;
+    flow_things needs, any;
+    const flow_more *more; /* FLOW_MOST_MORE, the second only with the first; no things: none */
+    flow_things gives;
+} flow_stage;
+extern const flow_stage flow_stages[FLOW_N_STAGES];
+
+/* How much more a stage can take into account: its fullest level. */
+unsigned flow_stage_levels(size_t stage);
+/* All things that a stage cannot do without at a level. */
+flow_things flow_stage_needs(size_t stage, unsigned level);
+/* "Contact area and friction, with and without the layer" */
+void flow_stage_title(size_t stage, unsigned level, char *text, size_t size);
+
+#endif

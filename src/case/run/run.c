@@ -1,0 +1,413 @@
+/* Running a case: the stages of the plan in order, their cost, what failed, the tables.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#include "case/answer/answer.h"
+#include "case/run/stage_functions.h"
+#include "friction/material_cache.h"
+#include "job/cost.h"
+#include "job/inputs.h"
+
+#include "core/base/array.h"
+#include "core/table/registry.h"
+
+#include <math.h>
+#include <string.h>
+
+wt_run_options wt_run_defaults(void)
+{
+    const wt_job job = wt_job_defaults();
+    return (wt_run_options){.tolerance = job.tolerance,
+                            .seed = job.seed,
+                            .replicates = job.replicates,
+                            .trials = 100,
+                            .precision = wt_accuracy_job_defaults()};
+}
+
+static const wt_param rows[] = {JOB_ROWS(wt_run_options)};
+PARAM_TABLE(wt_run_params, wt_run_options, rows, wt_run_defaults, NO_PARTS)
+
+/* One run with what it reports. */
+typedef struct conduct {
+    flow_run run;
+    flow_things have;
+    wt_status failure; /* of the last stage that failed */
+    wt_formats *formats;
+    wt_parselog *own_log;
+    wt_result *result;
+    wt_table *failures;
+    wt_cost *cost;
+    wt_drawn *drawn;
+    wt_sweep dma;
+} conduct;
+
+/* ---- one stage ------------------------------------------------------------------------------- */
+
+#define STEP(id, name, title, needs, any, more, gives, step) step,
+static wt_status (*const steps[FLOW_N_STAGES])(flow_run *, wt_error *) = {STAGES(STEP)};
+
+/* Whether a stage that was not chosen must stand in for a fuller one that did not succeed. */
+static bool stands_in(const conduct *d, size_t i)
+{
+    const flow_plan *plan = &d->run.plan;
+    flow_things lacking = flow_stages[i].gives & plan->required & ~d->have;
+    if (plan->chosen[i] || lacking == 0 || !flow_can(plan, i, 0, d->have))
+        return false;
+    for (size_t k = 0; k < i; k++)
+        if ((plan->outcome[k] == FLOW_FAILED || plan->outcome[k] == FLOW_BLOCKED) &&
+            (flow_stages[k].gives & lacking) != 0)
+            return true;
+    return false;
+}
+
+static wt_status report_progress(const conduct *d, size_t stage, const char *what, wt_error *err)
+{
+    const wt_progress *progress = &d->run.job.progress;
+    size_t number = 0, n = 0;
+    for (size_t i = 0; i < FLOW_N_STAGES; i++) {
+        n += d->run.plan.chosen[i];
+        number += i <= stage && d->run.plan.chosen[i];
+    }
+    if (progress->report != NULL && !progress->report(progress->user, what, number, n))
+        return wt_fail(err, WT_E_CANCELLED, "cancelled");
+    return WT_OK;
+}
+
+/* Stages that fail for one reason make one row. */
+static bool is_listed(const conduct *d, const wt_error *failure)
+{
+    char message[2048];
+    wt_error_format(failure, message, sizeof message);
+    for (size_t row = 0; row < wt_table_n_rows(d->failures); row++)
+        if (strcmp(wt_table_text(d->failures, row, FAILURES_MESSAGE), message) == 0)
+            return true;
+    return false;
+}
+
+/* Where there are no data, less of it makes none. */
+static bool is_tried_again(const conduct *d, unsigned level)
+{
+    return level > 0 && d->failure != WT_E_EMPTY;
+}
+
+static wt_status run_stage(conduct *d, size_t i, unsigned level, const char *because, wt_error *err)
+{
+    wt_error failure = WT_ERROR_INIT;
+    flow_plan *plan = &d->run.plan;
+    char title[160], stage[96], text[384];
+    flow_stage_title(i, level, title, sizeof title);
+    wt_status status = report_progress(d, i, title, err);
+    if (status != WT_OK)
+        return status;
+    cost_begin(d->cost, flow_stages[i].id, because);
+    d->run.level = plan->done[i] = level;
+    status = steps[i](&d->run, &failure);
+    cost_end(d->cost);
+    if (status == WT_OK) {
+        plan->outcome[i] = FLOW_DONE;
+        d->have |= flow_stages[i].gives & ~plan->unmeasured;
+        return WT_OK;
+    }
+    if (!flow_goes_on(&d->run.job, status)) {
+        if (err != NULL)
+            *err = failure;
+        return status;
+    }
+    plan->outcome[i] = FLOW_FAILED;
+    d->failure = status;
+    flow_case_advice(&failure);
+    const bool again = is_tried_again(d, level);
+    snprintf(stage, sizeof stage, "stage %s%s%s", flow_stages[i].id, again ? " with " : "",
+             again ? flow_stages[i].more[level - 1].words : "");
+    snprintf(text, sizeof text, "%s, and failed", because);
+    cost_explain(d->cost, text);
+    return is_listed(d, &failure) ? WT_OK : flow_add_failure(&d->run.job, stage, &failure, err);
+}
+
+/* Whether what a stage lacks is not in the files. */
+static bool is_unmeasured(const conduct *d, size_t i, unsigned level)
+{
+    const flow_plan *plan = &d->run.plan;
+    return (flow_needs(plan, i, level) & ~d->have & plan->unmeasured) != 0;
+}
+
+/* A stage as full as it can be; what fails so is tried with less. */
+static wt_status run_fullest(conduct *d, size_t i, const char *because, wt_error *err)
+{
+    flow_plan *plan = &d->run.plan;
+    unsigned level = plan->level[i];
+    char text[384];
+    while (level > 0 && !flow_can(plan, i, level, d->have))
+        level--;
+    if (level < plan->level[i]) {
+        const bool unmeasured = is_unmeasured(d, i, level + 1);
+        plan->fuller[i] = unmeasured ? FLOW_UNMEASURED : FLOW_BLOCKED;
+        snprintf(text, sizeof text, "%s; without %s, %s%s", because,
+                 flow_stages[i].more[level].words,
+                 unmeasured ? "for " : "which a stage before did not give",
+                 unmeasured ? plan->why_unmeasured : "");
+    } else
+        snprintf(text, sizeof text, "%s", because);
+    wt_status status = run_stage(d, i, level, text, err);
+    while (status == WT_OK && plan->outcome[i] == FLOW_FAILED && is_tried_again(d, level)) {
+        plan->fuller[i] = FLOW_FAILED;
+        level--;
+        snprintf(text, sizeof text, "runs because it did not succeed with %s",
+                 flow_stages[i].more[level].words);
+        status = run_stage(d, i, level, text, err);
+    }
+    return status;
+}
+
+static wt_status consider_stage(conduct *d, size_t i, wt_error *err)
+{
+    flow_plan *plan = &d->run.plan;
+    char missing[160], because[320];
+    if (stands_in(d, i))
+        return run_fullest(d, i, "runs because the stage that gives more did not succeed", err);
+    if (!plan->chosen[i]) {
+        cost_leave_out(d->cost, flow_stages[i].id, plan->because[i]);
+        return WT_OK;
+    }
+    if (flow_can(plan, i, 0, d->have))
+        return run_fullest(d, i, plan->because[i], err);
+    if (is_unmeasured(d, i, 0)) {
+        plan->outcome[i] = FLOW_UNMEASURED;
+        plan->unmeasured |= flow_stages[i].gives & ~d->have;
+        snprintf(because, sizeof because, "left out because %s", plan->why_unmeasured);
+    } else {
+        plan->outcome[i] = FLOW_BLOCKED;
+        const flow_things needs = flow_needs(plan, i, 0) | flow_stages[i].any;
+        flow_things_list(needs & ~d->have, missing, sizeof missing);
+        snprintf(because, sizeof because, "left out because a stage before failed to give its %s",
+                 missing);
+    }
+    cost_leave_out(d->cost, flow_stages[i].id, because);
+    return WT_OK;
+}
+
+/* ---- tables ---------------------------------------------------------------------------------- */
+
+/* Moves a table into the result. */
+static wt_status publish_table(conduct *d, wt_table **table, wt_error *err)
+{
+    if (*table == NULL)
+        return WT_OK;
+    wt_table *taken = *table;
+    *table = NULL;
+    return wt_result_add(d->result, taken, err);
+}
+
+/* The tables of the stages in the order of their declaration; what nobody asked for stays out. */
+static wt_status publish_stages(conduct *d, wt_error *err)
+{
+    flow_run *r = &d->run;
+    const flow_things curves = FLOW_BIT(FLOW_CURVE_BULK) | FLOW_BIT(FLOW_CURVE_TRACK);
+    const flow_things fits = FLOW_BIT(FLOW_INDENTATION_BULK) | FLOW_BIT(FLOW_INDENTATION_TRACK);
+    const struct {
+        const table_schema *schema;
+        flow_things things;
+        wt_table **table;
+    } of_both[] = {{&choices_schema, fits, &r->curves.choices},
+                   {&curves_schema, fits, &r->curves.curves},
+                   {&force_displacement_schema, curves, &r->curves.force_displacement},
+                   {&force_indentation_schema, curves, &r->curves.force_indentation},
+                   {&modulus_depth_schema, FLOW_BIT(FLOW_DEPTH_BULK) | FLOW_BIT(FLOW_DEPTH_TRACK),
+                    &r->curves.modulus_depth}};
+    wt_status status = WT_OK;
+    for (size_t i = 0; i < table_n_schemas; i++) {
+        for (unsigned k = FLOW_FIRST_TABLE; status == WT_OK && k < FLOW_FIRST_INNER; k++)
+            if (flow_thing_rows[k].schema == table_schemas[i] && (r->plan.required & FLOW_BIT(k)))
+                status = publish_table(d, &r->table[k], err);
+        for (size_t k = 0; status == WT_OK && k < COUNT_OF(of_both); k++)
+            if (of_both[k].schema == table_schemas[i] && (r->plan.required & of_both[k].things))
+                status = publish_table(d, of_both[k].table, err);
+    }
+    return status;
+}
+
+/* The same bytes under two names count twice in a statistic. */
+static void warn_of_copies(const conduct *d)
+{
+    const wt_provenance *p = wt_result_provenance_const(d->result);
+    size_t n = wt_provenance_n_inputs(p);
+    for (size_t i = 0; i < n; i++) {
+        const wt_provenance_input *a = wt_provenance_get_input(p, i);
+        for (size_t k = i + 1; k < n; k++) {
+            const wt_provenance_input *b = wt_provenance_get_input(p, k);
+            const bool again = strcmp(a->path, b->path) == 0 && strcmp(a->role, b->role) == 0;
+            if (!again && a->bytes == b->bytes && a->fingerprint == b->fingerprint)
+                wt_parselog_add(d->run.job.log, WT_WARNING, b->path, NULL,
+                                "the same bytes as %s (%s and %s)", a->path, a->role, b->role);
+        }
+    }
+}
+
+static wt_status finish_result(conduct *d, wt_error *err)
+{
+    wt_table *answer = NULL, *inputs = NULL, *methods = NULL, *notes = NULL, *cost = NULL;
+    wt_table **const last[] = {&answer, &inputs, &methods, &notes, &d->failures, &cost};
+    const wt_provenance *provenance = wt_result_provenance_const(d->result);
+    warn_of_copies(d);
+    wt_status status = publish_stages(d, err);
+    if (status == WT_OK && wt_table_n_rows(d->failures) > 0)
+        status = wt_failures_answered(
+            d->failures,
+            wt_result_n_tables(d->result) > 0 ? WT_ANSWERED_PARTLY : WT_ANSWERED_NOTHING, err);
+    if (status == WT_OK)
+        status = flow_answer(d->run.c, &d->run.plan, d->result, d->run.job.log, d->failures,
+                             &answer, err);
+    if (status == WT_OK)
+        wt_result_remarks(d->result, d->run.job.log);
+    if (status == WT_OK)
+        status = wt_provenance_table(provenance, "inputs", &inputs, err);
+    if (status == WT_OK)
+        status = wt_methods_table(d->result, &methods, err);
+    if (status == WT_OK)
+        status = wt_notes_table(d->run.job.log, d->run.c->folder, &notes, err);
+    if (status == WT_OK)
+        status = wt_cost_table(d->cost, &cost, err);
+    for (size_t i = 0; status == WT_OK && i < COUNT_OF(last); i++)
+        status = publish_table(d, last[i], err);
+    for (size_t i = 0; i < COUNT_OF(last); i++) {
+        wt_table_free(*last[i]);
+        *last[i] = NULL;
+    }
+    return status;
+}
+
+/* ---- the run --------------------------------------------------------------------------------- */
+
+/* Whether a stage runs that draws the material. */
+static bool draws_material(const flow_plan *plan, size_t replicates)
+{
+    const flow_things compared = FLOW_BIT(FLOW_COMPARISON) | FLOW_BIT(FLOW_DMA_COMPARISON);
+    const flow_things replicated =
+        FLOW_BIT(FLOW_LAYER) | FLOW_BIT(FLOW_FRICTION) | FLOW_BIT(FLOW_ERROR_BUDGET);
+    const flow_things drawn = compared | (replicates >= 2 ? replicated : 0);
+    for (size_t i = 0; i < FLOW_N_STAGES; i++)
+        if (plan->chosen[i] && (flow_needs(plan, i, plan->level[i]) & FLOW_BIT(FLOW_RUBBER)) != 0 &&
+            (flow_stages[i].gives & drawn) != 0)
+            return true;
+    return false;
+}
+
+/* Whether several stages read the DMA files. */
+static bool shares_dma(const flow_plan *plan)
+{
+    size_t n = 0;
+    for (size_t i = 0; i < FLOW_N_STAGES; i++)
+        n += plan->chosen[i] && (flow_needs(plan, i, 0) & FLOW_BIT(FLOW_DMA_FILES)) != 0;
+    return n > 1;
+}
+
+/* What of the stages nothing asks for. */
+static unsigned find_left_out(const flow_plan *plan, const wt_run_options *options)
+{
+    static const struct {
+        unsigned extra;
+        flow_things shown_in;
+    } extras[] = {{WT_EXTRA_SHARE, FLOW_BIT(FLOW_FRICTION)},
+                  {WT_EXTRA_MODULUS_DEPTH, FLOW_BIT(FLOW_DEPTH_BULK) | FLOW_BIT(FLOW_DEPTH_TRACK)},
+                  {WT_EXTRA_DEPTH_CURVES, FLOW_BIT(FLOW_TRACK_LAYER)},
+                  {WT_EXTRA_DRAWS, FLOW_BIT(FLOW_MATERIAL_DRAWS) | FLOW_BIT(FLOW_SERIES_DRAWS)},
+                  {WT_EXTRA_SPECTRUM, FLOW_BIT(FLOW_RELAXATION_SPECTRUM)},
+                  {WT_EXTRA_REDUCED, FLOW_BIT(FLOW_PRONY_REDUCED)},
+                  {WT_EXTRA_COMMON, FLOW_BIT(FLOW_MODULUS_BUDGET) | FLOW_BIT(FLOW_COMPARISON) |
+                                        FLOW_BIT(FLOW_MODULUS_RATIO)},
+                  {WT_EXTRA_TRANSITION, FLOW_BIT(FLOW_GLASS_TRANSITION)}};
+    unsigned left_out = options->no_provenance ? WT_EXTRA_DIGESTS : 0;
+    for (size_t i = 0; i < COUNT_OF(extras); i++)
+        if ((plan->required & extras[i].shown_in) == 0)
+            left_out |= extras[i].extra;
+    if (draws_material(plan, options->replicates))
+        left_out &= ~(unsigned)WT_EXTRA_DRAWS;
+    return left_out;
+}
+
+static wt_status add_case(conduct *d, wt_error *err)
+{
+    const wt_case *c = d->run.c;
+    wt_provenance_input input = {.path = wt_path_base(c->path),
+                                 .role = "case",
+                                 .format = "weartrack-case 1",
+                                 .bytes = c->xml_length};
+    if (!d->run.no_provenance)
+        wt_digest(c->xml, c->xml_length, input.sha256);
+    if (wt_provenance_add_input(d->run.job.provenance, &input) != WT_OK)
+        return wt_fail(err, WT_E_MEMORY, "out of memory");
+    return wt_result_set_case(d->result, c->xml, c->xml_length, err);
+}
+
+static wt_status prepare_run(conduct *d, const wt_run_options *options, wt_parselog *log,
+                             wt_error *err)
+{
+    if (log == NULL)
+        log = d->own_log = wt_parselog_new();
+    d->run.no_provenance = options->no_provenance;
+    d->run.trials = options->trials;
+    d->run.precision = options->precision;
+    d->result = wt_result_new();
+    d->failures = wt_failures_new();
+    d->cost = wt_cost_new(!options->no_provenance, options->threads);
+    d->drawn = drawn_new();
+    if (log == NULL || d->result == NULL || d->failures == NULL || d->cost == NULL ||
+        d->drawn == NULL)
+        return wt_fail(err, WT_E_MEMORY, "out of memory");
+    wt_status status = wt_formats_new(options->formats, &d->formats, log, err);
+    if (status == WT_OK)
+        status = wt_formats_add_columns(d->formats, options->columns, options->n_columns, err);
+    d->run.job = (wt_job){
+        .formats = d->formats,
+        .threads = options->threads,
+        .tolerance = options->tolerance,
+        .seed = options->seed,
+        .replicates = options->replicates,
+        .progress = options->progress,
+        .log = log,
+        .provenance = wt_result_provenance(d->result),
+        .failures = d->failures,
+        .cost = d->cost,
+        .drawn = d->drawn,
+    };
+    return status == WT_OK ? add_case(d, err) : status;
+}
+
+wt_status wt_run(const wt_case *c, const wt_run_options *options, wt_parselog *log,
+                 wt_result **result, size_t *n_failed, wt_error *err)
+{
+    if (c == NULL || result == NULL)
+        return wt_fail(err, WT_E_ARG, "no case");
+    wt_run_options defaults = wt_run_defaults();
+    conduct d = {.run = {.c = c, .layer = c->layer}};
+    if (options == NULL)
+        options = &defaults;
+    wt_status status = param_check(wt_run_params(), options, err);
+    if (status == WT_OK)
+        status = prepare_run(&d, options, log, err);
+    if (status == WT_OK) {
+        flow_plan_make(c, &d.run.plan);
+        d.run.job.dma = shares_dma(&d.run.plan) ? &d.dma : NULL;
+        d.run.job.case_advice = flow_case_advice;
+        d.run.job.left_out = find_left_out(&d.run.plan, options);
+        d.have = d.run.plan.sources;
+    }
+    for (size_t i = 0; status == WT_OK && i < FLOW_N_STAGES; i++)
+        status = consider_stage(&d, i, err);
+    const size_t failed = status == WT_OK ? wt_table_n_rows(d.failures) : 0;
+    if (status == WT_OK)
+        status = finish_result(&d, err);
+    if (status == WT_OK) {
+        *result = d.result;
+        d.result = NULL;
+        if (n_failed != NULL)
+            *n_failed = failed;
+    }
+    flow_run_clear(&d.run);
+    wt_formats_free(d.formats);
+    wt_result_free(d.result);
+    wt_table_free(d.failures);
+    wt_cost_free(d.cost);
+    drawn_free(d.drawn);
+    wt_sweep_clear(&d.dma);
+    wt_parselog_free(d.own_log);
+    return status;
+}

@@ -1,0 +1,531 @@
+/* The function of each stage: takes what the case and the stages before gave, runs one job.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#include "case/run/stage_functions.h"
+#include "job/cost.h"
+#include "record/record.h"
+
+#include "core/table/registry.h"
+
+#include <math.h>
+
+void flow_run_clear(flow_run *run)
+{
+    for (size_t i = 0; i < FLOW_N_THINGS; i++)
+        wt_table_free(run->table[i]);
+    wt_indent_tables_clear(&run->curves);
+    for (int g = 0; g < 2; g++)
+        wt_curve_set_free(run->kept[g]);
+    wt_rubber_clear(&run->rubber);
+    wt_rubber_clear(&run->layer_rubber);
+    wt_surface_clear(&run->surface);
+    wt_softness_clear(&run->softness);
+    *run = (flow_run){0};
+}
+
+void flow_run_keep(flow_run *run, flow_thing thing, wt_table **table)
+{
+    wt_table_free(run->table[thing]);
+    run->table[thing] = *table;
+    *table = NULL;
+}
+
+/* What a stage costs whose job does not say it. */
+static void say_items(const flow_run *run, const wt_table *table)
+{
+    cost_say(&run->job, (cost_summary){.items = (double)wt_table_n_rows(table)});
+}
+
+/* ---- indentation ----------------------------------------------------------------------------- */
+
+/* The temperature at which a group was indented. */
+static wt_estimate indented_at(const wt_case *c, int g)
+{
+    const wt_compare_job *job = &c->compare;
+    return g > 0 && !isnan(job->track_temperature.value) ? job->track_temperature
+                                                         : job->temperature;
+}
+
+static wt_status indent_group(flow_run *run, int g, wt_error *err)
+{
+    static const flow_thing curve[2] = {FLOW_CURVE_BULK, FLOW_CURVE_TRACK};
+    static const char *const names[2] = {"bulk", "track"};
+    const case_files *files = g == 0 ? &run->c->bulk : &run->c->track;
+    wt_indent_job job = run->c->indent;
+    job.group = names[g];
+    job.sets = files->sets;
+    job.n_sets = files->n;
+    job.spring_constant = files->spring_constant;
+    job.sensitivity = files->sensitivity;
+    job.lever_error = files->lever_error > 0 ? files->lever_error : run->c->compare.lever_error;
+    job.sensitivity_error =
+        files->sensitivity_error > 0 ? files->sensitivity_error : run->c->compare.sensitivity_error;
+    job.rates =
+        (run->plan.required & (FLOW_BIT(FLOW_MODULUS_RATE) | FLOW_BIT(FLOW_DMA_COMPARISON))) != 0;
+    job.median_curve = (run->plan.wanted & FLOW_BIT(curve[g])) != 0;
+    job.rubber = run->level > 0 ? &run->rubber : NULL;
+    job.temperature = indented_at(run->c, g);
+    if ((run->plan.required & FLOW_BIT(FLOW_COVERAGE)) != 0) {
+        wt_curve_set_free(run->kept[g]);
+        job.keep = run->kept[g] = wt_curve_set_new();
+        if (job.keep == NULL)
+            return wt_fail(err, WT_E_MEMORY, "out of memory for the curves");
+    }
+    wt_status status = wt_indent_group(&job, &run->job, &run->curves, err);
+    flow_run_keep(run, g == 0 ? FLOW_INDENTATION_BULK : FLOW_INDENTATION_TRACK,
+                  &run->curves.indentation);
+    return status;
+}
+
+wt_status flow_step_bulk(flow_run *run, wt_error *err)
+{
+    return indent_group(run, 0, err);
+}
+
+wt_status flow_step_track(flow_run *run, wt_error *err)
+{
+    return indent_group(run, 1, err);
+}
+
+/* ---- comparison ------------------------------------------------------------------------------ */
+
+static wt_status compare_groups(flow_run *run, bool groups_only, wt_error *err)
+{
+    wt_compare_tables tables = {0};
+    wt_compare_job job = run->c->compare;
+    job.bulk = run->table[FLOW_INDENTATION_BULK];
+    job.track = run->table[FLOW_INDENTATION_TRACK];
+    job.rates = (run->plan.required & FLOW_BIT(FLOW_MODULUS_RATE)) != 0;
+    job.groups_only = groups_only;
+    job.rubber = run->level > 0 ? &run->rubber : NULL;
+    wt_status status = wt_compare_groups(&job, &run->job, &tables, err);
+    if (status == WT_OK)
+        say_items(run, tables.modulus_groups);
+    flow_run_keep(run, FLOW_MODULUS_GROUPS, &tables.modulus_groups);
+    flow_run_keep(run, FLOW_MODULUS_BUDGET, &tables.modulus_budget);
+    flow_run_keep(run, FLOW_COMPARISON, &tables.comparison);
+    flow_run_keep(run, FLOW_MODULUS_RATE, &tables.modulus_rate);
+    wt_compare_tables_clear(&tables); /* the stage of the DMA makes its own */
+    return status;
+}
+
+wt_status flow_step_compare(flow_run *run, wt_error *err)
+{
+    table_view comparison;
+    wt_status status = compare_groups(run, false, err);
+    if (status == WT_OK)
+        status = table_bind(run->table[FLOW_COMPARISON], &comparison_schema, "", &comparison, err);
+    if (status != WT_OK)
+        return status;
+    run->modulus_ratio = comparison_value(&comparison, COMPARISON_KEY_MODULUS_RATIO);
+    run->modulus_ratio.unit = "1"; /* not that of the table */
+    const double df = comparison_value(&comparison, COMPARISON_KEY_MODULUS_RATIO_DF).value;
+    run->modulus_ratio_df = isnan(df) ? 0 : df;
+    const double share = comparison_value(&comparison, COMPARISON_KEY_CALIBRATION_SHARE).value;
+    run->calibration_share = isnan(share) ? 0 : share;
+    cost_say(&run->job, (cost_summary){.items = 2, .number = run->modulus_ratio});
+    return WT_OK;
+}
+
+/* Of the groups there are. */
+wt_status flow_step_groups(flow_run *run, wt_error *err)
+{
+    return compare_groups(run, true, err);
+}
+
+wt_status flow_step_dma_comparison(flow_run *run, wt_error *err)
+{
+    wt_compare_tables tables = {0};
+    wt_compare_job job = run->c->compare;
+    job.bulk = run->table[FLOW_INDENTATION_BULK];
+    job.track = run->table[FLOW_INDENTATION_TRACK];
+    job.rubber = &run->rubber;
+    job.groups_only = true;
+    /* the warnings of the comparison itself have been given by its own stage */
+    wt_job quiet = run->job;
+    quiet.log = NULL;
+    wt_status status = wt_compare_groups(&job, &quiet, &tables, err);
+    if (status == WT_OK && tables.dma_comparison == NULL)
+        status =
+            wt_fail(err, WT_E_MISSING,
+                    "the curves tell no indentation rate, so no frequency corresponds to them");
+    if (status == WT_OK) {
+        say_items(run, tables.dma_comparison);
+        flow_run_keep(run, FLOW_DMA_COMPARISON, &tables.dma_comparison);
+    }
+    wt_compare_tables_clear(&tables);
+    return status;
+}
+
+wt_status flow_step_given_ratio(flow_run *run, wt_error *err)
+{
+    (void)err;
+    run->modulus_ratio = run->c->known.modulus_ratio;
+    run->modulus_ratio_df = run->c->known.modulus_ratio_df;
+    cost_say(&run->job, (cost_summary){.items = 1, .number = run->modulus_ratio});
+    return WT_OK;
+}
+
+/* ---- material -------------------------------------------------------------------------------- */
+
+/* Of the DMA files of a case, which may be that of a layer. */
+static wt_status read_master(const wt_case *c, const wt_job *work, wt_master_tables *tables,
+                             wt_rubber *rubber, wt_error *err)
+{
+    wt_master_job job = c->master;
+    job.sets = c->dma.sets;
+    job.n_sets = c->dma.n;
+    const wt_status status = wt_master_make(&job, work, tables, rubber, err);
+    return status == WT_OK && c->rubber.moduli == WT_MODULI_POINTS
+               ? wt_rubber_tabulate(rubber, tables->master_curve, &c->rubber, err)
+               : status;
+}
+
+wt_status flow_step_master(flow_run *run, wt_error *err)
+{
+    wt_master_tables tables = {0};
+    const wt_status status = read_master(run->c, &run->job, &tables, &run->rubber, err);
+    flow_run_set_direction(run);
+    flow_run_keep(run, FLOW_SHIFT_FACTORS, &tables.shift_factors);
+    flow_run_keep(run, FLOW_MASTER_CURVE, &tables.master_curve);
+    flow_run_keep(run, FLOW_PRONY, &tables.prony);
+    flow_run_keep(run, FLOW_PRONY_REDUCED, &tables.prony_reduced);
+    flow_run_keep(run, FLOW_RELAXATION_SPECTRUM, &tables.relaxation_spectrum);
+    flow_run_keep(run, FLOW_MATERIAL_DRAWS, &tables.material_draws);
+    flow_run_keep(run, FLOW_SERIES_DRAWS, &tables.series_draws);
+    wt_master_tables_clear(&tables); /* the fit */
+    return status;
+}
+
+/* Its tables are not kept: those of the names are the bulk's. */
+wt_status flow_step_layer_material(flow_run *run, wt_error *err)
+{
+    const wt_case *own = run->c->layer_material;
+    wt_master_tables tables = {0};
+    wt_job work = run->job;
+    work.dma = NULL; /* the bulk's */
+    work.left_out |= WT_EXTRA_REDUCED | WT_EXTRA_SPECTRUM;
+    const wt_status status = own->has_material
+                                 ? flow_run_given_rubber(own, &work, &run->layer_rubber, err)
+                                 : read_master(own, &work, &tables, &run->layer_rubber, err);
+    wt_master_tables_clear(&tables);
+    run->has_layer_rubber = status == WT_OK;
+    if (status == WT_OK)
+        wt_rubber_cost(&run->layer_rubber, &run->job);
+    return status;
+}
+
+wt_status flow_step_ramp(flow_run *run, wt_error *err)
+{
+    wt_ramp_tables tables = {0};
+    wt_ramp_job job = run->c->ramp;
+    wt_job work = run->job;
+    if ((run->plan.wanted & FLOW_BIT(FLOW_MODULI_AT)) != 0 && job.n_temperatures == 0) {
+        wt_fail(err, WT_E_MISSING, "no temperatures at which the moduli are asked for");
+        wt_error_expected(err, "<at> in <dma>, such as 25degC,60degC");
+        return WT_E_MISSING;
+    }
+    if ((run->plan.required & FLOW_BIT(FLOW_MODULI_AT)) == 0)
+        job.n_temperatures = 0;
+    job.sets = run->c->dma.sets;
+    job.n_sets = run->c->dma.n;
+    wt_table *again = NULL;
+    if (run->plan.chosen[FLOW_STAGE_MASTER_CURVE]) {
+        work.log = NULL;
+        work.provenance = NULL;
+        work.failures = again = wt_failures_new();
+        if (again == NULL)
+            return wt_fail(err, WT_E_MEMORY, "out of memory");
+    }
+    const wt_status status = wt_ramp_make(&job, &work, &tables, err);
+    wt_table_free(again);
+    flow_run_keep(run, FLOW_RAMP, &tables.ramp);
+    flow_run_keep(run, FLOW_GLASS_TRANSITION, &tables.glass_transition);
+    flow_run_keep(run, FLOW_MODULI_AT, &tables.moduli_at);
+    return status;
+}
+
+wt_status flow_step_payne(flow_run *run, wt_error *err)
+{
+    wt_payne_tables tables = {0};
+    wt_payne_job job = wt_payne_job_defaults();
+    job.sets = run->c->dma.sets;
+    job.n_sets = run->c->dma.n;
+    const wt_status status = wt_payne_make(&job, &run->job, &tables, err);
+    flow_run_keep(run, FLOW_PAYNE, &tables.payne);
+    flow_run_keep(run, FLOW_PAYNE_SWEEP, &tables.payne_sweep);
+    return status;
+}
+
+/* ---- records --------------------------------------------------------------------------------- */
+
+static wt_status make_record(flow_run *run, wt_record_job job, wt_error *err)
+{
+    wt_record_tables tables = {0};
+    job.sets = run->c->record.sets;
+    job.n_sets = run->c->record.n;
+    const wt_status status = wt_record_make(&job, &run->job, &tables, err);
+    flow_run_keep(run, FLOW_RECORD, &tables.record);
+    flow_run_keep(run, FLOW_RECORD_CYCLES, &tables.record_cycles);
+    flow_run_keep(run, FLOW_WEAR, &tables.wear);
+    return status;
+}
+
+/* Whether the case lists a result that there is not without wear. */
+static bool wear_must_be(const flow_run *run)
+{
+    flow_things resting = FLOW_BIT(FLOW_WEAR);
+    for (size_t i = 0; i < FLOW_N_STAGES; i++)
+        if (run->plan.chosen[i] && (flow_needs(&run->plan, i, 0) & FLOW_BIT(FLOW_WEAR)) != 0)
+            resting |= flow_stages[i].gives;
+    return run->c->has_asked && !run->c->called && (run->c->asked & resting) != 0;
+}
+
+/* Records without wear tell friction all the same: what rests on the wear is left out. */
+static wt_status leave_wear_out(flow_run *run, const char *lacks, wt_error *err)
+{
+    static const char advice[] = "give <profile>, <track-area> or <mass-loss> in <record>, or "
+                                 "<specific-wear-rate> in <layer>";
+    if (wear_must_be(run)) {
+        wt_fail(err, WT_E_MISSING, "%s", lacks);
+        wt_error_advice(err, "%s", advice);
+        return WT_E_MISSING;
+    }
+    run->plan.unmeasured |= FLOW_BIT(FLOW_WEAR);
+    snprintf(run->plan.why_unmeasured, sizeof run->plan.why_unmeasured, "%s; %s", lacks, advice);
+    wt_parselog_add(run->job.log, WT_WARNING, NULL, NULL, "the layer is left out, for %s",
+                    run->plan.why_unmeasured);
+    return WT_OK;
+}
+
+wt_status flow_step_wear(flow_run *run, wt_error *err)
+{
+    const wt_status status = make_record(run, run->c->records, err);
+    wt_estimate measured;
+    if (status != WT_OK)
+        return status;
+    if (run->table[FLOW_WEAR] == NULL)
+        return leave_wear_out(run, "the records tell nothing of the wear", err);
+    if (!isnan(run->layer.specific_wear_rate.value) || !run->c->has_layer)
+        return WT_OK;
+    if (!wt_table_estimate(run->table[FLOW_WEAR], "specific_wear_rate", &measured) ||
+        isnan(measured.value))
+        return leave_wear_out(run, "the records tell no wear rate, as the table wear says", err);
+    run->layer.specific_wear_rate = measured;
+    return WT_OK;
+}
+
+wt_status flow_step_record(flow_run *run, wt_error *err)
+{
+    return make_record(run, wear_left_out(run->c->records), err);
+}
+
+/* ---- friction and layer ---------------------------------------------------------------------- */
+
+wt_sliding flow_run_sliding(const flow_run *run)
+{
+    wt_sliding sliding = run->c->sliding;
+    sliding.rubber = &run->rubber;
+    sliding.surface = &run->surface;
+    if (isnan(sliding.reference_velocity))
+        sliding.reference_velocity = run->c->layer.velocity;
+    sliding.layer_rubber = run->has_layer_rubber ? &run->layer_rubber : NULL;
+    sliding.softness = run->softness.table.n > 0 ? &run->softness : NULL;
+    return sliding;
+}
+
+wt_status flow_step_layer(flow_run *run, wt_error *err)
+{
+    wt_sliding sliding = flow_run_sliding(run);
+    wt_layer_tables tables = {0};
+    wt_status status = wt_layer_make(&sliding, &run->layer, &run->job, &tables, err);
+    if (status != WT_OK)
+        return status;
+    run->thickness = tables.thickness;
+    flow_run_keep(run, FLOW_LAYER, &tables.layer);
+    return WT_OK;
+}
+
+wt_status flow_step_track_layer(flow_run *run, wt_error *err)
+{
+    wt_compare_job job = run->c->compare;
+    job.bulk = run->table[FLOW_INDENTATION_BULK];
+    job.track = run->table[FLOW_INDENTATION_TRACK];
+    job.rubber = (run->plan.done[FLOW_STAGE_COMPARISON] > 0) ? &run->rubber : NULL;
+    const wt_status status =
+        wt_track_layer_make(&job, run->level > 0 ? run->table[FLOW_LAYER] : NULL, &run->job,
+                            &run->table[FLOW_TRACK_LAYER], err);
+    if (status == WT_OK && run->table[FLOW_TRACK_LAYER] != NULL)
+        say_items(run, run->table[FLOW_TRACK_LAYER]);
+    return status;
+}
+
+wt_status flow_step_energy_density(flow_run *run, wt_error *err)
+{
+    const wt_sliding sliding = flow_run_sliding(run);
+    return wt_energy_density_table(&sliding, &run->layer, &run->job,
+                                   &run->table[FLOW_ENERGY_DENSITY], err);
+}
+
+/* A layer of its own material has no ratio, whatever was indented, and no other stands in. */
+static wt_status known_by_material(const flow_run *run, wt_layer_known *known, wt_error *err)
+{
+    known->modulus_ratio = wt_layer_known_defaults().modulus_ratio;
+    known->modulus_ratio_df = known->calibration_share = 0;
+    return run->has_layer_rubber
+               ? WT_OK
+               : wt_fail(err, WT_E_MISSING, "the material of the layer is not known");
+}
+
+wt_status flow_run_known_layer(const flow_run *run, wt_layer_known *known, wt_error *err)
+{
+    *known = run->c->known;
+    known->shear = &run->layer.shear;
+    known->thickness = run->thickness;
+    known->modulus_ratio = run->modulus_ratio;
+    known->modulus_ratio_df = run->modulus_ratio_df;
+    known->calibration_share = run->calibration_share;
+    if (run->c->layer_material != NULL)
+        return known_by_material(run, known, err);
+    if (!isnan(known->modulus_ratio.value) && known->by_rate) {
+        if (isnan(known->ratio_temperature))
+            known->ratio_temperature = run->c->compare.temperature.value;
+        return wt_layer_known_by_rate(run->table[FLOW_COMPARISON], run->table[FLOW_MODULUS_RATE],
+                                      known, err);
+    }
+    if (!isnan(known->modulus_ratio.value))
+        return WT_OK;
+    wt_fail(err, WT_E_MISSING, "the modulus ratio of track and bulk is not known");
+    wt_error_advice(err, "the table comparison says why, and what would settle it; or give the "
+                         "ratio as modulus-ratio of the layer");
+    return WT_E_MISSING;
+}
+
+wt_status flow_step_contact_area(flow_run *run, wt_error *err)
+{
+    const wt_sliding sliding = flow_run_sliding(run);
+    return wt_contact_area_table(&sliding, &run->job, &run->table[FLOW_CONTACT_AREA], err);
+}
+
+wt_status flow_step_friction(flow_run *run, wt_error *err)
+{
+    wt_sliding sliding = flow_run_sliding(run);
+    wt_friction_tables tables = {0};
+    wt_layer_known layer;
+    wt_status status = run->level > 0 ? flow_run_known_layer(run, &layer, err) : WT_OK;
+    if (status == WT_OK)
+        status =
+            wt_friction_make(&sliding, run->level > 0 ? &layer : NULL, &run->job, &tables, err);
+    if (status == WT_OK)
+        flow_run_keep(run, FLOW_FRICTION, &tables.friction);
+    return status;
+}
+
+wt_status flow_step_directions(flow_run *run, wt_error *err)
+{
+    const wt_sliding sliding = flow_run_sliding(run);
+    return wt_directions_make(&sliding, &run->job, &run->table[FLOW_DIRECTIONS], err);
+}
+
+wt_status flow_step_softening_effect(flow_run *run, wt_error *err)
+{
+    const wt_sliding sliding = flow_run_sliding(run);
+    return wt_softening_make(&sliding, &run->job, &run->table[FLOW_SOFTENING_EFFECT], err);
+}
+
+wt_status flow_step_anisotropy(flow_run *run, wt_error *err)
+{
+    const wt_sliding sliding = flow_run_sliding(run);
+    return wt_anisotropy_make(&sliding, &run->job, &run->table[FLOW_ANISOTROPY], err);
+}
+
+wt_status flow_step_friction_map(flow_run *run, wt_error *err)
+{
+    const wt_sliding sliding = flow_run_sliding(run);
+    wt_layer_known layer;
+    const bool layered = run->c->has_layer && flow_run_known_layer(run, &layer, NULL) == WT_OK;
+    return wt_friction_map_make(&sliding, layered ? &layer : NULL, &run->job,
+                                &run->table[FLOW_FRICTION_MAP], err);
+}
+
+wt_status flow_step_friction_decades(flow_run *run, wt_error *err)
+{
+    const wt_sliding sliding = flow_run_sliding(run);
+    wt_layer_known layer;
+    const bool layered = run->c->has_layer && flow_run_known_layer(run, &layer, NULL) == WT_OK;
+    return wt_friction_decades_make(&sliding, layered ? &layer : NULL, &run->job,
+                                    &run->table[FLOW_FRICTION_DECADES], err);
+}
+
+wt_status flow_step_flash_effect(flow_run *run, wt_error *err)
+{
+    const wt_sliding sliding = flow_run_sliding(run);
+    return wt_flash_make(&sliding, &run->job, &run->table[FLOW_FLASH_EFFECT], err);
+}
+
+/* ---- what if, error budget, coverage, error against run time ----------------------------------
+ */
+
+/* What a stage takes into account beside friction: the layer, then what is known of it. */
+typedef struct layer_parts {
+    const wt_layer_job *layer;   /* or NULL */
+    const wt_layer_known *known; /* or NULL */
+    wt_layer_known storage;
+} layer_parts;
+
+static wt_status take_layer(const flow_run *run, layer_parts *parts, wt_error *err)
+{
+    *parts = (layer_parts){.layer = run->level > 0 ? &run->layer : NULL};
+    if (run->level < 2)
+        return WT_OK;
+    parts->known = &parts->storage;
+    return flow_run_known_layer(run, &parts->storage, err);
+}
+
+wt_status flow_step_what_if(flow_run *run, wt_error *err)
+{
+    const wt_sliding sliding = flow_run_sliding(run);
+    layer_parts parts;
+    const wt_status status = take_layer(run, &parts, err);
+    return status == WT_OK ? wt_what_if_make(&sliding, parts.layer, parts.known, &run->job,
+                                             &run->table[FLOW_WHAT_IF], err)
+                           : status;
+}
+
+wt_status flow_step_budget(flow_run *run, wt_error *err)
+{
+    const wt_sliding sliding = flow_run_sliding(run);
+    layer_parts parts;
+    const wt_status status = take_layer(run, &parts, err);
+    return status == WT_OK
+               ? wt_error_budget_make(&sliding, parts.layer, parts.known, run->table[FLOW_WHAT_IF],
+                                      &run->job, &run->table[FLOW_ERROR_BUDGET], err)
+               : status;
+}
+
+wt_status flow_step_coverage(flow_run *run, wt_error *err)
+{
+    const wt_sliding sliding = flow_run_sliding(run);
+    layer_parts parts;
+    const wt_status status = take_layer(run, &parts, err);
+    const wt_coverage_job job = {.sliding = &sliding,
+                                 .layer = parts.layer,
+                                 .known = parts.known,
+                                 .bulk = run->table[FLOW_INDENTATION_BULK],
+                                 .track = run->table[FLOW_INDENTATION_TRACK],
+                                 .curves = {run->kept[0], run->kept[1]},
+                                 .ratio_of_groups = !run->plan.chosen[FLOW_STAGE_GIVEN_RATIO],
+                                 .trials = run->trials};
+    return status == WT_OK ? wt_coverage_make(&job, &run->job, &run->table[FLOW_COVERAGE], err)
+                           : status;
+}
+
+wt_status flow_step_precision(flow_run *run, wt_error *err)
+{
+    const wt_sliding sliding = flow_run_sliding(run);
+    layer_parts parts;
+    const wt_status status = take_layer(run, &parts, err);
+    return status == WT_OK
+               ? wt_case_precision_make(&sliding, parts.layer, parts.known, &run->precision,
+                                        &run->job, &run->table[FLOW_WORK_PRECISION], err)
+               : status;
+}

@@ -1,0 +1,184 @@
+/* The stages of rubber, counter surface and softening that a case gives itself.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#include "case/run/stage_functions.h"
+
+#include "dma/rubber.h"
+#include "friction/counter_surface.h"
+#include "job/cost.h"
+#include "job/inputs.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* The one file that is named; *path, which it borrows, is freed with free(). */
+static wt_status given_file(const case_files *files, flow_file *file, char **path, wt_error *err)
+{
+    const wt_file_set *set = &files->sets[0];
+    *path = wt_path_join(set->folder, set->patterns[0]);
+    *file = (flow_file){.path = *path, .name = set->patterns[0], .set = set};
+    return *path != NULL ? WT_OK : wt_fail(err, WT_E_MEMORY, "out of memory");
+}
+
+/* ---- material -------------------------------------------------------------------------------- */
+
+static wt_status given_series(const wt_case *c, wt_rubber *rubber, wt_error *err)
+{
+    const wt_status status = wt_prony_alloc(&rubber->prony, c->prony.n, err);
+    if (status != WT_OK)
+        return status;
+    rubber->prony.deformation = c->prony.deformation;
+    rubber->prony.equilibrium_modulus = c->prony.equilibrium_modulus;
+    rubber->prony.frequency_min = c->prony.frequency_min;
+    rubber->prony.frequency_max = c->prony.frequency_max;
+    memcpy(rubber->prony.relaxation_time, c->prony.relaxation_time, c->prony.n * sizeof(double));
+    memcpy(rubber->prony.modulus, c->prony.modulus, c->prony.n * sizeof(double));
+    rubber->poisson_ratio = c->master.poisson_ratio;
+    rubber->temperature_min = rubber->temperature_max = (double)NAN;
+    return WT_OK;
+}
+
+static wt_status given_points(const wt_case *c, const wt_job *work, wt_rubber *rubber,
+                              wt_error *err)
+{
+    char *path = NULL;
+    flow_file file;
+    wt_status status = given_file(&c->points, &file, &path, err);
+    if (status == WT_OK)
+        status = flow_rubber_read(&file, &c->rubber, c->master.poisson_ratio, work, rubber, err);
+    free(path);
+    return status;
+}
+
+wt_status flow_run_given_rubber(const wt_case *c, const wt_job *work, wt_rubber *rubber,
+                                wt_error *err)
+{
+    const double reference = c->master.fit.reference_temperature;
+    wt_status status = c->kind == WT_RUBBER_TABLE ? given_points(c, work, rubber, err)
+                       : c->kind == WT_RUBBER_ZENER
+                           ? flow_rubber_zener(&c->zener, c->master.poisson_ratio, rubber, err)
+                           : given_series(c, rubber, err);
+    if (status != WT_OK)
+        return status;
+    if (!isnan(reference))
+        rubber->prony.reference_temperature = reference;
+    rubber->law = (wt_shift_law){.kind = c->has_wlf ? WT_LAW_WLF : WT_LAW_NONE,
+                                 .wlf = {reference, c->wlf.c1.value, c->wlf.c2.value}};
+    rubber->c1_error = c->wlf.c1.standard_error;
+    rubber->c2_error = c->wlf.c2.standard_error;
+    return WT_OK;
+}
+
+void flow_run_set_direction(flow_run *run)
+{
+    run->rubber.is_transverse = run->c->is_transverse;
+    run->rubber.transverse = run->c->transverse;
+}
+
+wt_status flow_step_given_material(flow_run *run, wt_error *err)
+{
+    const wt_status status = flow_run_given_rubber(run->c, &run->job, &run->rubber, err);
+    flow_run_set_direction(run);
+    if (status == WT_OK)
+        wt_rubber_cost(&run->rubber, &run->job);
+    return status;
+}
+
+/* ---- counter surface ------------------------------------------------------------------------- */
+
+static wt_status take_measured(const wt_topography_job *job, const wt_job *work,
+                               wt_surface *surface, wt_topography_tables *tables, wt_error *err)
+{
+    wt_surface measured = {0};
+    wt_status status = flow_surface_measure(job, work, &measured, tables, err);
+    if (status == WT_OK)
+        status = flow_surface_check(&measured, err);
+    if (status == WT_OK)
+        *surface = measured;
+    else
+        wt_surface_clear(&measured);
+    return status;
+}
+
+static wt_status given_surface(const wt_case *c, const wt_job *work, wt_surface *surface,
+                               wt_error *err)
+{
+    if (c->has_self_affine) {
+        *surface = c->surface;
+        return WT_OK;
+    }
+    wt_surface opened = {0};
+    if (c->height_maps.n > 0)
+        return take_measured(&c->topography, work, surface, NULL, err);
+    char *path = NULL;
+    flow_file file;
+    wt_status status = given_file(&c->spectrum, &file, &path, err);
+    if (status == WT_OK)
+        status = flow_surface_read(&file, work, &opened, err);
+    if (status == WT_OK) {
+        opened.q0 = c->surface.q0;
+        opened.q1 = c->surface.q1;
+        if (c->surface.c0.standard_error > 0)
+            opened.c0.standard_error = c->surface.c0.standard_error;
+        status = flow_surface_check(&opened, err); /* the cut-offs */
+    }
+    if (status == WT_OK)
+        *surface = opened;
+    else
+        wt_surface_clear(&opened);
+    free(path);
+    return status;
+}
+
+wt_status flow_step_roughness(flow_run *run, wt_error *err)
+{
+    wt_status status = given_surface(run->c, &run->job, &run->surface, err);
+    if (status == WT_OK)
+        flow_surface_cost(&run->surface, &run->job);
+    if (status == WT_OK && (run->plan.required & FLOW_BIT(FLOW_ROUGHNESS)) != 0)
+        status = wt_surface_table(&run->surface, &run->table[FLOW_ROUGHNESS], err);
+    return status;
+}
+
+wt_status flow_step_topography(flow_run *run, wt_error *err)
+{
+    const flow_things heights = FLOW_BIT(FLOW_HEIGHT_MAP) | FLOW_BIT(FLOW_HEIGHT_PROFILE);
+    wt_topography_tables made = {.power_spectrum = NULL};
+    wt_topography_job job = run->c->topography;
+    job.heights = (run->plan.required & heights) != 0;
+    wt_status status = take_measured(&job, &run->job, &run->surface, &made, err);
+    if (status == WT_OK && (run->plan.required & FLOW_BIT(FLOW_ROUGHNESS)) != 0)
+        status = wt_surface_table(&run->surface, &run->table[FLOW_ROUGHNESS], err);
+    run->table[FLOW_POWER_SPECTRUM] = made.power_spectrum;
+    run->table[FLOW_PLACE_ERRORS] = made.place_errors;
+    run->table[FLOW_ANGULAR_SPECTRUM] = made.angular_spectrum;
+    run->table[FLOW_SURFACES] = made.surfaces;
+    run->table[FLOW_HEIGHT_MAP] = made.height_map;
+    run->table[FLOW_HEIGHT_PROFILE] = made.height_profile;
+    return status;
+}
+
+/* ---- softening with strain ------------------------------------------------------------------- */
+
+wt_status flow_step_given_softening(flow_run *run, wt_error *err)
+{
+    char *path = NULL;
+    flow_file file;
+    wt_status status = given_file(&run->c->softening, &file, &path, err);
+    if (status == WT_OK)
+        status = wt_softness_read(path, file.name, wt_softness_choice_defaults(), &run->job,
+                                  &run->softness, err);
+    if (status == WT_OK)
+        cost_say(&run->job, (cost_summary){.items = (double)run->softness.table.n});
+    free(path);
+    return status;
+}
+
+wt_status flow_step_swept_softening(flow_run *run, wt_error *err)
+{
+    const wt_status status = wt_softness_from_table(
+        run->table[FLOW_PAYNE_SWEEP], wt_softness_choice_defaults(), &run->softness, err);
+    if (status == WT_OK)
+        cost_say(&run->job, (cost_summary){.items = (double)run->softness.table.n});
+    return status;
+}

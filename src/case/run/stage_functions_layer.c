@@ -1,0 +1,55 @@
+/* The stages of what a layer is beyond its thickness at constant load.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#include "case/run/stage_functions.h"
+
+#include <math.h>
+
+wt_status flow_step_layer_bands(flow_run *run, wt_error *err)
+{
+    const wt_sliding sliding = flow_run_sliding(run);
+    return wt_layer_bands_make(&sliding, &run->layer, &run->job, &run->table[FLOW_LAYER_BANDS],
+                               err);
+}
+
+wt_status flow_step_running_in(flow_run *run, wt_error *err)
+{
+    const wt_sliding sliding = flow_run_sliding(run);
+    wt_layer_known known;
+    const wt_status status = flow_run_known_layer(run, &known, err);
+    return status == WT_OK ? wt_running_in_make(&sliding, &run->layer, &known, &run->job,
+                                                &run->table[FLOW_RUNNING_IN], err)
+                           : status;
+}
+
+wt_status flow_step_layer_balances(flow_run *run, wt_error *err)
+{
+    const wt_sliding sliding = flow_run_sliding(run);
+    wt_layer_known known;
+    const wt_status status = flow_run_known_layer(run, &known, err);
+    return status == WT_OK ? wt_layer_balances_make(&sliding, &run->layer, &known, &run->job,
+                                                    &run->table[FLOW_LAYER_BALANCES], err)
+                           : status;
+}
+
+wt_status flow_step_existence(flow_run *run, wt_error *err)
+{
+    const wt_sliding sliding = flow_run_sliding(run);
+    wt_layer_known known;
+    const wt_status status = run->level > 0 ? flow_run_known_layer(run, &known, err) : WT_OK;
+    return status == WT_OK
+               ? wt_existence_make(&sliding, &run->layer, run->level > 0 ? &known : NULL, &run->job,
+                                   &run->table[FLOW_EXISTENCE], err)
+               : status;
+}
+
+/* The wear rate that the case gives for it, else the one that its records measured. */
+wt_status flow_step_identification(flow_run *run, wt_error *err)
+{
+    const wt_sliding sliding = flow_run_sliding(run);
+    wt_identify_job job = run->c->identify;
+    wt_estimate measured;
+    if (run->level > 0 && isnan(job.specific_wear_rate.value) &&
+        wt_table_estimate(run->table[FLOW_WEAR], "specific_wear_rate", &measured))
+        job.specific_wear_rate = measured;
+    return wt_identify_make(&sliding, &job, &run->job, &run->table[FLOW_IDENTIFICATION], err);
+}

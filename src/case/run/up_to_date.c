@@ -1,0 +1,166 @@
+/* Whether a result is the one that its case would give again: nothing that it was made of has
+ * changed. SPDX-License-Identifier: GPL-3.0-or-later */
+#include "case/case.h"
+#include "job/inputs.h"
+
+#include "core/base/array.h"
+#include "core/table/registry.h"
+
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* What is compared, and the first thing found that differs. */
+typedef struct comparison {
+    const wt_case *c;
+    const wt_result *result;
+    const wt_provenance *made_of;
+    char *why;
+    size_t size;
+    bool differs;
+} comparison;
+
+__attribute__((format(printf, 2, 3))) static void differs(comparison *k, const char *format, ...)
+{
+    va_list args;
+    if (k->differs)
+        return;
+    va_start(args, format);
+    vsnprintf(k->why, k->size, format, args);
+    va_end(args);
+    k->differs = true;
+}
+
+/* The next word of a command, without those that change nothing in the result and their values. */
+static size_t next_word(const char **at)
+{
+    static const struct {
+        const char *name;
+        bool has_value;
+    } ignored[] = {{"--keep", false},   {"--quiet", false},  {"-q", false},
+                   {"--strict", false}, {"--threads", true}, {"--log", true}};
+    for (bool is_value = false;;) {
+        *at += strspn(*at, " ");
+        const size_t length = strcspn(*at, " ");
+        bool is_ignored = is_value && length > 0;
+        is_value = false;
+        for (size_t i = 0; !is_ignored && i < COUNT_OF(ignored); i++) {
+            const size_t n = strlen(ignored[i].name);
+            const bool begins = length >= n && strncmp(*at, ignored[i].name, n) == 0;
+            is_ignored = begins && (length == n || (ignored[i].has_value && (*at)[n] == '='));
+            is_value = is_ignored && length == n && ignored[i].has_value;
+        }
+        if (!is_ignored)
+            return length;
+        *at += length;
+    }
+}
+
+static bool is_same_command(const char *a, const char *b)
+{
+    for (;;) {
+        const size_t n = next_word(&a), m = next_word(&b);
+        if (n != m || strncmp(a, b, n) != 0)
+            return false;
+        if (n == 0)
+            return true;
+        a += n;
+        b += n;
+    }
+}
+
+static const wt_provenance_input *find_input(const wt_provenance *p, const char *name)
+{
+    for (size_t i = 0; i < wt_provenance_n_inputs(p); i++)
+        if (strcmp(wt_provenance_get_input(p, i)->path, name) == 0)
+            return wt_provenance_get_input(p, i);
+    return NULL;
+}
+
+/* A file that cannot be read has changed, too: the run says why. */
+static void compare_file(comparison *k, const flow_file *file, const wt_provenance_input *before)
+{
+    wt_provenance *const now = wt_provenance_new();
+    const wt_job work = {.provenance = now};
+    wt_input *input = NULL;
+    wt_status status = now != NULL ? wt_input_open(file->path, &input, NULL) : WT_E_MEMORY;
+    if (status == WT_OK)
+        status = wt_job_input(&work, (wt_provenance_input){.path = file->name}, input, NULL);
+    if (status != WT_OK || strcmp(wt_provenance_get_input(now, 0)->sha256, before->sha256) != 0)
+        differs(k, "%s has changed", file->name);
+    wt_input_close(input);
+    wt_provenance_free(now);
+}
+
+/* The files of one role: none was read, because nothing asked for them, or all were, and no other
+ * is there now. `seen` counts those that were read. */
+static wt_status compare_files(comparison *k, const case_files *role, size_t *seen, wt_error *err)
+{
+    wt_parselog *log = wt_parselog_new();
+    wt_table *failures = wt_failures_new();
+    const wt_job work = {.log = log, .failures = failures};
+    flow_files files = {0};
+    wt_status status = log != NULL && failures != NULL
+                           ? flow_files_list(role->sets, role->n, &work, &files, err)
+                           : wt_fail(err, WT_E_MEMORY, "out of memory");
+    size_t n_before = *seen;
+    for (size_t i = 0; status == WT_OK && i < files.n; i++)
+        *seen += find_input(k->made_of, files.file[i].name) != NULL;
+    for (size_t i = 0; status == WT_OK && *seen > n_before && !k->differs && i < files.n; i++) {
+        const wt_provenance_input *const before = find_input(k->made_of, files.file[i].name);
+        if (before == NULL)
+            differs(k, "%s is new", files.file[i].name);
+        else
+            compare_file(k, &files.file[i], before);
+    }
+    if (status == WT_OK && *seen > n_before && wt_table_n_rows(failures) > 0)
+        differs(k, "a file that it was made of is gone");
+    flow_files_clear(&files);
+    wt_table_free(failures);
+    wt_parselog_free(log);
+    return status;
+}
+
+static wt_status compare_inputs(comparison *k, wt_error *err)
+{
+    size_t seen = 1; /* the case itself */
+    wt_status status = WT_OK;
+    for (const case_files *role = k->c->roles; status == WT_OK && !k->differs && role != NULL;
+         role = role->next)
+        status = compare_files(k, role, &seen, err);
+    if (seen < wt_provenance_n_inputs(k->made_of))
+        differs(k, "a file that it was made of is gone");
+    return status;
+}
+
+static void compare_case(comparison *k)
+{
+    size_t length = 0;
+    const char *const before = wt_result_case(k->result, &length);
+    if (before == NULL || length != k->c->xml_length || memcmp(before, k->c->xml, length) != 0)
+        differs(k, "the case has changed");
+}
+
+wt_status wt_run_is_current(const wt_case *c, const wt_result *result, const char *command,
+                            bool *current, char *why, size_t size, wt_error *err)
+{
+    comparison k = {.c = c,
+                    .result = result,
+                    .made_of = wt_result_provenance_const(result),
+                    .why = why,
+                    .size = size};
+    const wt_table *const failures = wt_result_find(result, "failures");
+    if (wt_provenance_command(k.made_of)[0] == '\0')
+        differs(&k, "it does not say what it was made of (--no-provenance)");
+    if (strcmp(wt_provenance_version(k.made_of), wt_version()) != 0)
+        differs(&k, "it was made by another version of weartrack");
+    if (!is_same_command(wt_provenance_command(k.made_of), command))
+        differs(&k, "it was made by another command");
+    if (failures != NULL && wt_table_n_rows(failures) > 0)
+        differs(&k, "it is answered in part only");
+    compare_case(&k);
+    const wt_status status = k.differs ? WT_OK : compare_inputs(&k, err);
+    *current = status == WT_OK && !k.differs;
+    return status;
+}

@@ -1,0 +1,118 @@
+/* The columns and keys of the tables about a run and its files. Included by tables.h alone.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef WT_CASE_TABLES_H
+#define WT_CASE_TABLES_H
+
+#define ANSWER_COLUMNS(X)                                                                          \
+    X(ANSWER_QUESTION, "question", "question", TEXT)                                               \
+    X(ANSWER_ANSWER, "answer", "answer", TEXT)                                                     \
+    X(ANSWER_KIND, "kind",                                                                         \
+      "short, material, layer, difference, thickness, friction, surface, record, caveat or "       \
+      "folded: a caveat that changes less than those before",                                      \
+      TEXT)
+#define ANSWER_KEYS(X)                                                                             \
+    X(ANSWER_KEY_CASE_TITLE, "case_title", TEXT, OPTIONAL)                                         \
+    X(ANSWER_KEY_CASE_SAMPLE, "case_sample", TEXT, OPTIONAL)                                       \
+    X(ANSWER_KEY_CASE_CONDITION, "case_condition", TEXT, OPTIONAL)
+
+#define INPUTS_COLUMNS(X)                                                                          \
+    X(INPUTS_PATH, "path", "path as given", TEXT, LABEL("File"))                                   \
+    X(INPUTS_ROLE, "role", "what it was used for", TEXT, LABEL("Role"))                            \
+    X(INPUTS_FORMAT, "format", "format it was read as", TEXT, LABEL("Format"))                     \
+    X(INPUTS_BYTES, "bytes", "size of the file", SI(DATA_SIZE), LABEL("Size"))                     \
+    X(INPUTS_SHA256, "sha256", "SHA-256 digest of the file", TEXT, LABEL("SHA-256"))
+#define INPUTS_KEYS(X)
+
+#define NOTES_COLUMNS(X)                                                                           \
+    X(NOTES_SEVERITY, AS(severity), "note, warning or loss", TEXT, LABEL("Severity"))              \
+    X(NOTES_FILE, AS(file), "file it is about", TEXT, LABEL("File"))                               \
+    X(NOTES_PLACE, IN(entry, place), "first place in the file", TEXT, LABEL("Place"))              \
+    X(NOTES_TEXT, IN(entry, text), "what was noticed", TEXT, LABEL("Note"))                        \
+    X(NOTES_COUNT, IN(entry, count), "how often", NUMBER, LABEL("Times"))
+#define NOTES_KEYS(X)
+
+#define METHODS_COLUMNS(X)                                                                         \
+    X(METHODS_METHOD, AS(method), "method", TEXT, LABEL("Method"))                                 \
+    X(METHODS_TEXT, AS(text), "what it did, for a section on methods", TEXT, LABEL("Here"))        \
+    X(METHODS_REFERENCE, AS(reference), "where it is described", TEXT, LABEL("Reference"))         \
+    X(METHODS_DOI, AS(doi), "digital object identifier of that", TEXT, LABEL("DOI"))
+#define METHODS_KEYS(X)
+
+#define FAILURES_COLUMNS(X)                                                                        \
+    X(FAILURES_FILE, AS(file), "file or stage that failed", TEXT, LABEL("File"))                   \
+    X(FAILURES_MESSAGE, AS(message), "what went wrong, where, and what to do", TEXT,               \
+      LABEL("What happened"))
+#define FAILURES_KEYS(X) X(FAILURES_KEY_STATUS, "status", PLAIN, OPTIONAL)
+
+#define COST_COLUMNS(X)                                                                            \
+    X(COST_STAGE, AS(stage), "stage", TEXT, LABEL("Stage"))                                        \
+    X(COST_RUNS, AS(runs), "1: ran, 0: left out", YES_NO)                                          \
+    X(COST_BECAUSE, AS(because), "why", TEXT, LABEL("Because"))                                    \
+    X(COST_WALL_TIME, "wall_time", "elapsed time", SI(TIME), SHOWS(wall), LABEL("Wall time"))      \
+    X(COST_CPU_TIME, "cpu_time", "processor time", SI(TIME), SHOWS(cpu), LABEL("Processor time"),  \
+      LIKE(COST_WALL_TIME))                                                                        \
+    X(COST_ITEMS, IN(said, items), "curves, isotherms, points, terms of a series", NUMBER,         \
+      LABEL("Items"))                                                                              \
+    X(COST_TOLERANCE_ASKED, IN(said, tolerance_asked),                                             \
+      "relative numerical error asked for; of a fit, the change by a further step that ends it",   \
+      NUMBER, LABEL("Tolerance asked"))                                                            \
+    X(COST_ERROR_ESTIMATED, IN(said, error_estimated),                                             \
+      "largest relative numerical error estimated; of a fit, the change by a further step",        \
+      NUMBER, LABEL("Error estimated"))                                                            \
+    X(COST_NODES, AS(nodes), "nodes of the friction integral; of a fit, evaluations of its model", \
+      NUMBER, LABEL("Nodes"))                                                                      \
+    X(COST_STANDARD_ERROR, IN(said.number, standard_error),                                        \
+      "relative standard error of the main number", NUMBER, LABEL("Standard error"))               \
+    X(COST_FILES, AS(files), "data files read", NUMBER, LABEL("Files"))                            \
+    X(COST_BYTES, AS(bytes), "their size", SI(DATA_SIZE), LABEL("Size"))
+#define COST_KEYS(X)                                                                               \
+    X(COST_KEY_WALL_TIME, "total_wall_time", SI(TIME), SHOWS(wall), OPTIONAL)                      \
+    X(COST_KEY_CPU_TIME, "total_cpu_time", SI(TIME), SHOWS(cpu), OPTIONAL)                         \
+    X(COST_KEY_THREADS, AS(threads), NUMBER, OPTIONAL)
+
+#define PLAN_COLUMNS(X)                                                                            \
+    X(PLAN_STAGE, "stage", "stage", TEXT)                                                          \
+    X(PLAN_TITLE, "title", "what it does", TEXT)                                                   \
+    X(PLAN_RUNS, "runs", "1: runs, 0: left out", YES_NO)                                           \
+    X(PLAN_BECAUSE, "because", "why", TEXT)                                                        \
+    X(PLAN_NEEDS, "needs", "what it needs", TEXT)                                                  \
+    X(PLAN_GIVES, "gives", "what it gives", TEXT)
+#define PLAN_KEYS(X)
+
+#define CONTENTS_COLUMNS(X)                                                                        \
+    X(CONTENTS_TABLE, "table", "name of the table", TEXT)                                          \
+    X(CONTENTS_TITLE, "title", "what it is", TEXT)                                                 \
+    X(CONTENTS_ROWS_OF, "rows", "its rows", NUMBER)                                                \
+    X(CONTENTS_COLUMNS_OF, "columns", "its columns", NUMBER)                                       \
+    X(CONTENTS_KEYS_OF, "keys", "values that belong to all of it", NUMBER)
+#define CONTENTS_KEYS(X)
+
+#define KEYS_COLUMNS(X)                                                                            \
+    X(KEYS_KEY, "key", "name of the value", TEXT)                                                  \
+    X(KEYS_VALUE, "value", "the value", NUMBER, SPARSE)                                            \
+    X(KEYS_STANDARD_ERROR, "standard_error", "its standard error", NUMBER, SPARSE)                 \
+    X(KEYS_NUMERICAL_ERROR, "numerical_error",                                                     \
+      "what its numerical error is below, which of an integral is far below it", NUMBER, SPARSE)   \
+    X(KEYS_UNIT, "unit", "unit of all three", TEXT, SPARSE)                                        \
+    X(KEYS_WORDS, "words", "a text, or what a headline is", TEXT, SPARSE)
+#define KEYS_KEYS(X)
+
+#define FACTS_COLUMNS(X)                                                                           \
+    X(FACTS_ITEM, "item", "what is known", TEXT)                                                   \
+    X(FACTS_VALUE, "value", "its value", TEXT)                                                     \
+    X(FACTS_UNIT, "unit", "unit of the value", TEXT)                                               \
+    X(FACTS_SOURCE, "source", "where in the file it stands, or how it is known", TEXT)
+#define FACTS_KEYS(X)
+
+#define DESCRIPTION_COLUMNS(X)                                                                     \
+    X(DESCRIPTION_COLUMN, "column", "name in the file", TEXT)                                      \
+    X(DESCRIPTION_QUANTITY, "quantity", "what it measures", TEXT)                                  \
+    X(DESCRIPTION_UNIT, "unit", "unit in the file", TEXT)                                          \
+    X(DESCRIPTION_SI_UNIT, "si_unit", "unit of the first value", TEXT)                             \
+    X(DESCRIPTION_FIRST_VALUE, "first_value", "first value in the SI unit", NUMBER, SPARSE)        \
+    X(DESCRIPTION_ROWS, "rows", "rows of its table", NUMBER)                                       \
+    X(DESCRIPTION_LINE, "line", "line of the names row", NUMBER)                                   \
+    X(DESCRIPTION_PROBLEM, "problem", "why it is not read", TEXT)
+#define DESCRIPTION_KEYS(X)
+
+#endif

@@ -1,0 +1,163 @@
+/* What a file turned out to be. SPDX-License-Identifier: GPL-3.0-or-later */
+#include <string.h>
+
+#include "cmd/file_kind.h"
+#include "core/table/registry.h"
+
+const found_missing found_missing_rows[FOUND_N_MISSING] = {
+    {"spring-constant", "0.1N/m"}, {"sensitivity", "60nm/V"},  {"temperature", "20degC"},
+    {"units", "\"E'=MPa\""},       {"deformation", "tension"}, {"frequency", "10Hz"},
+};
+
+void found_value(const char *value, const char *unit, char *out, size_t size)
+{
+    enum { DIGITS = 6 };
+    static const char *const si[] = {"m", "m/s", "m/V", "N", "N/m", "Pa", "s", "V", "rad/s"};
+    double number = 0;
+    const bool is_number = wt_number_parse(value, strlen(value), '.', &number);
+    const bool has_unit = *unit != '\0' && strcmp(unit, "1") != 0;
+    for (size_t i = 0; is_number && i < COUNT_OF(si); i++)
+        if (strcmp(unit, si[i]) == 0) {
+            char digits[128];
+            wt_format_si(number, unit, DIGITS, digits, sizeof digits);
+            /* without the zeros at the end: 61.0000 mN/m is 61 mN/m */
+            const size_t n = strcspn(digits, " e");
+            size_t kept = n;
+            while (memchr(digits, '.', n) != NULL && kept > 0 && digits[kept - 1] == '0')
+                kept--;
+            kept -= kept > 0 && digits[kept - 1] == '.';
+            snprintf(out, size, "%.*s%s", (int)kept, digits, digits + n);
+            return;
+        }
+    if (is_number && has_unit)
+        snprintf(out, size, "%s %s", value, strcmp(unit, "byte") == 0 ? "bytes" : unit);
+    else
+        snprintf(out, size, "%s", value);
+}
+
+/* Items by which a file shows what it holds, or which a case tells about it. */
+static const struct {
+    const char *item;
+    unsigned kind;    /* that a file with this item has; 0: any */
+    const char *next; /* what to do with it if it is the first; NULL: by its kind */
+} telling[] = {{"curves", WT_KIND_FORCE, NULL},
+               {"thermal noise", WT_KIND_NOISE, "thermal"},
+               {"record of friction", WT_KIND_RECORD, "record"},
+               {"spring constant", 0, NULL},
+               {"deflection sensitivity", 0, NULL},
+               {"isotherms", WT_KIND_SWEEP, NULL},
+               {"temperature sweeps", WT_KIND_SWEEP, "ramp"},
+               {"strain sweeps", WT_KIND_SWEEP, "payne"},
+               {"deformation", 0, NULL},
+               {"power spectrum", WT_KIND_SPECTRUM, NULL}};
+
+static void read_fact(const char *item, const char *value, const char *unit, const char *source,
+                      found_file *found)
+{
+    const size_t used = strlen(found->words);
+    for (size_t i = 0; i < COUNT_OF(telling); i++) {
+        char shown[160];
+        if (strcmp(item, telling[i].item) != 0 || strcmp(value, "0") == 0 ||
+            strstr(found->words, item) != NULL) /* the header and what became of it */
+            continue;
+        if (found->kind == 0) {
+            found->kind = telling[i].kind;
+            found->next = telling[i].next;
+        }
+        found_value(value, unit, shown, sizeof shown);
+        snprintf(found->words + used, sizeof found->words - used, "%s%s %s",
+                 strchr(found->words, ',') != NULL || strchr(found->words, ' ') != NULL ? ", "
+                                                                                        : ": ",
+                 item, shown);
+    }
+    static const char radius[] = "tip radius, "; /* the unit behind it */
+    if (strncmp(item, radius, sizeof radius - 1) == 0) {
+        const char *of = item + sizeof radius - 1;
+        snprintf(found->tip, sizeof found->tip, "sphere:radius=%s%.*s", value,
+                 (int)strcspn(of, " "), of);
+    }
+    const bool unread = strcmp(item, "not readable as it is") == 0;
+    found->nothing = found->nothing || (unread && strstr(value, " not read;") != NULL);
+    const char *advice = unread ? value : strcmp(item, "missing") == 0 ? source : "";
+    for (size_t i = 0; i < FOUND_N_MISSING; i++) {
+        char option[32];
+        snprintf(option, sizeof option, "--%s", found_missing_rows[i].name);
+        found->missing[i] = found->missing[i] || strstr(advice, option) != NULL;
+    }
+}
+
+static bool begins_with(const char *text, const char *begin)
+{
+    return strncmp(text, begin, strlen(begin)) == 0;
+}
+
+/* What the columns of a table are, and heights along one line. */
+static void read_columns(const char *item, const char *value, found_file *found)
+{
+    found->has_x |= begins_with(value, "position_x");
+    found->has_y |= begins_with(value, "position_y");
+    found->has_force |= begins_with(value, "friction_force");
+    found->has_load |=
+        begins_with(value, "normal_force") || begins_with(value, "friction_coefficient");
+    found->one_row |= begins_with(item, "image ") && strstr(value, " x 1 pixels") != NULL;
+}
+
+bool found_asks(const found_file *found, size_t missing)
+{
+    const bool by_column =
+        *found->unitless != '\0' && strcmp(found_missing_rows[missing].name, "units") == 0;
+    return found->missing[missing] && !by_column;
+}
+
+/* A column that says no unit is told with a --units of its own. */
+static void read_unitless(const char *item, const char *value, found_file *found)
+{
+    static const char column[] = "column \"";
+    const size_t used = strlen(found->unitless), begin = sizeof column - 1, length = strlen(item);
+    if (strncmp(item, column, begin) == 0 && strstr(value, "give --units") != NULL &&
+        length - begin + used < sizeof found->unitless)
+        snprintf(found->unitless + used, sizeof found->unitless - used, "%.*s\n",
+                 (int)(length - begin - 1), item + begin);
+}
+
+static void read_facts(const wt_formats *formats, const wt_table *facts, found_file *found)
+{
+    const wt_format_info *format = NULL;
+    for (size_t row = 0; row < wt_table_n_rows(facts); row++) {
+        const char *item = wt_table_text(facts, row, FACTS_ITEM);
+        const char *value = wt_table_text(facts, row, FACTS_VALUE);
+        if (format == NULL && strcmp(item, "format") == 0) {
+            format = wt_formats_find(formats, value);
+            snprintf(found->words, sizeof found->words, "%s", value);
+        }
+        found->is_result = found->is_result || strncmp(item, "table ", 6) == 0;
+        read_unitless(item, value, found);
+        read_columns(item, value, found);
+        read_fact(item, value, wt_table_text(facts, row, FACTS_UNIT),
+                  wt_table_text(facts, row, FACTS_SOURCE), found);
+    }
+    found->is_result =
+        found->is_result && format != NULL && strncmp(format->id, "weartrack-", 10) == 0;
+    /* what is not readable as it is does not show its kind */
+    if (found->kind == 0 && format != NULL && !found->is_result)
+        found->kind = format->kinds & (~format->kinds + 1);
+    if (format != NULL && found->kind == WT_KIND_FORCE && (format->kinds & WT_KIND_IMAGE) != 0 &&
+        strstr(found->words, "curves") == NULL)
+        found->kind = WT_KIND_IMAGE;
+}
+
+wt_status found_look(cmd_session *s, const char *path, const wt_read_options *options,
+                     wt_parselog *log, wt_table **facts, found_file *found)
+{
+    wt_input *input = NULL;
+    *found = (found_file){0};
+    wt_status status = wt_input_open(path, &input, &s->err);
+    if (status == WT_OK)
+        status = wt_describe(s->formats, input, options, log, facts, &s->err);
+    if (status == WT_OK)
+        read_facts(s->formats, *facts, found);
+    else
+        wt_error_file(&s->err, path);
+    wt_input_close(input);
+    return status;
+}

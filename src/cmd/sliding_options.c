@@ -1,0 +1,319 @@
+/* Options about rubber, counter surface and conditions. SPDX-License-Identifier: GPL-3.0-or-later
+ */
+#include <math.h>
+#include <string.h>
+
+#include "cmd/sliding_options.h"
+#include "cmd/table_output.h"
+
+static const wt_param contact_rows[] = {
+    {PARAM_TEXT_OF("material", cmd_contact, material), .value = "FILE", .letter = 'm', .unset = "",
+     .help =
+         "output of weartrack master (text stream or .h5; - is standard input), a text table of "
+         "E' and E'' at one temperature, or fractional-zener:e0=..Pa,eg=..Pa,tau=..s,alpha=.."},
+    {PARAM_TEXTS_OF("dma", cmd_contact, dma_files, n_dma), .value = "FILE", .unset = "",
+     .help = "DMA file, folder or pattern instead of --material; repeatable"},
+    {PARAM_TEXT_OF("roughness", cmd_contact, roughness), .value = "R", .flags = PARAM_REQUIRED,
+     .help = "counter surface: self-affine:q0=..rad/m,qr=..rad/m,q1=..rad/m,hurst=..,c0=..m^4, a "
+             "spectrum file, or height maps of it: a file, or a folder or pattern of several"},
+    {PARAM_TEXT_OF("strain-softening", cmd_contact, softening), .value = "FILE", .unset = "",
+     .help = "how the moduli soften with strain: output of weartrack payne, or a table with "
+             "columns strain, f and g (and f_error, g_error), by which E' and E'' are multiplied"},
+    {PARAM("softening-temperature", cmd_contact, softening_temperature, WT_Q_TEMPERATURE, ABOVE(0)),
+     .value = "T", .unset = "they are of one",
+     .help = "of strain sweeps at several temperatures take those nearest to this one"},
+    {PARAM_TEXT_OF("layer-comparison", cmd_contact, layer_comparison), .value = "FILE", .unset = "",
+     .help = "output of weartrack compare, whose modulus ratios at several indentation rates are "
+             "those of the layer, instead of --modulus-ratio"},
+    {PARAM_TEXT_OF("layer-material", cmd_contact, layer_material), .value = "FILE", .unset = "",
+     .help = "the layer's own rubber, as --material gives that of the bulk, instead of a modulus "
+             "ratio"},
+    {PARAM_TEXT_OF("wear-of", cmd_contact, wear_of), .value = "FILE", .unset = "",
+     .help = "output of weartrack record, whose specific wear rate is that of the layer unless "
+             "--specific-wear-rate gives one"},
+};
+
+static cmd_contact no_contact(void)
+{
+    return (cmd_contact){.softening_temperature = (double)NAN};
+}
+PARAM_LOCAL_TABLE(contact_params, cmd_contact, contact_rows, no_contact, NO_PARTS)
+
+void cmd_sliding_init(cmd_sliding *s, cmd_part own)
+{
+    memset(s, 0, sizeof *s);
+    s->conditions = wt_sliding_defaults();
+    s->master = wt_master_job_defaults();
+    s->options = wt_rubber_options_defaults();
+    s->transverse = wt_transverse_defaults();
+    s->set.read = wt_read_defaults();
+    s->session = cmd_session_defaults();
+    s->contact = no_contact();
+    s->parts[CMD_CONTACT] =
+        (cmd_part){contact_params(), &s->contact,
+                   "material dma roughness strain-softening softening-temperature "
+                   "layer-comparison layer-material",
+                   0};
+    s->parts[CMD_CONDITIONS] = (cmd_part){wt_sliding_params(), &s->conditions, NULL, 0};
+    s->parts[CMD_WORK] = (cmd_part){wt_job_params(), &s->session.work, NULL, 0};
+    s->parts[CMD_MASTER] = (cmd_part){wt_master_job_params(), &s->master, NULL, 0};
+    s->parts[CMD_RUBBER] = (cmd_part){wt_rubber_options_params(), &s->options, NULL, 0};
+    s->parts[CMD_TRANSVERSE] = (cmd_part){wt_transverse_params(), &s->transverse, NULL, 0};
+    s->parts[CMD_READ] = (cmd_part){
+        wt_read_params(), &s->set.read,
+        "temperature temperature-in-name units pixel-size height-unit format sheet deformation "
+        "strain sample sample-by spectrum-convention",
+        0};
+    s->parts[CMD_OWN] = own;
+    s->known = wt_layer_known_defaults();
+    s->parts[CMD_KNOWN] = (cmd_part){wt_layer_known_params(), &s->known, "", 0};
+}
+
+int cmd_sliding_free(cmd_sliding *s)
+{
+    wt_rubber_clear(&s->rubber);
+    wt_surface_clear(&s->surface);
+    wt_softness_clear(&s->softness);
+    wt_rubber_clear(&s->layer_rubber);
+    wt_result_free(s->material_tables);
+    wt_result_free(s->layer_tables);
+    return cmd_session_free(&s->session);
+}
+
+/* What is known of a layer is that of CMD_OWN where a subcommand has it there. */
+static bool is_given_of_layer(const cmd_sliding *s, const char *name)
+{
+    return cmd_given(&s->parts[CMD_OWN], name) || cmd_given(&s->parts[CMD_KNOWN], name);
+}
+
+/* A slope is that of a ratio: no file of the layer takes one. */
+static bool check_layer_modulus(cmd_sliding *s)
+{
+    const bool ratio = is_given_of_layer(s, "modulus-ratio");
+    const int files = (s->contact.layer_comparison != NULL) + (s->contact.layer_material != NULL);
+    if (files + ratio > 1)
+        return cmd_usage_error(&s->session, "give one of --modulus-ratio, --layer-comparison and "
+                                            "--layer-material");
+    return ratio || !is_given_of_layer(s, "ratio-slope") ||
+           cmd_usage_error(&s->session, "--ratio-slope goes with --modulus-ratio");
+}
+
+bool cmd_sliding_parse(cmd_sliding *s, const cmd_usage *usage, int argc, char **argv)
+{
+    cmd_session *session = &s->session;
+    if (!cmd_parse(session, usage, s->parts, CMD_SLIDING_PARTS, argc, argv))
+        return false;
+    if (session->n_arguments > 0)
+        return cmd_usage_error(session, "there is an argument too many; files go with --material "
+                                        "or --dma");
+    if ((s->contact.material != NULL) + (s->contact.n_dma > 0) + (session->n_files > 0) != 1)
+        return cmd_usage_error(session, "give either --material FILE or --dma FILE (or the names "
+                                        "of DMA files with --files-from)");
+    if (s->contact.softening == NULL && cmd_given(&s->parts[CMD_CONDITIONS], "strain-factor"))
+        return cmd_usage_error(session, "--strain-factor goes with --strain-softening");
+    if (s->contact.softening == NULL && cmd_given(&s->parts[CMD_CONTACT], "softening-temperature"))
+        return cmd_usage_error(session, "--softening-temperature goes with --strain-softening");
+    if (!check_layer_modulus(s))
+        return false;
+    if (wt_anisotropy_check(&s->conditions.anisotropy, &session->err) != WT_OK)
+        return cmd_param_error(session);
+    if (s->contact.material != NULL && cmd_given(&s->parts[CMD_READ], "temperature"))
+        return cmd_usage_error(session, "--temperature is that of --dma files; the rubber's while "
+                                        "it slides is --sliding-temperature");
+    return true;
+}
+
+static wt_status fit_material(cmd_sliding *s, wt_error *err)
+{
+    wt_master_tables tables = {0};
+    const bool listed = s->session.n_files > 0;
+    s->set.patterns = listed ? s->session.files : s->contact.dma_files;
+    s->set.n_patterns = listed ? s->session.n_files : s->contact.n_dma;
+    s->master.sets = &s->set;
+    s->master.n_sets = 1;
+    wt_job work = s->session.work;
+    work.left_out |= WT_EXTRA_REDUCED | WT_EXTRA_SPECTRUM;
+    if (work.replicates < 2)
+        work.left_out |= WT_EXTRA_DRAWS;
+    wt_status status = wt_master_make(&s->master, &work, &tables, &s->rubber, err);
+    if (status == WT_OK && s->options.moduli == WT_MODULI_POINTS)
+        status = wt_rubber_tabulate(&s->rubber, tables.master_curve, &s->options, err);
+    wt_master_tables_clear(&tables);
+    return status;
+}
+
+/* A law in words, and no name of a file: what is wrong with it is wrong with the call. */
+static bool is_law(const char *text)
+{
+    return text != NULL &&
+           (strncmp(text, "self-affine:", 12) == 0 || strncmp(text, "fractional-zener:", 17) == 0);
+}
+
+/* What is given as a material. */
+typedef struct given_rubber {
+    const char *from, *sample;
+    wt_result **tables; /* those of a result */
+    wt_rubber *rubber;
+} given_rubber;
+
+/* A result: the series, the points of its master curve if they are asked for or all there is. A
+ * file without either is taken for a table of moduli, and if it is none the first error holds. */
+static wt_status read_material(const cmd_sliding *s, given_rubber given, wt_error *err)
+{
+    const char *const from = given.from, *const sample = given.sample;
+    const double poisson = s->master.poisson_ratio;
+    wt_error first = WT_ERROR_INIT;
+    wt_read_options read = s->set.read;
+    read.sample = sample;
+    read.temperature = s->master.fit.reference_temperature;
+    if (is_law(from)) {
+        const wt_status law =
+            wt_rubber_open(from, &read, &s->options, poisson, &s->session.work, given.rubber, err);
+        given.rubber->prony.reference_temperature = read.temperature;
+        return law;
+    }
+    wt_job work = s->session.work;
+    wt_status status =
+        cmd_rubber_read(from, sample, poisson, &work, given.tables, given.rubber, &first);
+    const wt_table *curve = cmd_table_of_sample(*given.tables, "master_curve", sample);
+    if (curve != NULL &&
+        (status == WT_E_NOT_FOUND || (status == WT_OK && s->options.moduli == WT_MODULI_POINTS))) {
+        given.rubber->poisson_ratio = poisson;
+        return wt_rubber_tabulate(given.rubber, curve, &s->options, err);
+    }
+    const bool of_samples =
+        status == WT_E_AMBIGUOUS || cmd_tables_have(*given.tables, "shift_factors");
+    if (status != WT_OK && status != WT_E_MEMORY && !of_samples && strcmp(from, "-") != 0) {
+        if (*given.tables != NULL) { /* an input already */
+            work.provenance = NULL;
+            work.cost = NULL;
+        }
+        const wt_status table =
+            wt_rubber_open(from, &read, &s->options, poisson, &work, given.rubber, err);
+        if (table != WT_E_FORMAT && table != WT_E_NOT_FOUND)
+            return table;
+    }
+    if (status != WT_OK)
+        *err = first;
+    return status;
+}
+
+bool cmd_sliding_knows_layer(const cmd_sliding *s, const cmd_part *part)
+{
+    return cmd_given(part, "modulus-ratio") || s->contact.layer_comparison != NULL ||
+           s->contact.layer_material != NULL;
+}
+
+static wt_layer_known *known_of(cmd_sliding *s)
+{
+    return s->parts[CMD_OWN].params == wt_layer_known_params()
+               ? (wt_layer_known *)s->parts[CMD_OWN].structure
+               : &s->known;
+}
+
+/* The modulus of the layer from files. */
+static wt_status read_layer(cmd_sliding *s, wt_error *err)
+{
+    const cmd_contact *c = &s->contact;
+    const wt_table *comparison = NULL, *rates = NULL;
+    wt_status status = WT_OK;
+    if (c->layer_material != NULL) {
+        s->conditions.layer_rubber = &s->layer_rubber;
+        return read_material(
+            s, (given_rubber){c->layer_material, NULL, &s->layer_tables, &s->layer_rubber}, err);
+    }
+    status = wt_tables_read(c->layer_comparison, c->layer_comparison, &s->session.work,
+                            (wt_tables_role){"modulus of the layer", "modulus of the layer", NULL},
+                            &s->layer_tables, err);
+    if (status == WT_OK)
+        status = cmd_table_find(s->layer_tables, c->layer_comparison, "comparison", "compare",
+                                &comparison, err);
+    if (status == WT_OK)
+        status = cmd_table_find(s->layer_tables, c->layer_comparison, "modulus_rate", "compare",
+                                &rates, err);
+    return status == WT_OK ? wt_layer_known_by_rate(comparison, rates, known_of(s), err) : status;
+}
+
+static wt_status read_wear(cmd_sliding *s, wt_error *err)
+{
+    const char *const path = s->contact.wear_of;
+    const wt_table *wear = NULL;
+    wt_result *result = NULL;
+    wt_status status = wt_tables_read(
+        path, path, &s->session.work,
+        (wt_tables_role){"wear of the layer", "wear of the layer", NULL}, &result, err);
+    if (status == WT_OK)
+        status = cmd_table_find(result, path, "wear", "record", &wear, err);
+    if (status == WT_OK && (!wt_table_estimate(wear, "specific_wear_rate", &s->measured_wear) ||
+                            isnan(s->measured_wear.value))) {
+        status = wt_fail(err, WT_E_EMPTY, "the result tells no specific wear rate");
+        wt_error_file(err, path);
+        wt_error_advice(err, "its table wear says why");
+    }
+    wt_result_free(result);
+    return status;
+}
+
+void cmd_sliding_wear(cmd_sliding *s, wt_estimate *rate)
+{
+    const wt_estimate measured = s->measured_wear;
+    if (s->contact.wear_of == NULL)
+        return;
+    if (isnan(rate->value))
+        *rate = measured;
+    else
+        wt_parselog_add(s->session.log, WT_WARNING, s->contact.wear_of, NULL,
+                        "the specific wear rate given is %.3g times the one measured, %.3g m^2/N; "
+                        "the one given is taken",
+                        rate->value / measured.value, measured.value);
+}
+
+bool cmd_sliding_open(cmd_sliding *s)
+{
+    wt_error *err = &s->session.err;
+    wt_job *work = &s->session.work;
+    if (!cmd_begin_reading(&s->session, s->set.read.format) ||
+        !cmd_share_units(&s->session, &s->set.read))
+        return false;
+    /* without all that was asked for there is no friction */
+    wt_table_free(work->failures);
+    work->failures = NULL;
+    wt_cost_stage(s->session.cost, s->contact.material != NULL ? "given_material" : "master_curve");
+    const given_rubber bulk = {s->contact.material, s->set.read.sample, &s->material_tables,
+                               &s->rubber};
+    wt_status status = bulk.from != NULL ? read_material(s, bulk, err) : fit_material(s, err);
+    if (status == WT_OK && s->contact.material != NULL)
+        wt_rubber_cost(&s->rubber, work);
+    bool wrong_words = status != WT_OK && is_law(s->contact.material);
+    s->rubber.is_transverse = s->parts[CMD_TRANSVERSE].given != 0;
+    s->rubber.transverse = s->transverse;
+    wt_cost_stage(s->session.cost, "roughness");
+    if (status == WT_OK) {
+        status = wt_surface_open(s->contact.roughness, &s->set.read, work, &s->surface, err);
+        wrong_words = status != WT_OK && is_law(s->contact.roughness);
+        if (status == WT_E_NOT_FOUND)
+            wt_error_advice(err, "--roughness takes a spectrum, height maps or "
+                                 "self-affine:q0=..,qr=..,q1=..,hurst=..,c0=..");
+    }
+    if (status == WT_OK && s->contact.softening != NULL) {
+        const wt_softness_choice choice = {.temperature = s->contact.softening_temperature,
+                                           .sample = s->set.read.sample};
+        status = wt_softness_read(s->contact.softening, s->contact.softening, choice, work,
+                                  &s->softness, err);
+        s->conditions.softness = &s->softness;
+    }
+    if (status == WT_OK &&
+        (s->contact.layer_comparison != NULL || s->contact.layer_material != NULL)) {
+        status = read_layer(s, err);
+        wrong_words = status != WT_OK && is_law(s->contact.layer_material);
+    }
+    if (status == WT_OK && s->contact.wear_of != NULL)
+        status = read_wear(s, err);
+    s->conditions.rubber = &s->rubber;
+    s->conditions.surface = &s->surface;
+    if (status != WT_OK)
+        cmd_end(&s->session, status);
+    if (wrong_words && status != WT_E_MEMORY)
+        s->session.status = CMD_USAGE;
+    return status == WT_OK;
+}

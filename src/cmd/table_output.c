@@ -1,0 +1,146 @@
+/* Tables from files. SPDX-License-Identifier: GPL-3.0-or-later */
+#include <string.h>
+
+#include "cmd/table_output.h"
+
+bool cmd_tables_have(const wt_result *tables, const char *prefix)
+{
+    for (size_t i = 0; tables != NULL && i < wt_result_n_tables(tables); i++)
+        if (strncmp(wt_table_name(wt_result_table(tables, i)), prefix, strlen(prefix)) == 0)
+            return true;
+    return false;
+}
+
+wt_status cmd_tables_read(const char *path, wt_result **tables, wt_error *err)
+{
+    return wt_tables_read(path, path, NULL, (wt_tables_role){NULL, NULL, NULL}, tables, err);
+}
+
+size_t cmd_tables_remarks(const wt_result *tables)
+{
+    const wt_table *notes = wt_result_find(tables, "notes");
+    const long severity = notes != NULL ? wt_table_find(notes, "severity") : -1;
+    size_t n = 0;
+    if (severity < 0 || wt_table_column_kind(notes, (size_t)severity) != WT_COLUMN_TEXT)
+        return 0;
+    for (size_t row = 0; row < wt_table_n_rows(notes); row++)
+        n += strcmp(wt_table_text(notes, row, (size_t)severity), wt_severity_name(WT_NOTE)) != 0;
+    return n;
+}
+
+void cmd_strict_remarks(cmd_session *s, const char *path, size_t n)
+{
+    if (n == 0 || !s->common.strict)
+        return;
+    cmd_say("weartrack %s: %s: %zu remark%s: exit status 1 (--strict)\n", s->name, path, n,
+            n == 1 ? "" : "s");
+    s->status = CMD_FAILED;
+}
+
+wt_status cmd_table_find(const wt_result *tables, const char *path, const char *prefix,
+                         const char *made_by, const wt_table **table, wt_error *err)
+{
+    for (size_t i = 0; i < wt_result_n_tables(tables); i++) {
+        *table = wt_result_table(tables, i);
+        if (strncmp(wt_table_name(*table), prefix, strlen(prefix)) == 0)
+            return WT_OK;
+    }
+    wt_fail(err, WT_E_NOT_FOUND, "a table is missing");
+    wt_error_file(err, path);
+    wt_error_expected(err, "a table '%s'", prefix);
+    wt_error_found(err, "'%s'", wt_table_name(wt_result_table(tables, 0)));
+    wt_error_advice(err, "give the output of weartrack %s", made_by);
+    return WT_E_NOT_FOUND;
+}
+
+/* ---- of samples ------------------------------------------------------------------------------ */
+
+/* What stands behind the name of a table and a slash; NULL: it is another table. */
+static const char *suffix_of(const wt_table *table, const char *name)
+{
+    const size_t n = strlen(name);
+    const char *const own = wt_table_name(table);
+    return strncmp(own, name, n) == 0 && own[n] == '/' ? own + n + 1 : NULL;
+}
+
+/* Whether the shifts with a suffix, or without one, name the sample. */
+static bool names_sample(const wt_result *tables, const char *suffix, const char *sample)
+{
+    for (size_t i = 0; i < wt_result_n_tables(tables); i++) {
+        const wt_table *t = wt_result_table(tables, i);
+        const char *const own = suffix_of(t, "shift_factors");
+        const char *const named = wt_table_key(t, "sample");
+        if (named != NULL && strcmp(named, sample) == 0 &&
+            (suffix != NULL ? own != NULL && strcmp(own, suffix) == 0
+                            : strcmp(wt_table_name(t), "shift_factors") == 0))
+            return true;
+    }
+    return false;
+}
+
+const wt_table *cmd_table_of_sample(const wt_result *tables, const char *table, const char *sample)
+{
+    const wt_table *alone = tables != NULL ? wt_result_find(tables, table) : NULL;
+    if (tables == NULL || sample == NULL)
+        return alone;
+    for (size_t i = 0; i < wt_result_n_tables(tables); i++) {
+        const wt_table *t = wt_result_table(tables, i);
+        const char *const suffix = suffix_of(t, table);
+        if (suffix != NULL && (strcmp(suffix, sample) == 0 || names_sample(tables, suffix, sample)))
+            return t;
+    }
+    return alone != NULL && names_sample(tables, NULL, sample) ? alone : NULL;
+}
+
+wt_status cmd_check_sample(const wt_result *tables, const char *path, const char *table,
+                           const char *sample, wt_error *err)
+{
+    char found[256] = "";
+    size_t used = 0;
+    if (cmd_table_of_sample(tables, table, sample) != NULL)
+        return WT_OK;
+    for (size_t i = 0; i < wt_result_n_tables(tables) && used < sizeof found; i++) {
+        const char *const suffix = suffix_of(wt_result_table(tables, i), table);
+        if (suffix != NULL)
+            used += (size_t)snprintf(found + used, sizeof found - used, "%s%s",
+                                     used > 0 ? ", " : "", suffix);
+    }
+    if (used == 0 && (sample == NULL || wt_result_find(tables, table) == NULL))
+        return WT_OK; /* it is not of samples at all */
+    const wt_table *const shifts = wt_result_find(tables, "shift_factors");
+    const char *const alone = shifts != NULL ? wt_table_key(shifts, "sample") : NULL;
+    if (sample == NULL)
+        wt_fail(err, WT_E_AMBIGUOUS, "results of several samples");
+    else
+        wt_fail(err, WT_E_NOT_FOUND, "no result is of the sample \"%s\"", sample);
+    wt_error_file(err, path);
+    wt_error_found(err, "%s", used > 0 ? found : alone != NULL ? alone : "one without a name");
+    if (sample == NULL)
+        wt_error_advice(err, "choose one with --sample NAME, here or of weartrack master");
+    return err->status;
+}
+
+wt_status cmd_rubber_of(const wt_result *tables, const char *path, const char *sample,
+                        double poisson_ratio, wt_rubber *rubber, wt_error *err)
+{
+    wt_rubber_tables of = {.prony = cmd_table_of_sample(tables, "prony", sample),
+                           .shift_factors = cmd_table_of_sample(tables, "shift_factors", sample),
+                           .material_draws = cmd_table_of_sample(tables, "material_draws", sample),
+                           .series_draws = cmd_table_of_sample(tables, "series_draws", sample)};
+    wt_status status = cmd_check_sample(tables, path, "prony", sample, err);
+    if (status == WT_OK && of.prony == NULL)
+        status = cmd_table_find(tables, path, "prony", "master", &of.prony, err);
+    if (status == WT_OK)
+        status = wt_rubber_from_tables(&of, poisson_ratio, rubber, err);
+    wt_error_file(status != WT_OK ? err : NULL, path);
+    return status;
+}
+
+wt_status cmd_rubber_read(const char *path, const char *sample, double poisson_ratio,
+                          const wt_job *work, wt_result **tables, wt_rubber *rubber, wt_error *err)
+{
+    const wt_status status = wt_tables_read(
+        path, path, work, (wt_tables_role){"material", "material", NULL}, tables, err);
+    return status == WT_OK ? cmd_rubber_of(*tables, path, sample, poisson_ratio, rubber, err)
+                           : status;
+}

@@ -1,0 +1,51 @@
+/* Growing arrays, lists of numbers. SPDX-License-Identifier: GPL-3.0-or-later */
+#include "core/base/array.h"
+
+#include <stdbool.h>
+#include <stdint.h>
+#include <stdlib.h>
+
+/* There is room for a power of two, so that what is full follows from n. */
+void *array_grow(void *array, size_t n, size_t size)
+{
+    enum { FIRST = 8 };
+    const bool full = n == 0 || (n >= FIRST && (n & (n - 1)) == 0);
+    if (!full)
+        return array;
+    const size_t room = n == 0 ? FIRST : 2 * n;
+    return room > SIZE_MAX / size ? NULL : realloc(array, room * size);
+}
+
+int numbers_compare(const void *a, const void *b)
+{
+    const double x = *(const double *)a, y = *(const double *)b;
+    return x < y ? -1 : x > y;
+}
+
+void numbers_sort(double *x, size_t n)
+{
+    qsort(x, n, sizeof *x, numbers_compare);
+}
+
+double numbers_median(double *x, size_t n)
+{
+    numbers_sort(x, n);
+    return n % 2 == 1 ? x[n / 2] : 0.5 * (x[n / 2 - 1] + x[n / 2]);
+}
+
+double numbers_mean(const double *x, size_t n)
+{
+    double sum = 0;
+    for (size_t i = 0; i < n; i++)
+        sum += x[i];
+    return sum / (double)n;
+}
+
+void numbers_reverse(double *x, size_t n)
+{
+    for (size_t i = 0; i < n / 2; i++) {
+        const double kept = x[i];
+        x[i] = x[n - 1 - i];
+        x[n - 1 - i] = kept;
+    }
+}

@@ -1,0 +1,118 @@
+/* Status codes and the error object. SPDX-License-Identifier: GPL-3.0-or-later */
+#include "core/base/clocale.h"
+#include "core/base/utf8.h"
+#include "weartrack/base.h"
+
+#include <stdarg.h>
+#include <string.h>
+
+const char *wt_status_text(wt_status status)
+{
+    static const char *const texts[] = {
+#define STATUS_TEXT(name, text) text,
+        WT_STATUS_LIST(STATUS_TEXT)
+#undef STATUS_TEXT
+    };
+    const size_t i = (size_t)status;
+    return i < sizeof texts / sizeof *texts ? texts[i] : "unknown status";
+}
+
+/* Ends text that did not fit with "...", at a whole character. */
+static void mark_cut(char *buffer, size_t size)
+{
+    const size_t cut = utf8_cut(buffer, strlen(buffer), size - 4);
+    memcpy(buffer + cut, "...", 4);
+}
+
+static void set_text(char *buffer, size_t size, const char *format, va_list arguments)
+    WT_PRINTF(3, 0);
+static void set_text(char *buffer, size_t size, const char *format, va_list arguments)
+{
+    const int needed = clocale_vprint(buffer, size, format, arguments);
+    if (needed < 0)
+        buffer[0] = '\0';
+    else if ((size_t)needed >= size)
+        mark_cut(buffer, size);
+    utf8_tidy(buffer);
+}
+
+wt_status wt_fail(wt_error *err, wt_status status, const char *format, ...)
+{
+    if (err != NULL) {
+        /* The arguments may point into *err, so the text is made before anything is cleared. */
+        char message[sizeof err->message];
+        va_list arguments;
+        va_start(arguments, format);
+        set_text(message, sizeof message, format, arguments);
+        va_end(arguments);
+        *err = (wt_error)WT_ERROR_INIT;
+        err->status = status;
+        memcpy(err->message, message, sizeof message);
+    }
+    return status;
+}
+
+void wt_error_file(wt_error *err, const char *file)
+{
+    if (err == NULL || file == NULL || err->file[0] != '\0')
+        return;
+    err->file[sizeof err->file - 1] = '\0';
+    strncpy(err->file, file, sizeof err->file - 1);
+    if (strlen(file) >= sizeof err->file)
+        mark_cut(err->file, sizeof err->file);
+}
+
+#define DEFINE_PART(part)                                                                          \
+    void wt_error_##part(wt_error *err, const char *format, ...)                                   \
+    {                                                                                              \
+        if (err != NULL) {                                                                         \
+            char text[sizeof err->part];                                                           \
+            va_list arguments;                                                                     \
+            va_start(arguments, format);                                                           \
+            set_text(text, sizeof text, format, arguments);                                        \
+            va_end(arguments);                                                                     \
+            memcpy(err->part, text, sizeof text);                                                  \
+        }                                                                                          \
+    }
+DEFINE_PART(place)
+DEFINE_PART(expected)
+DEFINE_PART(found)
+DEFINE_PART(advice)
+#undef DEFINE_PART
+
+size_t wt_error_format(const wt_error *err, char *buffer, size_t size)
+{
+    char file[sizeof err->file];
+    memcpy(file, err->file, sizeof file);
+    utf8_tidy(file);
+    const char *const message =
+        err->message[0] != '\0' ? err->message : wt_status_text(err->status);
+    const struct {
+        const char *before, *text;
+    } parts[] = {{"", file},
+                 {": ", err->place},
+                 {": ", message},
+                 {"; expected ", err->expected},
+                 {"; found ", err->found},
+                 {"; ", err->advice}};
+    size_t needed = 0;
+    for (size_t i = 0; i < sizeof parts / sizeof *parts; i++) {
+        if (parts[i].text[0] == '\0')
+            continue;
+        const char *const pieces[2] = {needed > 0 ? parts[i].before : "", parts[i].text};
+        for (size_t k = 0; k < 2; k++) {
+            const size_t length = strlen(pieces[k]);
+            if (needed < size) {
+                const size_t room = size - needed - 1;
+                memcpy(buffer + needed, pieces[k], length < room ? length : room);
+            }
+            needed += length;
+        }
+    }
+    if (size > 0) {
+        buffer[needed < size ? needed : size - 1] = '\0';
+        if (needed >= size && size >= 4)
+            mark_cut(buffer, size);
+    }
+    return needed;
+}

@@ -1,0 +1,136 @@
+/* The parse log: notes and warnings, each text once per file with a count.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#include "core/base/array.h"
+#include "core/base/clocale.h"
+#include "core/base/utf8.h"
+#include "weartrack/base.h"
+
+#include <search.h>
+#include <stdarg.h>
+#include <stdlib.h>
+#include <string.h>
+
+typedef struct log_entry {
+    wt_severity severity;
+    char *file, *place, *text;
+    size_t count;
+} log_entry;
+
+struct wt_parselog {
+    log_entry **entries; /* in the order they came */
+    size_t n;
+    void *tree; /* the same entries for tsearch */
+    size_t lost;
+};
+
+static int by_entry(const void *a, const void *b)
+{
+    const log_entry *const p = a, *const q = b;
+    if (p->severity != q->severity)
+        return p->severity < q->severity ? -1 : 1;
+    const int by_file = strcmp(p->file, q->file);
+    return by_file != 0 ? by_file : strcmp(p->text, q->text);
+}
+
+static void entry_free(log_entry *e)
+{
+    if (e == NULL)
+        return;
+    free(e->file);
+    free(e->place);
+    free(e->text);
+    free(e);
+}
+
+static void keep_entry(void *node)
+{
+    (void)node; /* the entries belong to the list */
+}
+
+const char *wt_severity_name(wt_severity severity)
+{
+    return severity == WT_NOTE ? "note" : severity == WT_WARNING ? "warning" : "loss";
+}
+
+wt_parselog *wt_parselog_new(void)
+{
+    return calloc(1, sizeof(wt_parselog));
+}
+
+void wt_parselog_free(wt_parselog *log)
+{
+    if (log == NULL)
+        return;
+    tdestroy(log->tree, keep_entry);
+    for (size_t i = 0; i < log->n; i++)
+        entry_free(log->entries[i]);
+    free(log->entries);
+    free(log);
+}
+
+/* Adds a text, which it copies. */
+static bool add(wt_parselog *log, wt_severity severity, const char *file, const char *place,
+                const char *text)
+{
+    log_entry *new_entry = calloc(1, sizeof *new_entry);
+    if (new_entry == NULL)
+        return false;
+    new_entry->severity = severity;
+    new_entry->file = strdup(file != NULL ? file : "");
+    new_entry->place = strdup(place != NULL ? place : "");
+    new_entry->text = strdup(text);
+    new_entry->count = 1;
+    const bool whole =
+        new_entry->file != NULL && new_entry->place != NULL && new_entry->text != NULL;
+    log_entry **const entries = whole ? array_grow(log->entries, log->n, sizeof *entries) : NULL;
+    if (entries != NULL)
+        log->entries = entries;
+    log_entry *const *const found =
+        entries != NULL ? tsearch(new_entry, &log->tree, by_entry) : NULL;
+    if (found != NULL && *found == new_entry) {
+        log->entries[log->n++] = new_entry;
+        return true;
+    }
+    if (found != NULL)
+        (*found)->count++;
+    entry_free(new_entry);
+    return found != NULL;
+}
+
+void wt_parselog_add(wt_parselog *log, wt_severity severity, const char *file, const char *place,
+                     const char *format, ...)
+{
+    if (log == NULL)
+        return;
+    char *text = NULL;
+    va_list arguments;
+    va_start(arguments, format);
+    const locale_t previous = clocale_enter();
+    const int length = vasprintf(&text, format, arguments);
+    clocale_leave(previous);
+    va_end(arguments);
+    if (length < 0) {
+        log->lost++;
+        return;
+    }
+    utf8_tidy(text);
+    if (!add(log, severity, file, place, text))
+        log->lost++;
+    free(text);
+}
+
+size_t wt_parselog_count(const wt_parselog *log)
+{
+    return log != NULL ? log->n : 0;
+}
+
+wt_log_entry wt_parselog_get(const wt_parselog *log, size_t i)
+{
+    const log_entry *const e = log->entries[i];
+    return (wt_log_entry){e->severity, e->file, e->place, e->text, e->count};
+}
+
+size_t wt_parselog_lost(const wt_parselog *log)
+{
+    return log != NULL ? log->lost : 0;
+}

@@ -1,0 +1,291 @@
+/* Numbers as text, independent of the locale. SPDX-License-Identifier: GPL-3.0-or-later */
+#include "core/base/number.h"
+#include "core/base/clocale.h"
+#include "weartrack/base.h"
+
+#include <float.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* Far more digits than any instrument writes; what is longer is not a number of this trade. */
+enum { NUMBER_MAX = 512 };
+
+static bool is_blank(char c)
+{
+    return c == ' ' || (c >= '\t' && c <= '\r');
+}
+
+static size_t skip_digits(const char *text, size_t length, size_t i)
+{
+    while (i < length && text[i] >= '0' && text[i] <= '9')
+        i++;
+    return i;
+}
+
+/* strtod alone would also take hexadecimal digits, "nan" and "infinity". */
+size_t number_prefix(const char *text, size_t length, char decimal)
+{
+    size_t i = 0;
+    if (i < length && (text[i] == '+' || text[i] == '-'))
+        i++;
+    const size_t whole = i;
+    i = skip_digits(text, length, i);
+    size_t digits = i - whole;
+    if (i < length && text[i] == decimal) {
+        const size_t fraction = i + 1;
+        const size_t end = skip_digits(text, length, fraction);
+        digits += end - fraction;
+        i = end;
+    }
+    if (digits == 0)
+        return 0;
+    if (i < length && (text[i] == 'e' || text[i] == 'E')) {
+        size_t exponent = i + 1;
+        if (exponent < length && (text[exponent] == '+' || text[exponent] == '-'))
+            exponent++;
+        const size_t end = skip_digits(text, length, exponent);
+        if (end > exponent)
+            i = end;
+    }
+    return i;
+}
+
+bool wt_number_parse(const char *text, size_t length, char decimal, double *value)
+{
+    char copy[NUMBER_MAX];
+    while (length > 0 && is_blank(text[0])) {
+        text++;
+        length--;
+    }
+    while (length > 0 && is_blank(text[length - 1]))
+        length--;
+    if (length == 0 || length >= sizeof copy || number_prefix(text, length, decimal) != length)
+        return false;
+    memcpy(copy, text, length);
+    copy[length] = '\0';
+    char *const mark = decimal == '.' ? NULL : memchr(copy, decimal, length);
+    if (mark != NULL)
+        *mark = '.';
+    const locale_t previous = clocale_enter();
+    const double parsed = strtod(copy, NULL);
+    clocale_leave(previous);
+    if (!isfinite(parsed))
+        return false;
+    *value = parsed;
+    return true;
+}
+
+double number_of(const char *text)
+{
+    double value = (double)NAN;
+    return text != NULL && wt_number_parse(text, strlen(text), '.', &value) ? value : (double)NAN;
+}
+
+bool number_read(const char *text, size_t length, double *value)
+{
+    static const struct {
+        const char *text;
+        double value;
+    } special[] = {{"nan", (double)NAN}, {"inf", (double)INFINITY}, {"-inf", -(double)INFINITY}};
+    for (size_t i = 0; i < sizeof special / sizeof *special; i++) {
+        if (length == strlen(special[i].text) && memcmp(text, special[i].text, length) == 0) {
+            *value = special[i].value;
+            return true;
+        }
+    }
+    return wt_number_parse(text, length, '.', value);
+}
+
+/* "1e-05" to "1e-5", "1e+20" to "1e20". */
+static size_t shorten_exponent(char *text, size_t length)
+{
+    char *const e = memchr(text, 'e', length);
+    if (e == NULL)
+        return length;
+    char *to = e + 1;
+    const char *from = e + 1;
+    if (*from == '-')
+        *to++ = *from++;
+    else if (*from == '+')
+        from++;
+    while (*from == '0' && from[1] != '\0')
+        from++;
+    while (*from != '\0')
+        *to++ = *from++;
+    *to = '\0';
+    return (size_t)(to - text);
+}
+
+double number_to_tens(double value, int decimals)
+{
+    const double tens = pow(10, decimals < 0 ? -decimals : 0);
+    return decimals < 0 ? tens * round(value / tens) : value;
+}
+
+chance_words number_chance(double chance)
+{
+    chance_words words;
+    clocale_print(words.text, sizeof words.text,
+                  isnan(chance)   ? "not known"
+                  : chance < 1e-3 ? "below 0.001"
+                                  : "%.2g",
+                  chance);
+    return words;
+}
+
+/* A whole number of up to 15 digits, as %.15g writes it. */
+static size_t format_whole(double value, char *buffer)
+{
+    char digits[16];
+    size_t n = 0, length = 0;
+    uint64_t left = (uint64_t)fabs(value);
+    do
+        digits[n++] = (char)('0' + left % 10);
+    while ((left /= 10) > 0);
+    if (signbit(value))
+        buffer[length++] = '-';
+    while (n > 0)
+        buffer[length++] = digits[--n];
+    buffer[length] = '\0';
+    return length;
+}
+
+/* ---- by extended precision --------------------------------------------------------------------
+ */
+
+/* What is left to printf and strtod, which take ten times as long: where the extended digits do not
+ * decide, a few per cent. */
+enum { EXACT_TENS = 27, MOST_TENS = 2 * EXACT_TENS, MOST_DIGITS = 17 };
+
+/* Digits, of which the first stands for ten to the exponent. */
+typedef struct decimal {
+    uint64_t whole;
+    int digits, exponent;
+} decimal;
+
+typedef enum reads_back { NOT_CERTAIN, ANOTHER, SAME } reads_back;
+
+#if LDBL_MANT_DIG >= 64
+/* x 10^power, each product correct to half a unit in the last place: the tens are exact. */
+static long double times_tens(long double x, int power)
+{
+    static const long double tens[EXACT_TENS + 1] = {
+        1e0L,  1e1L,  1e2L,  1e3L,  1e4L,  1e5L,  1e6L,  1e7L,  1e8L,  1e9L,
+        1e10L, 1e11L, 1e12L, 1e13L, 1e14L, 1e15L, 1e16L, 1e17L, 1e18L, 1e19L,
+        1e20L, 1e21L, 1e22L, 1e23L, 1e24L, 1e25L, 1e26L, 1e27L};
+    const int size = abs(power), first = size < EXACT_TENS ? size : EXACT_TENS;
+    if (power >= 0)
+        return x * tens[first] * tens[size - first];
+    return x / tens[first] / tens[size - first];
+}
+
+/* A value above 0 rounded to so many digits, and whether that text reads back. */
+static reads_back round_to(double value, int digits, decimal *to)
+{
+    int e;
+    const bool power_of_two = !(frexp(value, &e) > 0.5); /* its neighbours are not as far */
+    int exponent = (int)floor((e - 1) * 0.30102999566398120), scale = digits - 1 - exponent;
+    if (power_of_two || abs(scale) >= MOST_TENS)
+        return NOT_CERTAIN;
+    const long double most = times_tens(1.0L, digits);
+    long double x = times_tens((long double)value, scale);
+    if (x >= most) {
+        exponent++;
+        x = times_tens((long double)value, --scale);
+    }
+    long double whole = rintl(x);
+    if (0.5L - fabsl(x - whole) < 2 * LDBL_EPSILON * x)
+        return NOT_CERTAIN;
+    const long double half = ldexpl(1.0L, e - DBL_MANT_DIG - 1),
+                      off = fabsl(times_tens(whole, -scale) - (long double)value);
+    if (fabsl(off - half) < half / 64) /* rounding is below 1/512 of it */
+        return NOT_CERTAIN;
+    if (whole >= most) {
+        exponent++;
+        whole = times_tens(1.0L, digits - 1);
+    }
+    *to = (decimal){(uint64_t)whole, digits, exponent};
+    return off < half ? SAME : ANOTHER;
+}
+#else
+static reads_back round_to(double value, int digits, decimal *to)
+{
+    (void)value, (void)digits, (void)to;
+    return NOT_CERTAIN;
+}
+#endif
+
+/* As %.*g has it, with the exponent as short as it gets. */
+static size_t format_decimal(decimal d, bool negative, char *buffer)
+{
+    char digit[MOST_DIGITS];
+    for (int i = d.digits; i-- > 0; d.whole /= 10)
+        digit[i] = (char)('0' + d.whole % 10);
+    int n = d.digits;
+    while (n > 1 && digit[n - 1] == '0')
+        n--;
+    const bool scientific = d.exponent < -4 || d.exponent >= d.digits;
+    const int before = scientific ? 1 : d.exponent + 1; /* the decimal point */
+    char *to = buffer;
+    if (negative)
+        *to++ = '-';
+    if (before <= 0) {
+        *to++ = '0';
+        *to++ = '.';
+    }
+    for (int i = before; i < 0; i++)
+        *to++ = '0';
+    for (int i = 0; i < n || i < before; i++) {
+        if (i == before && before > 0)
+            *to++ = '.';
+        *to++ = i < n ? digit[i] : '0';
+    }
+    if (scientific)
+        to += sprintf(to, "e%d", d.exponent);
+    *to = '\0';
+    return (size_t)(to - buffer);
+}
+
+/* The shortest of 15 to 17 digits that reads back; 0: not certain which. */
+static size_t format_extended(double value, char *buffer)
+{
+    decimal d;
+    for (int digits = 15; digits <= MOST_DIGITS; digits++) {
+        const reads_back back = round_to(fabs(value), digits, &d);
+        if (back == NOT_CERTAIN)
+            return 0;
+        if (back == SAME)
+            return format_decimal(d, value < 0.0, buffer);
+    }
+    return 0;
+}
+
+size_t wt_number_format(double value, char *buffer)
+{
+    enum { SIZE = 32 };
+    if (!isfinite(value)) {
+        const char *const text = isnan(value) ? "nan" : value > 0 ? "inf" : "-inf";
+        const size_t length = strlen(text);
+        memcpy(buffer, text, length + 1);
+        return length;
+    }
+    if (fabs(value) < 1e15 && !(fabs(value - trunc(value)) > 0))
+        return format_whole(value, buffer);
+    /* Any decimal number of 15 digits survives a normal double, so 15 digits without their trailing
+     * zeros are the shortest text if they read back. Subnormal numbers hold fewer digits. */
+    const bool subnormal = fpclassify(value) == FP_SUBNORMAL;
+    const size_t certain = subnormal ? 0 : format_extended(value, buffer);
+    if (certain > 0)
+        return certain;
+    const locale_t previous = clocale_enter();
+    int length = 0;
+    for (int digits = subnormal ? 1 : 15; digits <= 17; digits++) {
+        length = snprintf(buffer, SIZE, "%.*g", digits, value);
+        if (strtod(buffer, NULL) == value)
+            break;
+    }
+    clocale_leave(previous);
+    return shorten_exponent(buffer, (size_t)length);
+}

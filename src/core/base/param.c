@@ -1,0 +1,532 @@
+/* Parameters: reading one from text, checking a structure, showing a default.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#include "core/base/param.h"
+#include "core/base/spell_suggest.h"
+
+#include "core/base/clocale.h"
+#include "core/base/quantity.h"
+
+#include <stdalign.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* ---- the table ------------------------------------------------------------------------------- */
+
+size_t wt_params_count(const wt_params *params)
+{
+    size_t n = params->n_own;
+    for (size_t i = 0; i < PARAM_PARTS && params->part[i].params != NULL; i++)
+        n += wt_params_count(params->part[i].params());
+    return n;
+}
+
+/* Record i and where the structure lies that it is about. */
+static const wt_param *param_at(const wt_params *params, size_t i, size_t *offset)
+{
+    if (i < params->n_own)
+        return &params->own[i];
+    i -= params->n_own;
+    for (size_t k = 0; k < PARAM_PARTS && params->part[k].params != NULL; k++) {
+        const size_t n = wt_params_count(params->part[k].params());
+        if (i < n) {
+            *offset += params->part[k].offset;
+            return param_at(params->part[k].params(), i, offset);
+        }
+        i -= n;
+    }
+    return NULL;
+}
+
+const wt_param *wt_params_get(const wt_params *params, size_t i)
+{
+    size_t offset = 0;
+    return param_at(params, i, &offset);
+}
+
+/* Its number in the table; that of all if there is none. */
+static size_t param_number(const wt_params *params, const char *name)
+{
+    const size_t n = wt_params_count(params);
+    size_t i = 0;
+    while (i < n && strcmp(wt_params_get(params, i)->name, name) != 0)
+        i++;
+    return i;
+}
+
+/* ---- members --------------------------------------------------------------------------------- */
+
+/* A structure with the record of one of its members. */
+typedef struct slot {
+    const wt_param *param;
+    void *member;
+    size_t *count; /* of a list */
+} slot;
+
+static slot slot_of(const wt_params *params, size_t i, void *structure)
+{
+    size_t offset = 0;
+    const wt_param *param = param_at(params, i, &offset);
+    char *base = (char *)structure + offset;
+    return (slot){param, base + param->offset, (void *)(base + param->count_offset)};
+}
+
+static unsigned long long whole_number(const slot *s)
+{
+    unsigned narrow = 0;
+    unsigned long long wide = 0;
+    if (s->param->size == sizeof wide)
+        memcpy(&wide, s->member, sizeof wide);
+    else
+        memcpy(&narrow, s->member, sizeof narrow);
+    return wide + narrow;
+}
+
+static void put_whole(const slot *s, unsigned long long value)
+{
+    const unsigned narrow = (unsigned)value;
+    if (s->param->size == sizeof value)
+        memcpy(s->member, &value, sizeof value);
+    else
+        memcpy(s->member, &narrow, sizeof narrow);
+}
+
+/* ---- limits ---------------------------------------------------------------------------------- */
+
+/* False for NaN. */
+static bool is_within(const wt_param *param, double value)
+{
+    const param_limits *l = &param->limits;
+    return (l->with_low ? value >= l->low : value > l->low) &&
+           (l->with_high ? value <= l->high : value < l->high) &&
+           quantity_is_possible(param->quantity, value);
+}
+
+/* "above 0 Pa, up to 1 Pa". */
+static void limits_text(const wt_param *param, char *buffer, size_t size)
+{
+    const param_limits *l = &param->limits;
+    const char *unit = wt_quantity_unit(param->quantity);
+    const char *gap = strcmp(unit, "1") == 0 ? "" : " ";
+    if (*gap == '\0')
+        unit = "";
+    if (isinf(l->low))
+        snprintf(buffer, size, "a finite number");
+    else if (isinf(l->high))
+        clocale_print(buffer, size, l->with_low ? "%g%s%s or more" : "above %g%s%s", l->low, gap,
+                      unit);
+    else
+        clocale_print(buffer, size, "%s%g%s%g%s%s", l->with_low ? "" : "above ", l->low,
+                      !l->with_high ? " to below "
+                      : l->with_low ? " to "
+                                    : ", up to ",
+                      l->high, gap, unit);
+}
+
+static wt_status out_of_range(const wt_param *param, double value, const char *found, wt_error *err)
+{
+    char text[128];
+    const param_limits *l = &param->limits;
+    if (value > l->low && value < l->high && isfinite(value))
+        return quantity_impossible(param->quantity, found, err);
+    limits_text(param, text, sizeof text);
+    wt_fail(err, WT_E_RANGE, "out of range");
+    wt_error_expected(err, "%s", text);
+    wt_error_found(err, "%s", found);
+    return WT_E_RANGE;
+}
+
+/* ---- from text ------------------------------------------------------------------------------- */
+
+/* A value out of range was read: the text shows it as it was written. */
+static wt_status fail_range(const wt_param *param, double value, const char *text, wt_error *err)
+{
+    if (is_within(param, value))
+        return WT_OK;
+    return out_of_range(param, value, text, err);
+}
+
+static wt_status read_estimate(const wt_param *param, const char *text, wt_estimate *estimate,
+                               wt_error *err)
+{
+    wt_estimate read = {0};
+    wt_status status = wt_estimate_parse(text, param->quantity, &read, err);
+    if (status == WT_OK)
+        status = fail_range(param, read.value, text, err);
+    if (status == WT_OK)
+        *estimate = read;
+    return status;
+}
+
+/* An error that is stated but changes nothing would be a number that is wrong without saying so. */
+static wt_status read_number(const wt_param *param, const char *text, double *value, wt_error *err)
+{
+    wt_estimate read = {0};
+    wt_status status = read_estimate(param, text, &read, err);
+    if (status == WT_OK && read.standard_error > 0) {
+        status = wt_fail(err, WT_E_ARG, "an error stated here would not be used");
+        wt_error_found(err, "%s", text);
+        wt_error_advice(err, "leave out what follows +-");
+    }
+    if (status == WT_OK)
+        *value = read.value;
+    return status;
+}
+
+static wt_status read_list(const slot *s, const char *text, wt_error *err)
+{
+    double *values = NULL;
+    size_t n = 0;
+    wt_status status = wt_list_parse(text, s->param->quantity, &values, &n, err);
+    for (size_t i = 0; status == WT_OK && i < n; i++)
+        status = fail_range(s->param, values[i], text, err);
+    if (status != WT_OK) {
+        free(values);
+        return status;
+    }
+    *(const double **)s->member = values;
+    *s->count = n;
+    return WT_OK;
+}
+
+static wt_status read_count(const slot *s, const char *text, wt_error *err)
+{
+    const unsigned long long most = s->param->size == sizeof most ? UINT64_MAX : UINT32_MAX;
+    unsigned long long value = 0;
+    bool good = *text != '\0';
+    for (const char *p = text; *p != '\0' && good; p++) {
+        const unsigned long long digit = (unsigned long long)*p - '0';
+        good = *p >= '0' && *p <= '9' && value <= (most - digit) / 10;
+        value = value * 10 + digit;
+    }
+    if (!good)
+        return wt_fail(err, WT_E_ARG, "'%s' is not a whole number, or too large", text);
+    wt_status status = fail_range(s->param, (double)value, text, err);
+    if (status == WT_OK)
+        put_whole(s, value);
+    return status;
+}
+
+static size_t n_choices(const wt_param *param)
+{
+    size_t n = 1;
+    for (const char *p = param->value; *p != '\0'; p++)
+        n += *p == '|';
+    return n;
+}
+
+/* What a technician calls the form of a table that a spreadsheet opens. */
+static bool is_spreadsheet(const char *text, size_t length)
+{
+    nearest_name near = nearest_to(text, length);
+    nearest_try(&near, "excel", sizeof "excel" - 1);
+    nearest_try(&near, "xlsx", sizeof "xlsx" - 1);
+    return near.name != NULL;
+}
+
+static wt_status read_choice(const slot *s, const char *choices, const char *text, wt_error *err)
+{
+    const size_t length = strlen(text);
+    nearest_name near = nearest_to(text, length);
+    unsigned i = 0;
+    for (const char *p = choices;; i++) {
+        const size_t word = strcspn(p, "|");
+        if (word == length && strncmp(p, text, word) == 0)
+            break;
+        nearest_try(&near, p, word);
+        if (p[word] == '\0') {
+            (void)wt_fail(err, WT_E_ARG, "'%s' is none of %s", text, choices);
+            if (near.name != NULL)
+                wt_error_advice(err, "did you mean '%.*s'?", (int)near.name_length, near.name);
+            else if (strstr(choices, "csv") != NULL && is_spreadsheet(text, length))
+                wt_error_advice(err, "a spreadsheet opens 'csv'");
+            return WT_E_ARG;
+        }
+        p += word + 1;
+    }
+    put_whole(s, i);
+    return WT_OK;
+}
+
+/* "NAME=UNIT" as the word for the value asks for both sides. */
+static bool is_item(const wt_param *param, const char *text)
+{
+    const char *equals = strchr(text, '=');
+    return *text != '\0' && (param->value == NULL || strchr(param->value, '=') == NULL ||
+                             (equals != NULL && equals != text && equals[1] != '\0'));
+}
+
+/* Appends the items, parted by ';' where they are pairs: names of files may hold any character. */
+static wt_status read_texts(const slot *s, const char *text, wt_error *err)
+{
+    const char *const **list = s->member;
+    const char *part = strchr(s->param->value, '=') != NULL ? ";" : "";
+    for (const char *begin = text;; begin++) {
+        const char *end = begin + strcspn(begin, part);
+        begin += strspn(begin, *part != '\0' ? " \t\r\n" : "");
+        char *item = strndup(begin, begin < end ? (size_t)(end - begin) : 0);
+        if (item != NULL && !is_item(s->param, item)) {
+            wt_fail(err, WT_E_ARG, "'%s' is not %s", item, s->param->value);
+            free(item);
+            return WT_E_ARG;
+        }
+        const char **grown =
+            item == NULL ? NULL : realloc((void *)*list, (*s->count + 1) * sizeof *grown);
+        if (grown == NULL) {
+            free(item);
+            return wt_fail(err, WT_E_MEMORY, "out of memory");
+        }
+        grown[*s->count] = item;
+        *s->count += 1;
+        *list = grown;
+        if (*end == '\0')
+            return WT_OK;
+        begin = end;
+    }
+}
+
+static void clear_list(const slot *s)
+{
+    if (s->param->kind == PARAM_LIST) {
+        const double **values = s->member;
+        free((void *)*values);
+        *values = NULL;
+        *s->count = 0;
+    } else if (s->param->kind == PARAM_TEXTS) {
+        const char *const **texts = s->member;
+        wt_strings_free((char **)*texts, *s->count);
+        *texts = NULL;
+        *s->count = 0;
+    }
+}
+
+static wt_status read_member(const slot *s, const char *text, wt_error *err)
+{
+    switch (s->param->kind) {
+    case PARAM_NUMBER:
+        return read_number(s->param, text, s->member, err);
+    case PARAM_ESTIMATE:
+        return read_estimate(s->param, text, s->member, err);
+    case PARAM_LIST:
+        return read_list(s, text, err);
+    case PARAM_COUNT:
+        return read_count(s, text, err);
+    case PARAM_CHOICE:
+        return read_choice(s, s->param->value, text, err);
+    case PARAM_TEXT:
+        *(const char **)s->member = text;
+        return WT_OK;
+    case PARAM_TEXTS:
+        return read_texts(s, text, err);
+    case PARAM_OTHER:
+        return s->param->read(text, s->member, err);
+    case PARAM_FLAG:
+        break;
+    }
+    const bool yes = strcmp(text, "yes") == 0;
+    if (!yes && strcmp(text, "no") != 0)
+        return wt_fail(err, WT_E_ARG, "'%s' is neither yes nor no", text);
+    *(bool *)s->member = yes;
+    return WT_OK;
+}
+
+wt_status wt_params_set(const wt_params *params, const char *name, void *structure,
+                        const char *text, uint64_t *given, wt_error *err)
+{
+    const size_t i = param_number(params, name);
+    if (i == wt_params_count(params))
+        return wt_fail(err, WT_E_NOT_FOUND, "there is no parameter '%s'", name);
+    const slot s = slot_of(params, i, structure);
+    const uint64_t bit = UINT64_C(1) << i;
+    if (*text == '\0')
+        return wt_fail(err, WT_E_ARG, "the value is empty");
+    if (s.param->kind == PARAM_TEXTS && (*given & bit) == 0) {
+        *(const char *const **)s.member = NULL; /* the default is not ours to grow */
+        *s.count = 0;
+    }
+    if (s.param->kind == PARAM_LIST && (*given & bit) != 0)
+        clear_list(&s);
+    *given |= bit;
+    wt_status status = read_member(&s, text, err);
+    return status == WT_OK && s.param->check != NULL ? s.param->check(s.member, err) : status;
+}
+
+void param_copy(const wt_params *params, const void *from, uint64_t given, void *to)
+{
+    for (size_t i = 0; i < params->n_own; i++) {
+        const wt_param *const p = &params->own[i];
+        if ((given & UINT64_C(1) << i) != 0)
+            memcpy((char *)to + p->offset, (const char *)from + p->offset, p->size);
+    }
+}
+
+const char *param_missing(const wt_params *params, uint64_t given)
+{
+    const size_t n = wt_params_count(params);
+    for (size_t i = 0; i < n; i++) {
+        const wt_param *param = wt_params_get(params, i);
+        if ((param->flags & PARAM_REQUIRED) != 0 && (given & UINT64_C(1) << i) == 0)
+            return param->name;
+    }
+    return NULL;
+}
+
+void wt_params_clear(const wt_params *params, void *structure, uint64_t *given)
+{
+    const size_t n = wt_params_count(params);
+    for (size_t i = 0; i < n; i++) {
+        const slot s = slot_of(params, i, structure);
+        if ((*given & UINT64_C(1) << i) != 0)
+            clear_list(&s);
+    }
+    *given = 0;
+}
+
+/* ---- the value of a member ------------------------------------------------------------------- */
+
+/* Nothing is in the member: NaN, NULL, no item. */
+static bool is_unset(const slot *s)
+{
+    switch (s->param->kind) {
+    case PARAM_NUMBER:
+        return isnan(*(const double *)s->member);
+    case PARAM_ESTIMATE:
+        return isnan(((const wt_estimate *)s->member)->value);
+    case PARAM_LIST:
+    case PARAM_TEXTS:
+        return *s->count == 0;
+    case PARAM_TEXT:
+        return *(const char **)s->member == NULL;
+    default:
+        return false;
+    }
+}
+
+static wt_status check_values(const wt_param *p, const double *values, size_t n, wt_error *err)
+{
+    for (size_t i = 0; i < n; i++)
+        if (!is_within(p, values[i])) {
+            char found[32];
+            clocale_print(found, sizeof found, "%g", values[i]);
+            return out_of_range(p, values[i], found, err);
+        }
+    return WT_OK;
+}
+
+wt_status range_error(const char *name, double value, const char *expected, wt_error *err)
+{
+    wt_fail(err, WT_E_RANGE, "%s is outside its range", name);
+    wt_error_expected(err, "%s", expected);
+    wt_error_found(err, "%g", value);
+    return WT_E_RANGE;
+}
+
+wt_status param_check_number(const wt_param *param, double value, wt_error *err)
+{
+    wt_status status = check_values(param, &value, 1, err);
+    if (status != WT_OK)
+        wt_error_place(err, "%s", param->name);
+    return status;
+}
+
+static wt_status check_member(const slot *s, wt_error *err)
+{
+    const wt_param *p = s->param;
+    wt_status status = WT_OK;
+    const bool is_number = p->kind == PARAM_NUMBER || p->kind == PARAM_ESTIMATE;
+    if (is_unset(s) && p->unset != NULL)
+        return WT_OK;
+    if (is_unset(s) && (!is_number || (p->flags & PARAM_REQUIRED) != 0))
+        return wt_fail(err, WT_E_MISSING, "missing");
+    switch (p->kind) {
+    case PARAM_NUMBER:
+    case PARAM_ESTIMATE: /* its value stands first */
+        status = check_values(p, s->member, 1, err);
+        break;
+    case PARAM_LIST:
+        status = check_values(p, *(const double **)s->member, *s->count, err);
+        break;
+    case PARAM_COUNT:
+        status = check_values(p, &(double){(double)whole_number(s)}, 1, err);
+        break;
+    case PARAM_CHOICE:
+        if (whole_number(s) >= n_choices(p))
+            status = wt_fail(err, WT_E_RANGE, "%llu is none of %s", whole_number(s), p->value);
+        break;
+    default:
+        break;
+    }
+    return status == WT_OK && p->check != NULL ? p->check(s->member, err) : status;
+}
+
+wt_status param_check(const wt_params *params, const void *structure, wt_error *err)
+{
+    const size_t n = wt_params_count(params);
+    for (size_t i = 0; i < n; i++) {
+        const slot s = slot_of(params, i, (void *)(uintptr_t)structure);
+        wt_status status = check_member(&s, err);
+        if (status != WT_OK) {
+            wt_error_place(err, "%s", s.param->name);
+            return status;
+        }
+    }
+    return WT_OK;
+}
+
+static int print_number(const wt_param *param, double value, char *buffer, size_t size)
+{
+    if (param->quantity == WT_Q_TEMPERATURE)
+        return (int)wt_format_si(value, "degC", 3, buffer, size);
+    const char *unit = wt_quantity_unit(param->quantity);
+    const bool bare = strcmp(unit, "1") == 0;
+    return clocale_print(buffer, size, "%g%s%s", value, bare ? "" : " ", bare ? "" : unit);
+}
+
+static int print_choice(const wt_param *param, unsigned long long value, char *buffer, size_t size)
+{
+    const char *word = param->value;
+    for (unsigned long long i = value; i > 0; i--)
+        word += strcspn(word, "|") + 1;
+    return snprintf(buffer, size, "%.*s", (int)strcspn(word, "|"), word);
+}
+
+void param_word(const wt_params *params, const char *name, unsigned value, char *buffer,
+                size_t size)
+{
+    const size_t i = param_number(params, name);
+    const wt_param *p = i < wt_params_count(params) ? wt_params_get(params, i) : NULL;
+    buffer[0] = '\0';
+    if (p != NULL && p->kind == PARAM_CHOICE && value < n_choices(p))
+        (void)print_choice(p, value, buffer, size);
+}
+
+static int print_member(const slot *s, char *buffer, size_t size)
+{
+    const wt_param *p = s->param;
+    if (is_unset(s))
+        return snprintf(buffer, size, "%s", p->unset != NULL ? p->unset : "");
+    switch (p->kind) {
+    case PARAM_NUMBER:
+    case PARAM_ESTIMATE:
+        return print_number(p, *(const double *)s->member, buffer, size);
+    case PARAM_COUNT:
+        return snprintf(buffer, size, "%llu", whole_number(s));
+    case PARAM_FLAG:
+        return snprintf(buffer, size, "%s", *(const bool *)s->member ? "yes" : "no");
+    case PARAM_CHOICE:
+        return print_choice(p, whole_number(s), buffer, size);
+    case PARAM_TEXT:
+        return snprintf(buffer, size, "%s", *(const char **)s->member);
+    default:
+        return snprintf(buffer, size, "%s", p->unset != NULL ? p->unset : "");
+    }
+}
+
+size_t wt_params_default(const wt_params *params, size_t i, char *buffer, size_t size)
+{
+    alignas(max_align_t) unsigned char structure[PARAM_LARGEST] = {0};
+    params->defaults(structure);
+    const slot s = slot_of(params, i, structure);
+    buffer[0] = '\0';
+    const int n = (s.param->flags & PARAM_REQUIRED) != 0 ? 0 : print_member(&s, buffer, size);
+    return n > 0 ? (size_t)n : 0;
+}

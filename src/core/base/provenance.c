@@ -1,0 +1,150 @@
+/* Where a result comes from: the command and its inputs. SPDX-License-Identifier: GPL-3.0-or-later
+ */
+#include "core/base/provenance.h"
+
+#include "core/base/array.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+struct wt_provenance {
+    char *version, *command; /* NULL: of this program; not set */
+    wt_provenance_input *inputs;
+    size_t n;
+};
+
+wt_provenance *wt_provenance_new(void)
+{
+    return calloc(1, sizeof(wt_provenance));
+}
+
+/* Role and format are mostly those of the input before, whose texts are used again. */
+static void input_free(wt_provenance_input *input, const wt_provenance_input *before)
+{
+    free((char *)input->path);
+    if (before == NULL || input->role != before->role)
+        free((char *)input->role);
+    if (before == NULL || input->format != before->format)
+        free((char *)input->format);
+}
+
+static const char *text_of(const char *text, const char *before)
+{
+    const char *const given = text != NULL ? text : "";
+    return before != NULL && strcmp(given, before) == 0 ? before : strdup(given);
+}
+
+void wt_provenance_free(wt_provenance *p)
+{
+    if (p == NULL)
+        return;
+    for (size_t i = p->n; i > 0; i--)
+        input_free(&p->inputs[i - 1], i > 1 ? &p->inputs[i - 2] : NULL);
+    free(p->inputs);
+    free(p->version);
+    free(p->command);
+    free(p);
+}
+
+static bool is_plain(const char *word)
+{
+    return word[0] != '\0' && word[strspn(word, "abcdefghijklmnopqrstuvwxyz"
+                                                "ABCDEFGHIJKLMNOPQRSTUVWXYZ"
+                                                "0123456789_@%+=:,./-")] == '\0';
+}
+
+/* Writes `word` as a shell would need it; returns the end. */
+static char *quote_for_shell(char *to, const char *word)
+{
+    if (is_plain(word))
+        return stpcpy(to, word);
+    *to++ = '\'';
+    for (; *word != '\0'; word++) {
+        if (*word == '\'')
+            to = stpcpy(to, "'\\''");
+        else
+            *to++ = *word;
+    }
+    *to++ = '\'';
+    *to = '\0';
+    return to;
+}
+
+wt_status wt_provenance_set_command(wt_provenance *p, int argc, char *const argv[])
+{
+    size_t size = 1;
+    for (int i = 0; i < argc; i++)
+        size += 4 * strlen(argv[i]) + 3;
+    char *const command = malloc(size);
+    if (command == NULL)
+        return WT_E_MEMORY;
+    char *to = command;
+    *to = '\0';
+    for (int i = 0; i < argc; i++) {
+        if (i > 0)
+            *to++ = ' ';
+        /* Where the program is installed says nothing about the result. */
+        to = quote_for_shell(to, i == 0 ? wt_path_base(argv[i]) : argv[i]);
+    }
+    free(p->command);
+    p->command = command;
+    return WT_OK;
+}
+
+wt_status provenance_restore(wt_provenance *p, const char *version_and_command)
+{
+    const size_t length = strcspn(version_and_command, "\n");
+    const char *const rest = version_and_command + length;
+    char *const version = strndup(version_and_command, length);
+    char *const command = strdup(rest[0] != '\0' ? rest + 1 : rest);
+    if (version == NULL || command == NULL) {
+        free(version);
+        free(command);
+        return WT_E_MEMORY;
+    }
+    free(p->version);
+    free(p->command);
+    p->version = version;
+    p->command = command;
+    return WT_OK;
+}
+
+wt_status wt_provenance_add_input(wt_provenance *p, const wt_provenance_input *input)
+{
+    wt_provenance_input *const inputs = array_grow(p->inputs, p->n, sizeof *inputs);
+    if (inputs == NULL)
+        return WT_E_MEMORY;
+    p->inputs = inputs;
+    wt_provenance_input copy = *input;
+    const wt_provenance_input *const before = p->n > 0 ? &inputs[p->n - 1] : NULL;
+    copy.path = strdup(input->path != NULL ? input->path : "");
+    copy.role = text_of(input->role, before != NULL ? before->role : NULL);
+    copy.format = text_of(input->format, before != NULL ? before->format : NULL);
+    if (copy.path == NULL || copy.role == NULL || copy.format == NULL) {
+        input_free(&copy, before);
+        return WT_E_MEMORY;
+    }
+    copy.sha256[sizeof copy.sha256 - 1] = '\0';
+    p->inputs[p->n++] = copy;
+    return WT_OK;
+}
+
+const char *wt_provenance_version(const wt_provenance *p)
+{
+    return p->version != NULL ? p->version : wt_version();
+}
+
+const char *wt_provenance_command(const wt_provenance *p)
+{
+    return p->command != NULL ? p->command : "";
+}
+
+size_t wt_provenance_n_inputs(const wt_provenance *p)
+{
+    return p->n;
+}
+
+const wt_provenance_input *wt_provenance_get_input(const wt_provenance *p, size_t i)
+{
+    return &p->inputs[i];
+}

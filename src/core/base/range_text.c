@@ -1,0 +1,29 @@
+/* Two ends of a range as text. SPDX-License-Identifier: GPL-3.0-or-later */
+#include "core/base/range_text.h"
+
+#include "core/base/clocale.h"
+
+#include <string.h>
+
+/* Ends nearer than that are equal to whoever reads them. */
+enum { MOST_DIGITS = 9 };
+
+int ends_digits(double low, double high, int least)
+{
+    for (int digits = least; digits <= MOST_DIGITS; digits++) {
+        char first[32], second[32];
+        clocale_print(first, sizeof first, "%.*g", digits, low);
+        clocale_print(second, sizeof second, "%.*g", digits, high);
+        if (strcmp(first, second) != 0)
+            return digits;
+    }
+    return least;
+}
+
+ends_text ends_of(double low, double high, int least)
+{
+    const int digits = ends_digits(low, high, least);
+    ends_text ends;
+    clocale_print(ends.text, sizeof ends.text, "%.*g to %.*g", digits, low, digits, high);
+    return ends;
+}

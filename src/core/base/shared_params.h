@@ -1,0 +1,174 @@
+/* Records of parameters that a structure of the kernel and one of a job both have, under the same
+ * name of the member unless it is given. SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef WT_CORE_BASE_SHARED_PARAMS_H
+#define WT_CORE_BASE_SHARED_PARAMS_H
+
+#include "core/base/param.h"
+
+/* clang-format off: one a line */
+
+#define FRICTION_TOLERANCE(type)                                                                   \
+    {                                                                                              \
+        PARAM("tolerance", type, tolerance, WT_Q_NONE, ABOVE_TO(0, 0.1)),                          \
+            .value = "X", .flags = PARAM_NO_CASE,                                                  \
+            .help = "relative numerical error that is not to be exceeded; the true one is far "    \
+                    "below. A looser one buys little: 1e-2 takes half the time of 1e-10"           \
+    }
+#define FRICTION_GAMMA(type)                                                                       \
+    {                                                                                              \
+        PARAM("gamma", type, gamma, WT_Q_NONE, FROM_TO(0, 1)),                                     \
+            .value = "G",                                                                          \
+            .help = "partial-contact factor S = G + (1-G)P^2 of the friction integral; 1 is "      \
+                    "Persson 2001"                                                                 \
+    }
+
+#define FRICTION_STRAIN_FACTOR(type)                                                               \
+    {                                                                                              \
+        PARAM("strain-factor", type, strain_factor, WT_Q_NONE, FROM_TO(0.01, 100)),                \
+            .value = "X",                                                                          \
+            .help = "strain at a wavenumber over the rms slope of the roughness up "               \
+                    "to there, for the softening"                                                  \
+    }
+
+/* The first two orders; sin and cos know a direction but for half a turn. */
+#define FRICTION_ANISOTROPY(type)                                                                  \
+    {PARAM("anisotropy", type, anisotropy.amplitude[0], WT_Q_NONE, FROM_TO(-1, 1)), .value = "A",  \
+     .help = "of the roughness: the power spectrum at an angle phi to the velocity is 1 + "        \
+             "A cos(2 (phi - T)) times its mean, T the texture angle; 0 is the same in all "       \
+             "directions, 1 all across grooves. Gives the force to the side, too"},                \
+        {PARAM("texture-angle", type, anisotropy.angle[0], WT_Q_ANGLE,                             \
+               FROM_TO(-2 * M_PI, 2 * M_PI)),                                                      \
+         .value = "T",                                                                             \
+         .help = "from the velocity to the direction of the most roughness, such as 30deg: 0 "     \
+                 "is sliding across grooves, 90deg along them"},                                   \
+        {PARAM("anisotropy-fourth", type, anisotropy.amplitude[1], WT_Q_NONE, FROM_TO(-1, 1)),     \
+         .value = "A", .help = "the same with cos(4 (phi - T)) of a texture angle of its own"},    \
+    {                                                                                              \
+        PARAM("texture-angle-fourth", type, anisotropy.angle[1], WT_Q_ANGLE,                       \
+              FROM_TO(-2 * M_PI, 2 * M_PI)),                                                       \
+            .value = "T", .help = "that of --anisotropy-fourth"                                    \
+    }
+
+#define FRICTION_AREA_LAW(type)                                                                    \
+    {                                                                                              \
+        PARAM_CHOICE_OF("area-law", type, area_law, "persson|yp08|wm17|xu24"),                     \
+            .help = "contact area in partial contact: as Persson 2001 has it, or larger, as "      \
+                    "simulations do: Yang and Persson 2008, Wang and Mueser 2017, Xu 2024"         \
+    }
+
+/* `in` stands before the member. */
+#define FLASH_ROWS(type, in)                                                                       \
+    {PARAM_FLAG_OF("flash-temperature", type, in on),                                              \
+     .help = "the heat of sliding warms the rubber at every length scale (Persson 2006); the "     \
+             "sliding temperature is that of the surroundings"},                                   \
+        {PARAM("contact-size", type, in contact_size, WT_Q_LENGTH, FROM_TO(1e-6, 1)),              \
+         .value = "R",                                                                             \
+         .help = "of a macroscopic contact, which lasts R/v, for the flash temperature; 1 mm is "  \
+                 "typical of asphalt (Persson 2006)"},                                             \
+        {PARAM("heat-capacity", type, in heat_capacity, WT_Q_HEAT_CAPACITY, FROM_TO(1e4, 1e8)),    \
+         .value = "C", .help = "of the rubber by volume; 2.2 MJ/(m^3 K) is typical"},              \
+        {PARAM("heat-diffusivity", type, in diffusivity, WT_Q_DIFFUSIVITY, FROM_TO(1e-12, 1)),     \
+         .value = "D", .help = "of the rubber; 1e-7 m^2/s is typical"},                            \
+        {PARAM("macroscopic-area", type, in macroscopic, WT_Q_NONE, FROM_TO(0.01, 1)),             \
+         .value = "X",                                                                             \
+         .help = "share of the nominal area in macroscopic contacts, in which the heat is made "   \
+                 "(Persson 2006)"},                                                                \
+    {                                                                                              \
+        PARAM_FLAG_OF("clip-heat", type, in clipped),                                              \
+            .help = "heat is made in no more than all of the area where the contact at a scale "   \
+                    "is larger than the macroscopic contacts"                                      \
+    }
+
+/* `in` stands before the member. */
+#define SHEAR_LAW_ROWS(type, in)                                                                   \
+    {PARAM_CHOICE_OF("shear-law", type, in kind, "constant|log-normal"),                           \
+     .help = "the shear stress is that of every velocity and temperature, or of the peak of "      \
+             "tau_f exp(-c log10(v/v0)^2), v0 = v0* exp(E/kB (1/Tref - 1/T)) (Lorenz et al. "      \
+             "2015)"},                                                                             \
+        {PARAM("shear-peak-velocity", type, in peak_velocity, WT_Q_VELOCITY, ABOVE(0)),            \
+         .value = "V", .help = "v0* of the log-normal shear stress; 6 mm/s in that paper"},        \
+        {PARAM("shear-width", type, in width, WT_Q_NONE, AT_LEAST(0)), .value = "C",               \
+         .help = "c of the log-normal shear stress, per decade squared; 0.1 in that paper"},       \
+        {PARAM("shear-activation", type, in activation_energy, WT_Q_ENERGY, AT_LEAST(0)),          \
+         .value = "E", .help = "of the peak of the shear stress; 0.97 eV in that paper"},          \
+    {                                                                                              \
+        PARAM("shear-temperature", type, in reference_temperature, WT_Q_TEMPERATURE, ABOVE(0)),    \
+            .value = "T", .help = "Tref, at which the peak is at v0*; 20 degC in that paper"       \
+    }
+
+/* What is on the surface. `in` stands before the member. */
+#define LAYER_STATE_ROWS(type, in)                                                                 \
+    {PARAM("layer-thickness", type, in thickness, WT_Q_LENGTH, AT_LEAST(0)), .value = "D",         \
+     .flags = PARAM_NO_CASE, .help = "of the modified layer, such as 1um"},                        \
+    {                                                                                              \
+        PARAM("modulus-ratio", type, in modulus_ratio, WT_Q_NONE, ABOVE(0)),                       \
+            .value = "X", .help = "modulus of the layer over that of the bulk"                     \
+    }
+
+#define LAYER_ROWS(type, wear_unset)                                                               \
+    {PARAM("specific-wear-rate", type, specific_wear_rate, WT_Q_WEAR_RATE, AT_LEAST(0)),           \
+     .value = "K", .unset = (wear_unset), .help = "k, such as \"1e-3mm^3/(N m)\""},                \
+        {PARAM("damage", type, damage, WT_Q_NONE, ABOVE(0)), .value = "L",                         \
+         .help = "Lambda, at which the rubber counts as modified"},                                \
+        {PARAM("duty", type, duty, WT_Q_NONE, ABOVE_TO(0, 1)), .value = "X",                       \
+         .help = "share of the time in contact; with 1, times are contact times"},                 \
+        {PARAM("start-thickness", type, start_thickness, WT_Q_LENGTH, AT_LEAST(0)), .value = "D",  \
+         .help = "of the layer at time 0"},                                                        \
+    {                                                                                              \
+        PARAM_FLAG_OF("incubation", type, incubation),                                             \
+            .help = "transport of damage (exact at constant load), without which the rates are "   \
+                    "balanced "                                                                    \
+                    "from the beginning"                                                           \
+    }
+
+#define LAYER_SEVERITY_EXPONENT(type)                                                              \
+    {                                                                                              \
+        PARAM("severity-exponent", type, severity_exponent, WT_Q_NONE, ABOVE(0)),                  \
+            .value = "M", .help = "m of the severity power"                                        \
+    }
+
+#define LAYER_CLOSURE(type)                                                                        \
+    {                                                                                              \
+        PARAM_CHOICE_OF("closure", type, closure, "energy|activated"),                             \
+            .help = "what modifies the rubber (both reconstructed): an energy per volume, or "     \
+                    "bonds that the energy helps over a barrier, at the temperature of the rubber" \
+    }
+
+/* `in` stands before the member. */
+#define LAYER_ACTIVATION_ROWS(type, in, in_barrier)                                                \
+    {PARAM("barrier", type, in_barrier barrier, WT_Q_ENERGY, ABOVE(0)), .value = "E", .unset = "", \
+     .help =                                                                                       \
+         "of the activated closure, such as 1.5eV; literature: 1.3eV to 3.6eV"}, /* the list of    \
+                                                                                    quantities has \
+                                                                                    no volume, but \
+                                                                                    one more in    \
+                                                                                    m^3 */         \
+        {PARAM("activation-volume", type, in volume, WT_Q_POWER_SPECTRUM_1D, ABOVE(0)),            \
+         .value = "V", .unset = "",                                                                \
+         .help = "V_a of the activated closure, by which energy per volume lowers the barrier, "   \
+                 "such as 0.8nm^3 (reconstructed: 0.01nm^3 to 1nm^3)"},                            \
+        {PARAM_CHOICE_OF("attempt", type, in attempt, "hbar|h"),                                   \
+         .help =                                                                                   \
+             "rate of the activated closure without a barrier: kB T over the reduced constant "    \
+             "of Planck, as the source lists it, or over the plain one, as Eyring has it"},        \
+    {                                                                                              \
+        PARAM_FLAG_OF("ageing", type, in ageing),                                                  \
+            .help = "of the activated closure: the unloaded rate counts as damage, too, so that "  \
+                    "all rubber is modified in time and there is no balance; by the transport "    \
+                    "of damage alone"                                                              \
+    }
+
+#define ENERGY_PROFILE(type)                                                                       \
+    {                                                                                              \
+        PARAM_CHOICE_OF("profile", type, profile, "persson|incompressible"),                       \
+            .help = "how the energy falls off with depth"                                          \
+    }
+#define ENERGY_LOCAL_FRICTION(type)                                                                \
+    {                                                                                              \
+        PARAM("local-friction", type, local_friction, WT_Q_NONE, AT_LEAST(0)),                     \
+            .value = "M", .help = "local friction of the incompressible profile"                   \
+    }
+
+/* clang-format on */
+
+#endif

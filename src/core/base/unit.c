@@ -1,0 +1,408 @@
+/* Units of files and of the command line to SI, by UDUNITS-2.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#include "core/base/clocale.h"
+#include "core/base/number.h"
+#include "core/base/quantity.h"
+#include "core/base/resource_error.h"
+#include "core/base/unit_known.h"
+#include "core/base/utf8.h"
+#include "weartrack/base.h"
+
+#include <errno.h>
+#include <math.h>
+#include <pthread.h>
+#include <string.h>
+#include <udunits2.h>
+
+/* Longer than any unit; also keeps the UDUNITS parser from long work on a hostile file. */
+enum { UNIT_MAX = 128 };
+
+/* UDUNITS-2 is not thread-safe and its database takes long to read, so there is one unit system for
+ * the process, made when first needed and used under a lock. */
+static pthread_mutex_t lock = PTHREAD_MUTEX_INITIALIZER;
+static ut_system *units = NULL;
+
+/* What UDUNITS lacked since it was entered, as errno has it: memory, or a file of its database. It
+ * then takes a unit that it knows for an unknown one, or reads half of its database, and goes on:
+ * no answer of it counts. 0: nothing. */
+static int lacking;
+
+static int note_message(const char *format, va_list list)
+{
+    (void)format;
+    (void)list;
+    if (errno == EMFILE || errno == ENFILE || errno == ENOENT || errno == EACCES)
+        lacking = errno;
+    else if (errno == ENOMEM || ut_get_status() == UT_OS)
+        lacking = ENOMEM;
+    return 0;
+}
+
+typedef struct visit {
+    locale_t locale;
+    ut_error_message_handler handler;
+} visit;
+
+static visit enter_units(void)
+{
+    lacking = 0;
+    errno = 0;
+    return (visit){clocale_enter(), ut_set_error_message_handler(note_message)};
+}
+
+static void leave_units(visit before)
+{
+    if (errno == ENOMEM)
+        lacking = ENOMEM;
+    (void)ut_set_error_message_handler(before.handler);
+    clocale_leave(before.locale);
+}
+
+/* A spelling of instruments that the database lacks. */
+static void add_spelling(const char *spelling, const char *name)
+{
+    ut_unit *const unit = ut_get_unit_by_name(units, name);
+    (void)ut_map_name_to_unit(spelling, UT_ASCII, unit);
+    ut_free(unit);
+}
+
+static void make_units(void)
+{
+    const visit before = enter_units();
+    units = ut_read_xml(NULL);
+    if (units != NULL) {
+        add_spelling("deg", "degree");
+        add_spelling("dyn", "dyne");
+        /* The database takes a byte for the number 8. */
+        ut_unit *const byte = ut_new_dimensionless_unit(units);
+        (void)ut_unmap_name_to_unit(units, "byte", UT_ASCII);
+        (void)ut_map_name_to_unit("byte", UT_ASCII, byte);
+        ut_free(byte);
+    }
+    leave_units(before);
+    if (lacking != 0) {
+        ut_free_system(units);
+        units = NULL;
+    }
+}
+
+/* What a unit is a multiple of: a product of base units, among which UDUNITS counts the radian. */
+typedef struct base_of {
+    const ut_unit *product;
+    bool offset;
+} base_of;
+
+static ut_status visit_basic(const ut_unit *unit, void *user)
+{
+    ((base_of *)user)->product = unit;
+    return UT_SUCCESS;
+}
+
+static ut_status visit_product(const ut_unit *unit, int count, const ut_unit *const *basic,
+                               const int *powers, void *user)
+{
+    (void)count;
+    (void)basic;
+    (void)powers;
+    ((base_of *)user)->product = unit;
+    return UT_SUCCESS;
+}
+
+static ut_status visit_galilean(const ut_unit *unit, double scale, const ut_unit *underlying,
+                                double offset, void *user);
+
+static ut_status visit_timestamp(const ut_unit *unit, const ut_unit *time, double origin,
+                                 void *user)
+{
+    (void)unit;
+    (void)time;
+    (void)origin;
+    (void)user;
+    return UT_VISIT_ERROR;
+}
+
+static ut_status visit_logarithmic(const ut_unit *unit, double base, const ut_unit *reference,
+                                   void *user)
+{
+    (void)unit;
+    (void)base;
+    (void)reference;
+    (void)user;
+    return UT_VISIT_ERROR;
+}
+
+static const ut_visitor visitor = {visit_basic, visit_product, visit_galilean, visit_timestamp,
+                                   visit_logarithmic};
+
+static ut_status visit_galilean(const ut_unit *unit, double scale, const ut_unit *underlying,
+                                double offset, void *user)
+{
+    (void)unit;
+    (void)scale;
+    if (fpclassify(offset) != FP_ZERO)
+        ((base_of *)user)->offset = true;
+    return ut_accept_visitor(underlying, &visitor, user);
+}
+
+/* Converts under the lock. False if `unit` is unknown or not a multiple of `si`. UDUNITS itself
+ * would also convert between Hz and rad/s, and between a unit and its reciprocal. */
+static bool convert_by_database(const char *unit, const char *si, double *factor, double *offset)
+{
+    base_of base = {NULL, false};
+    ut_unit *from = ut_parse(units, unit, UT_UTF8), *to = ut_parse(units, si, UT_UTF8);
+    const bool alike = from != NULL && to != NULL &&
+                       ut_accept_visitor(from, &visitor, &base) == UT_SUCCESS &&
+                       ut_compare(base.product, to) == 0;
+    cv_converter *converter = alike ? ut_get_converter(from, to) : NULL;
+    bool good = converter != NULL;
+    if (good) {
+        *offset = base.offset ? cv_convert_double(converter, 0.0) : 0.0;
+        /* At 2^70 an offset of temperature is below the last digit. */
+        *factor = base.offset ? ldexp(cv_convert_double(converter, ldexp(1.0, 70)), -70)
+                              : cv_convert_double(converter, 1.0);
+        good = isfinite(*offset) && isfinite(*factor) && *factor > 0.0;
+    }
+    cv_free(converter);
+    ut_free(from);
+    ut_free(to);
+    return good;
+}
+
+static wt_status ask_database(const char *unit, const char *si, bool *good, double *factor,
+                              double *offset, wt_error *err)
+{
+    (void)pthread_mutex_lock(&lock);
+    if (units == NULL)
+        make_units();
+    if (units == NULL) {
+        const int number = lacking != 0 ? lacking : -1;
+        (void)pthread_mutex_unlock(&lock);
+        return shortage_fail(number, err);
+    }
+    const visit before = enter_units();
+    *good = convert_by_database(unit, si, factor, offset);
+    leave_units(before);
+    const bool failed = lacking == ENOMEM;
+    (void)pthread_mutex_unlock(&lock);
+    return failed ? shortage_fail(ENOMEM, err) : WT_OK;
+}
+
+static wt_status convert_unit(const char *unit, const char *si, bool *good, double *factor,
+                              double *offset, wt_error *err)
+{
+    if (!known_unit_is(unit))
+        return ask_database(unit, si, good, factor, offset, err);
+    *good = known_unit_find(unit, si, factor, offset);
+    return WT_OK;
+}
+
+/* UDUNITS knows whole powers only: the square root of the hertz is taken off the text. */
+static bool strip_root_hertz(char *unit)
+{
+    static const char *const spellings[] = {"/sqrt(Hz)", "/\xE2\x88\x9AHz", "/rtHz",   "/Hz^0.5",
+                                            "/Hz^(1/2)", ".Hz^-0.5",        " Hz^-0.5"};
+    const size_t length = strlen(unit);
+    for (size_t i = 0; i < sizeof spellings / sizeof *spellings; i++) {
+        const size_t n = strlen(spellings[i]);
+        if (length > n && strcmp(unit + length - n, spellings[i]) == 0) {
+            unit[length - n] = '\0';
+            return true;
+        }
+    }
+    return false;
+}
+
+/* What is left of a text without blanks around it. */
+static const char *without_blanks(const char *text, size_t *length)
+{
+    static const char blanks[] = " \t\r\n\v\f";
+    while (*length > 0 && strchr(blanks, text[*length - 1]) != NULL)
+        (*length)--;
+    for (; *length > 0 && strchr(blanks, text[0]) != NULL; text++)
+        (*length)--;
+    return text;
+}
+
+/* Copies without blanks and one pair of square brackets around it. False if it does not fit or is
+ * not UTF-8. */
+static bool trim(const char *unit, char copy[UNIT_MAX])
+{
+    size_t length = strlen(unit);
+    unit = without_blanks(unit, &length);
+    if (length >= 2 && unit[0] == '[' && unit[length - 1] == ']') {
+        length -= 2;
+        unit = without_blanks(unit + 1, &length);
+    }
+    if (length >= UNIT_MAX || utf8_check(unit, length) != length)
+        return false;
+    for (size_t i = 0; i < length; i++)
+        if ((unsigned char)unit[i] < 0x20 &&
+            unit[i] != '\t') /* the scanner of UDUNITS prints a line end */
+            return false;
+    memcpy(copy, unit, length);
+    copy[length] = '\0';
+    return true;
+}
+
+/* "a pressure", "an angular frequency". */
+static void quantity_words(wt_quantity quantity, char *buffer, size_t size)
+{
+    const char *const id = quantity == WT_Q_NONE ? "number" : wt_quantity_id(quantity);
+    (void)snprintf(buffer, size, "%s %s", strchr("aeiou", id[0]) != NULL ? "an" : "a", id);
+    for (char *c = buffer; *c != '\0'; c++) {
+        if (*c == '_')
+            *c = ' ';
+    }
+}
+
+/* angular: the radian is what stands in the way. */
+static wt_status convert(const char text[UNIT_MAX], wt_quantity quantity, bool *good, bool *angular,
+                         double *factor, double *offset, wt_error *err)
+{
+    const char *si = wt_quantity_unit(quantity), *instead = NULL;
+    char unit[UNIT_MAX];
+    memcpy(unit, text, sizeof unit);
+    if (quantity == WT_Q_SPECTRAL_DENSITY || quantity == WT_Q_VOLTAGE_DENSITY) {
+        if (!strip_root_hertz(unit))
+            return WT_OK;
+        si = quantity == WT_Q_SPECTRAL_DENSITY ? "m" : "V";
+    }
+    wt_status status = convert_unit(unit, si, good, factor, offset, err);
+    if (status != WT_OK || *good)
+        return status;
+    /* A spatial frequency per cycle would be cycles/m, so 1/m can only mean rad/m. */
+    if (quantity == WT_Q_WAVENUMBER)
+        return convert_unit(unit, "1/m", good, factor, offset, err);
+    if (quantity == WT_Q_ANGULAR_FREQUENCY)
+        instead = "Hz";
+    else if (quantity == WT_Q_FREQUENCY)
+        instead = "rad/s";
+    return instead != NULL ? convert_unit(unit, instead, angular, factor, offset, err) : WT_OK;
+}
+
+wt_status wt_unit_to_si(const char *unit, wt_quantity quantity, double *factor, double *offset,
+                        wt_error *err)
+{
+    const char *const si = wt_quantity_unit(quantity);
+    const bool dimensionless = strcmp(si, "1") == 0;
+    char text[UNIT_MAX] = "", words[64];
+    quantity_words(quantity, words, sizeof words);
+    if (!trim(unit, text)) {
+        (void)wt_fail(err, WT_E_UNIT, "the unit is too long or not UTF-8 text");
+        wt_error_expected(err, "a unit of %s, such as %s", words, si);
+        wt_error_found(err, "\"%s\"", unit);
+        return WT_E_UNIT;
+    }
+    if (text[0] == '\0' && !dimensionless) {
+        (void)wt_fail(err, WT_E_UNIT, "unit missing");
+        wt_error_expected(err, "a unit of %s, such as %s", words, si);
+        return WT_E_UNIT;
+    }
+    if (dimensionless && (text[0] == '\0' || strcmp(text, "-") == 0)) {
+        *factor = 1.0;
+        *offset = 0.0;
+        return WT_OK;
+    }
+    double f = 0.0, o = 0.0;
+    bool good = false, angular = false;
+    const wt_status status = convert(text, quantity, &good, &angular, &f, &o, err);
+    if (status != WT_OK)
+        return status;
+
+    /* An offset makes sense for a temperature; a difference of temperatures has the same unit
+     * without it, and nothing else has one. */
+    if (good && fpclassify(o) != FP_ZERO && quantity != WT_Q_TEMPERATURE) {
+        o = 0.0;
+        good = quantity == WT_Q_TEMPERATURE_DIFFERENCE;
+    }
+    if (!good) {
+        (void)wt_fail(err, WT_E_UNIT, "the unit does not measure %s", words);
+        wt_error_expected(err, "a unit of %s, such as %s", words, si);
+        wt_error_found(err, "\"%s\"", text);
+        if (angular)
+            wt_error_advice(err, "Hz and rad/s differ by 2 pi: name the quantity that is meant");
+        return WT_E_UNIT;
+    }
+    *factor = f;
+    *offset = o;
+    return WT_OK;
+}
+
+/* What a person types in hertz counts cycles, whatever it becomes; 1/s may be either. A column that
+ * is called a frequency is another thing: what it holds stands in its unit alone. */
+static wt_status to_si_of_frequency(const char *unit, wt_quantity quantity, double *factor,
+                                    double *offset, wt_error *err)
+{
+    const bool angular = quantity == WT_Q_ANGULAR_FREQUENCY;
+    const bool cycles = strcasestr(unit, "Hz") != NULL || strcasestr(unit, "hertz") != NULL;
+    if ((angular ? cycles : quantity == WT_Q_FREQUENCY) &&
+        wt_unit_to_si(unit, angular ? WT_Q_FREQUENCY : WT_Q_ANGULAR_FREQUENCY, factor, offset,
+                      NULL) == WT_OK) {
+        *factor *= angular ? 2 * M_PI : 1 / (2 * M_PI);
+        return WT_OK;
+    }
+    return wt_unit_to_si(unit, quantity, factor, offset, err);
+}
+
+/* What is meant by a unit of temperature as it is written in words; NULL: nothing known. "C" is
+ * coulomb, "F" is farad. */
+static const char *find_degrees(const char *unit, wt_quantity quantity)
+{
+    static const struct {
+        const char *written, *advice;
+    } known[] = {{"C", "degrees Celsius are degC, as in 20degC"},
+                 {"deg", "degrees Celsius are degC, as in 20degC"},
+                 {"degrees", "degrees Celsius are degC, as in 20degC"},
+                 {"centigrade", "degrees Celsius are degC, as in 20degC"},
+                 {"F", "degrees Fahrenheit are degF, as in 68degF"}};
+    for (size_t i = 0; i < sizeof known / sizeof *known; i++)
+        if (strcasecmp(unit, known[i].written) == 0)
+            return quantity == WT_Q_TEMPERATURE              ? known[i].advice
+                   : quantity == WT_Q_TEMPERATURE_DIFFERENCE ? "a difference is in kelvin: 5K"
+                                                             : NULL;
+    return NULL;
+}
+
+wt_status wt_quantity_parse(const char *text, wt_quantity quantity, double *value, wt_error *err)
+{
+    wt_status status = WT_OK;
+    double number = (double)NAN, factor = 1.0, offset = 0.0, result = (double)NAN;
+    const bool bare = strcmp(wt_quantity_unit(quantity), "1") == 0;
+    const char *const advice =
+        bare ? NULL : "write the number with a decimal point, the unit behind it";
+    const char *reason = NULL;
+    const char *start = text + strspn(text, " \t");
+    const size_t n = number_prefix(start, strlen(start), '.');
+    const char *const unit = start + n + strspn(start + n, " \t");
+    if (n == 0 || !wt_number_parse(start, n, '.', &number)) {
+        status = wt_fail(err, WT_E_ARG, bare ? "not a number" : "not a quantity");
+        reason = advice;
+    } else if (strchr("0123456789+-.,", unit[0]) != NULL && unit[0] != '\0' &&
+               strncmp(unit, "1/", 2) != 0) {
+        /* "1 200 Pa" and "1,200Pa" would be read as one times 200 Pa. */
+        status = wt_fail(err, WT_E_ARG, "not one number with its unit");
+        reason = advice;
+    } else {
+        status = to_si_of_frequency(unit, quantity, &factor, &offset, err);
+        reason = status == WT_E_UNIT ? find_degrees(unit, quantity) : NULL;
+        result = number * factor + offset;
+        if (status == WT_OK && !isfinite(result))
+            status = wt_fail(err, WT_E_RANGE, "the value is too large");
+        else if (status == WT_OK && quantity == WT_Q_TEMPERATURE && result < 0.0)
+            status = wt_fail(err, WT_E_RANGE, "the temperature is below absolute zero");
+        else if (status == WT_OK && !quantity_is_possible(quantity, result))
+            return quantity_impossible(quantity, text, err);
+    }
+    if (status == WT_OK) {
+        *value = result;
+    } else if (status != WT_E_INTERNAL && status != WT_E_MEMORY) {
+        char words[64];
+        quantity_words(quantity, words, sizeof words);
+        wt_error_expected(err, "%s%s, such as %s", words, bare ? "" : " with its unit",
+                          quantity_example(quantity));
+        wt_error_found(err, "\"%s\"", text);
+        if (reason != NULL)
+            wt_error_advice(err, "%s", reason);
+    }
+    return status;
+}

@@ -1,0 +1,86 @@
+/* UTF-8 well-formedness (Unicode standard, table 3-7). SPDX-License-Identifier: GPL-3.0-or-later */
+#include "core/base/utf8.h"
+
+#include <string.h>
+
+size_t utf8_character(const char *text, size_t length)
+{
+    const unsigned char *s = (const unsigned char *)text;
+    size_t n;
+    unsigned char low = 0x80, high = 0xBF; /* range of the second byte */
+    if (length == 0)
+        return 0;
+    if (s[0] < 0x80)
+        return 1;
+    if (s[0] >= 0xC2 && s[0] <= 0xDF) {
+        n = 2;
+    } else if (s[0] >= 0xE0 && s[0] <= 0xEF) {
+        n = 3;
+        if (s[0] == 0xE0)
+            low = 0xA0;
+        if (s[0] == 0xED)
+            high = 0x9F;
+    } else if (s[0] >= 0xF0 && s[0] <= 0xF4) {
+        n = 4;
+        if (s[0] == 0xF0)
+            low = 0x90;
+        if (s[0] == 0xF4)
+            high = 0x8F;
+    } else {
+        return 0;
+    }
+    if (length < n || s[1] < low || s[1] > high)
+        return 0;
+    for (size_t i = 2; i < n; i++) {
+        if ((s[i] & 0xC0) != 0x80)
+            return 0;
+    }
+    return n;
+}
+
+size_t utf8_check(const char *text, size_t length)
+{
+    size_t i = 0;
+    while (i < length) {
+        const size_t n = (unsigned char)text[i] < 0x80 ? 1 : utf8_character(text + i, length - i);
+        if (n == 0)
+            return i;
+        i += n;
+    }
+    return length;
+}
+
+size_t utf8_cut(const char *text, size_t length, size_t limit)
+{
+    size_t i = 0;
+    while (i < length) {
+        size_t n = utf8_character(text + i, length - i);
+        if (n == 0)
+            n = 1;
+        if (i + n > limit)
+            return i;
+        i += n;
+    }
+    return length;
+}
+
+void utf8_copy(char *to, size_t size, const char *text)
+{
+    const size_t n = utf8_cut(text, strlen(text), size - 1);
+    memcpy(to, text, n);
+    to[n] = '\0';
+}
+
+void utf8_tidy(char *text)
+{
+    const size_t length = strlen(text);
+    size_t i = 0;
+    while (i < length) {
+        const size_t n = utf8_character(text + i, length - i);
+        if (n == 0)
+            text[i] = '?';
+        else if (n == 1 && ((unsigned char)text[i] < 0x20 || text[i] == 0x7F))
+            text[i] = ' ';
+        i += n > 0 ? n : 1;
+    }
+}

@@ -1,0 +1,391 @@
+/* DMA sweeps. SPDX-License-Identifier: GPL-3.0-or-later */
+#include "core/data/sweep_points.h"
+
+#include "core/base/clocale.h"
+
+#include <math.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+sweep_points points_of_isotherm(const wt_isotherm *t)
+{
+    return (sweep_points){
+        {t->angular_frequency, t->storage_modulus, t->loss_modulus, t->strain, t->loss_factor},
+        t->n,
+        t->sample};
+}
+
+sweep_points points_of_ramp(const wt_ramp *t)
+{
+    return (sweep_points){
+        {t->temperature, t->storage_modulus, t->loss_modulus, t->strain, t->loss_factor},
+        t->n,
+        t->sample};
+}
+
+sweep_points points_of_strain_sweep(const wt_strain_sweep *t)
+{
+    return (sweep_points){{t->strain, t->storage_modulus, t->loss_modulus}, t->n, t->sample};
+}
+
+static void points_free(sweep_points p)
+{
+    for (size_t j = 0; j < SWEEP_ARRAYS; j++)
+        free(p.array[j]);
+    free(p.sample);
+}
+
+/* The moduli and what was swept, and what there is `with` them, uninitialised; false when out of
+ * memory. */
+static bool points_make(sweep_points *p, size_t n, unsigned with)
+{
+    const bool has[SWEEP_ARRAYS] = {[SWEEP_FIRST] = true,
+                                    [SWEEP_STORAGE] = true,
+                                    [SWEEP_LOSS] = true,
+                                    [SWEEP_STRAIN] = (with & WT_WITH_STRAIN) != 0,
+                                    [SWEEP_LOSS_FACTOR] = (with & WT_WITH_LOSS_FACTOR) != 0};
+    *p = (sweep_points){.n = n};
+    if (n > SIZE_MAX / sizeof(double))
+        return false;
+    for (size_t j = 0; j < SWEEP_ARRAYS; j++) {
+        p->array[j] = has[j] ? malloc((n > 0 ? n : 1) * sizeof(double)) : NULL;
+        if (has[j] && p->array[j] == NULL) {
+            points_free(*p);
+            return false;
+        }
+    }
+    return true;
+}
+
+void wt_sweep_clear(wt_sweep *sweep)
+{
+    if (sweep == NULL)
+        return;
+    for (size_t i = 0; i < sweep->n_isotherms; i++)
+        points_free(points_of_isotherm(&sweep->isotherms[i]));
+    free(sweep->isotherms);
+    for (size_t i = 0; i < sweep->n_ramps; i++)
+        points_free(points_of_ramp(&sweep->ramps[i]));
+    free(sweep->ramps);
+    for (size_t i = 0; i < sweep->n_strain_sweeps; i++)
+        points_free(points_of_strain_sweep(&sweep->strain_sweeps[i]));
+    free(sweep->strain_sweeps);
+    *sweep = (wt_sweep){0};
+}
+
+wt_isotherm *wt_sweep_add(wt_sweep *sweep, size_t n, unsigned with)
+{
+    sweep_points p;
+    wt_isotherm *const all = reallocarray(sweep->isotherms, sweep->n_isotherms + 1, sizeof *all);
+    if (all != NULL)
+        sweep->isotherms = all;
+    if (all == NULL || !points_make(&p, n, with))
+        return NULL;
+    all[sweep->n_isotherms] = (wt_isotherm){.temperature = (double)NAN,
+                                            .temperature_spread = (double)NAN,
+                                            .n = n,
+                                            .angular_frequency = p.array[SWEEP_FIRST],
+                                            .storage_modulus = p.array[SWEEP_STORAGE],
+                                            .loss_modulus = p.array[SWEEP_LOSS],
+                                            .strain = p.array[SWEEP_STRAIN],
+                                            .loss_factor = p.array[SWEEP_LOSS_FACTOR]};
+    return &all[sweep->n_isotherms++];
+}
+
+wt_ramp *wt_sweep_add_ramp(wt_sweep *sweep, size_t n, unsigned with)
+{
+    sweep_points p;
+    wt_ramp *const all = reallocarray(sweep->ramps, sweep->n_ramps + 1, sizeof *all);
+    if (all != NULL)
+        sweep->ramps = all;
+    if (all == NULL || !points_make(&p, n, with))
+        return NULL;
+    all[sweep->n_ramps] = (wt_ramp){.angular_frequency = (double)NAN,
+                                    .n = n,
+                                    .temperature = p.array[SWEEP_FIRST],
+                                    .storage_modulus = p.array[SWEEP_STORAGE],
+                                    .loss_modulus = p.array[SWEEP_LOSS],
+                                    .strain = p.array[SWEEP_STRAIN],
+                                    .loss_factor = p.array[SWEEP_LOSS_FACTOR]};
+    return &all[sweep->n_ramps++];
+}
+
+wt_strain_sweep *wt_sweep_add_strain_sweep(wt_sweep *sweep, size_t n)
+{
+    sweep_points p;
+    wt_strain_sweep *const all =
+        reallocarray(sweep->strain_sweeps, sweep->n_strain_sweeps + 1, sizeof *all);
+    if (all != NULL)
+        sweep->strain_sweeps = all;
+    if (all == NULL || !points_make(&p, n, 0))
+        return NULL;
+    all[sweep->n_strain_sweeps] = (wt_strain_sweep){.angular_frequency = (double)NAN,
+                                                    .temperature = (double)NAN,
+                                                    .n = n,
+                                                    .strain = p.array[SWEEP_FIRST],
+                                                    .storage_modulus = p.array[SWEEP_STORAGE],
+                                                    .loss_modulus = p.array[SWEEP_LOSS]};
+    return &all[sweep->n_strain_sweeps++];
+}
+
+/* ---- order ----------------------------------------------------------------------------------- */
+
+static int by_number(double a, double b) /* not known last */
+{
+    return isnan(a) || isnan(b) ? isnan(a) - isnan(b) : (a > b) - (a < b);
+}
+
+/* By temperature; equal ones by where they came from, steps in their number. */
+static int by_temperature(const void *a, const void *b)
+{
+    const wt_isotherm *const p = a, *const q = b;
+    const int order = by_number(p->temperature, q->temperature);
+    return order != 0 ? order : strverscmp(p->source, q->source);
+}
+
+static int compare_ramps(const void *a, const void *b)
+{
+    const wt_ramp *const p = a, *const q = b;
+    const int order = by_number(p->angular_frequency, q->angular_frequency);
+    return order != 0 ? order : strverscmp(p->source, q->source);
+}
+
+static int compare_strain_sweeps(const void *a, const void *b)
+{
+    const wt_strain_sweep *const p = a, *const q = b;
+    int order = by_number(p->temperature, q->temperature);
+    if (order == 0)
+        order = by_number(p->angular_frequency, q->angular_frequency);
+    return order != 0 ? order : strverscmp(p->source, q->source);
+}
+
+static void swap_points(const sweep_points *p, size_t i, size_t k)
+{
+    for (size_t j = 0; j < SWEEP_ARRAYS; j++) {
+        if (p->array[j] == NULL)
+            continue;
+        const double kept = p->array[j][i];
+        p->array[j][i] = p->array[j][k];
+        p->array[j][k] = kept;
+    }
+}
+
+static void sift_down(const sweep_points *p, size_t root, size_t n)
+{
+    const double *const w = p->array[0];
+    size_t child;
+    while ((child = 2 * root + 1) < n) {
+        if (child + 1 < n && w[child] < w[child + 1])
+            child++;
+        if (!(w[root] < w[child]))
+            return;
+        swap_points(p, root, child);
+        root = child;
+    }
+}
+
+/* Sweeps are also measured from high to low. Heap sort, as it moves several arrays together and
+ * needs no memory that could be refused. */
+static void sort_points(sweep_points points)
+{
+    const sweep_points *const p = &points;
+    const size_t n = points.n;
+    const double *const w = p->array[0];
+    bool sorted = true;
+    for (size_t i = 1; i < n && sorted; i++)
+        sorted = !(w[i] < w[i - 1]);
+    if (sorted)
+        return;
+    for (size_t root = n / 2; root-- > 0;)
+        sift_down(p, root, n);
+    for (size_t end = n - 1; end > 0; end--) {
+        swap_points(p, 0, end);
+        sift_down(p, 0, end);
+    }
+}
+
+void wt_sweep_sort(wt_sweep *sweep)
+{
+    for (size_t i = 0; i < sweep->n_isotherms; i++)
+        sort_points(points_of_isotherm(&sweep->isotherms[i]));
+    for (size_t i = 0; i < sweep->n_ramps; i++)
+        sort_points(points_of_ramp(&sweep->ramps[i]));
+    for (size_t i = 0; i < sweep->n_strain_sweeps; i++)
+        sort_points(points_of_strain_sweep(&sweep->strain_sweeps[i]));
+    if (sweep->n_isotherms > 1)
+        qsort(sweep->isotherms, sweep->n_isotherms, sizeof *sweep->isotherms, by_temperature);
+    if (sweep->n_ramps > 1)
+        qsort(sweep->ramps, sweep->n_ramps, sizeof *sweep->ramps, compare_ramps);
+    if (sweep->n_strain_sweeps > 1)
+        qsort(sweep->strain_sweeps, sweep->n_strain_sweeps, sizeof *sweep->strain_sweeps,
+              compare_strain_sweeps);
+}
+
+/* ---- copies ---------------------------------------------------------------------------------- */
+
+static bool same_sample(const char *a, const char *b)
+{
+    return strcmp(a != NULL ? a : "", b != NULL ? b : "") == 0;
+}
+
+/* Of arrays, or of none on both sides. */
+static bool same_numbers(const double *a, const double *b, size_t n)
+{
+    if (a == NULL || b == NULL)
+        return a == b;
+    return memcmp(a, b, n * sizeof *a) == 0;
+}
+
+/* Whatever the strain was: of an isotherm or a temperature sweep it is no result. */
+static bool is_copy(sweep_points a, sweep_points b)
+{
+    bool same = a.n == b.n && same_sample(a.sample, b.sample);
+    for (size_t j = 0; same && j < SWEEP_ARRAYS; j++)
+        same = j == SWEEP_STRAIN || same_numbers(a.array[j], b.array[j], a.n);
+    return same;
+}
+
+static bool same_point(const wt_isotherm *t, size_t i, size_t k)
+{
+    return same_numbers(t->angular_frequency + i, t->angular_frequency + k, 1) &&
+           same_numbers(t->storage_modulus + i, t->storage_modulus + k, 1) &&
+           same_numbers(t->loss_modulus + i, t->loss_modulus + k, 1) &&
+           (t->loss_factor == NULL || same_numbers(t->loss_factor + i, t->loss_factor + k, 1));
+}
+
+/* Points of one frequency stand together. */
+static size_t drop_points(wt_isotherm *t)
+{
+    const sweep_points p = points_of_isotherm(t);
+    size_t kept = 0;
+    for (size_t i = 0; i < t->n; i++) {
+        size_t before = kept;
+        while (before > 0 && !same_point(t, before - 1, i) &&
+               same_numbers(t->angular_frequency + before - 1, t->angular_frequency + i, 1))
+            before--;
+        if (before > 0 && same_point(t, before - 1, i))
+            continue;
+        swap_points(&p, kept++, i);
+    }
+    const size_t dropped = t->n - kept;
+    t->n = kept;
+    return dropped;
+}
+
+static void drop_copies_of_points(wt_isotherm *t, wt_parselog *log)
+{
+    const size_t dropped = drop_points(t);
+    if (dropped > 0)
+        wt_parselog_add(log, WT_WARNING, t->source, NULL,
+                        "%zu points of the isotherm at %.1f degC stand there twice; the copies are "
+                        "left out",
+                        dropped, t->temperature - WT_ZERO_CELSIUS);
+}
+
+/* Those of one frequency stand together. */
+static void drop_copies_of_ramps(wt_sweep *sweep, wt_parselog *log)
+{
+    size_t kept = 0;
+    for (size_t i = 0; i < sweep->n_ramps; i++) {
+        wt_ramp *const t = &sweep->ramps[i];
+        const wt_ramp *const b = kept > 0 ? &sweep->ramps[kept - 1] : NULL;
+        if (b == NULL || b->angular_frequency != t->angular_frequency ||
+            !is_copy(points_of_ramp(b), points_of_ramp(t))) {
+            sweep->ramps[kept++] = *t;
+            continue;
+        }
+        wt_parselog_add(log, WT_WARNING, t->source, NULL,
+                        "this temperature sweep is a copy of that of %s and left out", b->source);
+        points_free(points_of_ramp(t));
+    }
+    sweep->n_ramps = kept;
+}
+
+/* Those of one temperature and frequency stand together. */
+static void drop_copies_of_strain_sweeps(wt_sweep *sweep, wt_parselog *log)
+{
+    size_t kept = 0;
+    for (size_t i = 0; i < sweep->n_strain_sweeps; i++) {
+        wt_strain_sweep *const t = &sweep->strain_sweeps[i];
+        const wt_strain_sweep *const b = kept > 0 ? &sweep->strain_sweeps[kept - 1] : NULL;
+        if (b == NULL || b->angular_frequency != t->angular_frequency ||
+            !is_copy(points_of_strain_sweep(b), points_of_strain_sweep(t))) {
+            sweep->strain_sweeps[kept++] = *t;
+            continue;
+        }
+        wt_parselog_add(log, WT_WARNING, t->source, NULL,
+                        "this strain sweep is a copy of that of %s and left out", b->source);
+        points_free(points_of_strain_sweep(t));
+    }
+    sweep->n_strain_sweeps = kept;
+}
+
+/* Another temperature may be a slip of the one who typed it. */
+static void first_copy(const wt_isotherm *t, const wt_isotherm *original, char *text, size_t size)
+{
+    if (t->temperature == original->temperature)
+        snprintf(text, size, "%s is %s", t->source, original->source);
+    else
+        clocale_print(text, size, "%s at %.1f degC is %s at %.1f degC", t->source,
+                      t->temperature - WT_ZERO_CELSIUS, original->source,
+                      original->temperature - WT_ZERO_CELSIUS);
+}
+
+/* Isotherms are few; those measured again at one temperature fewer. */
+void wt_sweep_drop_copies(wt_sweep *sweep, wt_parselog *log)
+{
+    size_t kept = 0, n = 0;
+    char first[2 * sizeof sweep->isotherms->source + 64] = "";
+    for (size_t i = 0; i < sweep->n_isotherms; i++) {
+        wt_isotherm *const t = &sweep->isotherms[i];
+        size_t original = 0;
+        drop_copies_of_points(t, log);
+        while (original < kept &&
+               !is_copy(points_of_isotherm(&sweep->isotherms[original]), points_of_isotherm(t)))
+            original++;
+        if (original == kept) {
+            sweep->isotherms[kept++] = *t;
+            continue;
+        }
+        if (n++ == 0)
+            first_copy(t, &sweep->isotherms[original], first, sizeof first);
+        points_free(points_of_isotherm(t));
+    }
+    sweep->n_isotherms = kept;
+    drop_copies_of_ramps(sweep, log);
+    drop_copies_of_strain_sweeps(sweep, log);
+    if (n > 0)
+        wt_parselog_add(log, WT_WARNING, NULL, NULL, "%zu %s and left out; the first: %s", n,
+                        n > 1 ? "isotherms are copies of others" : "isotherm is a copy of another",
+                        first);
+}
+
+/* ---- samples --------------------------------------------------------------------------------- */
+
+wt_status wt_sweep_keep_sample(wt_sweep *sweep, const char *name)
+{
+    size_t kept = 0;
+    for (size_t i = 0; i < sweep->n_isotherms; i++)
+        if (same_sample(sweep->isotherms[i].sample, name))
+            sweep->isotherms[kept++] = sweep->isotherms[i];
+        else
+            points_free(points_of_isotherm(&sweep->isotherms[i]));
+    sweep->n_isotherms = kept;
+    kept = 0;
+    for (size_t i = 0; i < sweep->n_ramps; i++)
+        if (same_sample(sweep->ramps[i].sample, name))
+            sweep->ramps[kept++] = sweep->ramps[i];
+        else
+            points_free(points_of_ramp(&sweep->ramps[i]));
+    sweep->n_ramps = kept;
+    kept = 0;
+    for (size_t i = 0; i < sweep->n_strain_sweeps; i++)
+        if (same_sample(sweep->strain_sweeps[i].sample, name))
+            sweep->strain_sweeps[kept++] = sweep->strain_sweeps[i];
+        else
+            points_free(points_of_strain_sweep(&sweep->strain_sweeps[i]));
+    sweep->n_strain_sweeps = kept;
+    return sweep->n_isotherms + sweep->n_ramps + kept > 0 ? WT_OK : WT_E_NOT_FOUND;
+}

@@ -1,0 +1,83 @@
+/* Products of rows, tile by tile of the result: a tile stays in registers while the rows go by, and
+ * each of its sums is added to in the order of the rows, so that the bits do not depend on how the
+ * work is cut. Internal to the fit room. SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef WT_CORE_MATH_BLOCKED_PRODUCT_H
+#define WT_CORE_MATH_BLOCKED_PRODUCT_H
+
+#include "core/math/simd.h"
+
+#include <stdbool.h>
+
+/* Rows that go in together, and the side of a tile. */
+enum { TILE_ROWS = 4, TILE = 4 };
+/* So many rows stay in the nearest memory while all tiles go over them. */
+enum { TILE_NEAR = 32 };
+
+/* Two matrices with as many rows, from a column on. */
+typedef struct tile_rows {
+    const double *i, *j;
+    size_t width_i, width_j; /* from one row to the next */
+    size_t n;                /* rows, a multiple of TILE_ROWS */
+} tile_rows;
+
+/* into[TILE * TILE] += (or -=) sum of i[row * width_i + i] j[row * width_j + j] over the rows. */
+WIDE_PART void tile_whole(double *into, size_t tda, tile_rows of, bool minus)
+{
+    wide s0, s1, s2, s3;
+    wide_load(&s0, into);
+    wide_load(&s1, into + tda);
+    wide_load(&s2, into + 2 * tda);
+    wide_load(&s3, into + 3 * tda);
+    for (size_t k = 0; k < of.n; k += TILE_ROWS) {
+        const double *c0 = of.i, *c1 = c0 + of.width_i, *c2 = c1 + of.width_i,
+                     *c3 = c2 + of.width_i;
+        wide r0, r1, r2, r3;
+        wide_load(&r0, of.j);
+        wide_load(&r1, of.j + of.width_j);
+        wide_load(&r2, of.j + 2 * of.width_j);
+        wide_load(&r3, of.j + 3 * of.width_j);
+        const wide t0 = (c0[0] * r0 + c1[0] * r1) + (c2[0] * r2 + c3[0] * r3);
+        const wide t1 = (c0[1] * r0 + c1[1] * r1) + (c2[1] * r2 + c3[1] * r3);
+        const wide t2 = (c0[2] * r0 + c1[2] * r1) + (c2[2] * r2 + c3[2] * r3);
+        const wide t3 = (c0[3] * r0 + c1[3] * r1) + (c2[3] * r2 + c3[3] * r3);
+        s0 = minus ? s0 - t0 : s0 + t0;
+        s1 = minus ? s1 - t1 : s1 + t1;
+        s2 = minus ? s2 - t2 : s2 + t2;
+        s3 = minus ? s3 - t3 : s3 + t3;
+        of.i += TILE_ROWS * of.width_i;
+        of.j += TILE_ROWS * of.width_j;
+    }
+    wide_store(into, &s0);
+    wide_store(into + tda, &s1);
+    wide_store(into + 2 * tda, &s2);
+    wide_store(into + 3 * tda, &s3);
+}
+
+/* The same of n * m, where no whole tile is left. */
+WIDE_PART void tile_edge(double *into, size_t n, size_t m, size_t tda, tile_rows of, bool minus)
+{
+    for (size_t k = 0; k < of.n; k += TILE_ROWS) {
+        for (size_t i = 0; i < n; i++) {
+            const double c0 = of.i[i], c1 = of.i[of.width_i + i], c2 = of.i[2 * of.width_i + i],
+                         c3 = of.i[3 * of.width_i + i];
+            for (size_t j = 0; j < m; j++) {
+                const double sum = (c0 * of.j[j] + c1 * of.j[of.width_j + j]) +
+                                   (c2 * of.j[2 * of.width_j + j] + c3 * of.j[3 * of.width_j + j]);
+                into[i * tda + j] += minus ? -sum : sum;
+            }
+        }
+        of.i += TILE_ROWS * of.width_i;
+        of.j += TILE_ROWS * of.width_j;
+    }
+}
+
+/* Either of them: n rows and m columns of the result are left. */
+WIDE_PART void tile_add(double *into, size_t n, size_t m, size_t tda, tile_rows of, bool minus)
+{
+    if (n >= TILE && m >= TILE)
+        tile_whole(into, tda, of, minus);
+    else
+        tile_edge(into, n < TILE ? n : TILE, m < TILE ? m : TILE, tda, of, minus);
+}
+
+#endif

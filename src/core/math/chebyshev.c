@@ -1,0 +1,67 @@
+/* Interpolation at Chebyshev's points and what it leaves out.
+ *
+ * SPDX-License-Identifier: GPL-3.0-or-later
+ */
+#include "core/math/chebyshev.h"
+
+#include "core/math/simd.h"
+
+#include <float.h>
+#include <math.h>
+#include <string.h>
+
+/* From values at cos(pi k / degree), each `step` of them, by the columns of that degree. */
+WIDE_REGISTERS
+void chebyshev_fit(const double *restrict value, size_t degree, const double *restrict fit,
+                   double *restrict coefficient)
+{
+    const size_t step = LONG_DEGREE / degree;
+    double sum[FIT_ROOM] = {0};
+    for (size_t k = 0; k <= degree; k++)
+        for (size_t j = 0; j < FIT_ROOM; j++)
+            sum[j] += value[k * step] * fit[k * FIT_ROOM + j];
+    memcpy(coefficient, sum, (LONG_DEGREE + 1) * sizeof *coefficient);
+}
+
+/* What the series leaves out, relative to the smallest value. */
+double chebyshev_tail(const double *coefficient, const double *value, size_t degree)
+{
+    double least = (double)INFINITY, most = 0;
+    for (size_t k = 0; k <= LONG_DEGREE; k += LONG_DEGREE / degree) {
+        least = fmin(least, value[k]);
+        most = fmax(most, value[k]);
+    }
+    const double last = fmax(fabs(coefficient[degree]), fabs(coefficient[degree - 1]));
+    const double tail = 2 * fmax(last, 0.1 * fabs(coefficient[degree - 2]));
+    return most > 0 ? tail / (least > 0 ? least : most) : 0;
+}
+
+/* As many terms as the error needs that is there anyway, as powers of z instead of T_n(z): twice as
+ * fast to sum, and what rounding makes of them is about the sum of their magnitudes. Returns that,
+ * relative to `least`, and what was cut. */
+double chebyshev_powers(double *coefficient, size_t *degree, double allowed)
+{
+    double t[LONG_DEGREE + 1] = {0}, last[LONG_DEGREE + 1] = {1}, now[LONG_DEGREE + 1] = {0, 1};
+    double cut = 0, sum = 0;
+    size_t kept = *degree;
+    while (kept > 2 && cut + fabs(coefficient[kept]) <= allowed)
+        cut += fabs(coefficient[kept--]);
+    t[0] = coefficient[0];
+    for (size_t n = 1; n <= kept; n++) {
+        double next[LONG_DEGREE + 1] = {0};
+        for (size_t k = 0; k <= n; k++) {
+            t[k] += coefficient[n] * now[k];
+            next[k] -= last[k];
+        }
+        for (size_t k = 0; k <= n && k < LONG_DEGREE; k++)
+            next[k + 1] += 2 * now[k];
+        memcpy(last, now, sizeof last);
+        memcpy(now, next, sizeof now);
+    }
+    for (size_t k = 0; k <= LONG_DEGREE; k++) {
+        coefficient[k] = t[k];
+        sum += fabs(t[k]);
+    }
+    *degree = kept;
+    return cut + 2 * DBL_EPSILON * sum;
+}

@@ -1,0 +1,37 @@
+/* A smooth curve through points. SPDX-License-Identifier: GPL-3.0-or-later */
+#include "core/math/cubic_interpolation.h"
+
+#include "core/math/gsl_quiet.h"
+
+#include <gsl/gsl_spline.h>
+#include <stdlib.h>
+
+struct curve {
+    gsl_spline *spline;
+};
+
+curve *curve_new(const double *x, const double *y, size_t n)
+{
+    curve *c = calloc(1, sizeof *c);
+    gsl_quiet();
+    if (c == NULL)
+        return NULL;
+    c->spline = gsl_spline_alloc(gsl_interp_akima, n);
+    if (c->spline == NULL || gsl_spline_init(c->spline, x, y, n) != 0) {
+        curve_free(c);
+        return NULL;
+    }
+    return c;
+}
+
+double curve_at(const curve *c, double x)
+{
+    return gsl_spline_eval(c->spline, x, NULL);
+}
+
+void curve_free(curve *c)
+{
+    if (c != NULL)
+        gsl_spline_free(c->spline);
+    free(c);
+}

@@ -1,0 +1,168 @@
+/* Gauss-Legendre rules and their running integrals.
+ *
+ * SPDX-License-Identifier: GPL-3.0-or-later
+ */
+#include "core/math/gauss_legendre.h"
+
+#include "core/math/gsl_quiet.h"
+#include "core/math/simd.h"
+
+#include <gsl/gsl_integration.h>
+#include <math.h>
+#include <pthread.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* P_0(x) ... P_n(x). */
+static void legendre(size_t n, double x, double *p)
+{
+    p[0] = 1;
+    p[1] = x;
+    for (size_t k = 1; k < n; k++) {
+        const double degree = (double)k;
+        p[k + 1] = ((2 * degree + 1) * x * p[k] - degree * p[k - 1]) / (degree + 1);
+    }
+}
+
+/* Adds the columns of a matrix, of so many rounded up to whole registers, each times a number. */
+WIDE_REGISTERS
+static void add_columns(const double *restrict matrix, size_t rows, size_t n,
+                        const double *restrict times, double *restrict sum)
+{
+    for (size_t from = 0; from < rows; from += WIDE) {
+        wide part, column;
+        memcpy(&part, sum + from, sizeof part);
+        for (size_t i = 0; i < n; i++) {
+            memcpy(&column, matrix + i * rows + from, sizeof column);
+            part += column * times[i];
+        }
+        memcpy(sum + from, &part, sizeof part);
+    }
+}
+
+/* l_i(x) = w_i sum_k (k + 1/2) P_k(x_i) P_k(x), and int P_k = (P_{k+1} - P_{k-1}) / (2k + 1). */
+static void fill_running(gauss_rule *rule)
+{
+    double p[RULE_MOST][RULE_MOST + 1];         /* at each node */
+    double change[RULE_MOST * RULE_MOST] = {0}; /* a column of `room` for each degree */
+    const size_t n = rule->n;
+    for (size_t i = 0; i < n; i++) {
+        legendre(n, rule->node[i], p[i]);
+        for (size_t k = 1; k < n; k++)
+            change[k * rule->room + i] = (p[i][k + 1] - p[i][k - 1]) / 2;
+    }
+    for (size_t i = 0; i < n; i++) {
+        double *row = rule->running + i * rule->room;
+        for (size_t j = 0; j < n; j++)
+            row[j] = (rule->node[j] + 1) / 2;
+        add_columns(change + rule->room, rule->room, n - 1, p[i] + 1, row);
+        for (size_t j = 0; j < n; j++)
+            row[j] *= rule->weight[i];
+        for (size_t k = 0; k < RULE_TOP; k++) {
+            const size_t degree = n + k - RULE_TOP; /* those below 0 are left out */
+            rule->top[i * RULE_TOP_ROOM + k] =
+                n + k < RULE_TOP ? 0 : rule->weight[i] * ((double)degree + 0.5) * p[i][degree];
+        }
+    }
+}
+
+static double larger(double a, double b)
+{
+    return a > b ? a : b;
+}
+
+double rule_running(const gauss_rule *rule, const double *f, double *running)
+{
+    double sum = 0;
+    add_columns(rule->running, rule->room, rule->n, f, running);
+    for (size_t i = 0; i < rule->n; i++)
+        sum += rule->weight[i] * f[i];
+    return sum;
+}
+
+/* Without a store in between. */
+WIDE_REGISTERS
+static void top_sums(const double *restrict top, size_t n, const double *restrict f,
+                     const double *restrict g, double *restrict of_f, double *restrict of_g)
+{
+    wide f_low = {0}, f_high = {0}, g_low = {0}, g_high = {0}, low, high;
+    for (size_t i = 0; i < n; i++) {
+        memcpy(&low, top + i * RULE_TOP_ROOM, sizeof low);
+        memcpy(&high, top + i * RULE_TOP_ROOM + WIDE, sizeof high);
+        f_low += low * f[i];
+        f_high += high * f[i];
+        g_low += low * g[i];
+        g_high += high * g[i];
+    }
+    memcpy(of_f, &f_low, sizeof f_low);
+    memcpy(of_f + WIDE, &f_high, sizeof f_high);
+    memcpy(of_g, &g_low, sizeof g_low);
+    memcpy(of_g + WIDE, &g_high, sizeof g_high);
+}
+
+void rule_tops(const gauss_rule *rule, const double *f, const double *g, rule_top *of_f,
+               rule_top *of_g)
+{
+    top_sums(rule->top, rule->n, f, g, of_f->coefficient, of_g->coefficient);
+}
+
+/* The coefficients in pairs, of which one may be small by accident, or both: they fall at the
+ * slowest rate that they show. That is taken to go on over half of the degrees up to twice the last
+ * one, for a part that falls more slowly may still hide below: over 0.65 of them, two of 11,200
+ * numbers were further off than stated. */
+double rule_error(const gauss_rule *rule, const rule_top *top)
+{
+    const double *c = top->coefficient;
+    double pair[RULE_TOP / 2] = {0};
+    for (size_t k = 0; k < RULE_TOP; k++)
+        pair[k / 2] = larger(pair[k / 2], fabs(c[k]));
+    const bool three = rule->n > 4;
+    if (!(pair[2] < pair[1]) || (three && !(pair[1] < pair[0])))
+        return 2 * larger(pair[1], pair[2]);
+    const double square = larger(pair[2] / pair[1], three ? pair[1] / pair[0] : 0);
+    const double rate = sqrt(square);
+    const double last =
+        larger(larger(fabs(c[RULE_TOP - 1]), rate * fabs(c[RULE_TOP - 2])), square * pair[1]);
+    double fall = 2 * last, power = rate;
+    for (size_t left = (rule->n + 1) / 2; left > 0; left /= 2, power *= power)
+        fall *= left % 2 ? power : 1;
+    return fall;
+}
+
+/* NULL without memory. */
+static gauss_rule *make_rule(size_t n)
+{
+    const size_t room = (n + WIDE - 1) / WIDE * WIDE;
+    gauss_rule *made =
+        calloc(1, sizeof *made + n * (room + 2 + RULE_TOP_ROOM) * sizeof *made->numbers);
+    gsl_integration_glfixed_table *table = gsl_integration_glfixed_table_alloc(n);
+    if (made != NULL && table != NULL) {
+        made->n = n;
+        made->room = room;
+        made->node = made->numbers;
+        made->weight = made->node + n;
+        made->running = made->weight + n;
+        made->top = made->running + n * room;
+        for (size_t i = 0; i < n; i++)
+            gsl_integration_glfixed_point(-1, 1, i, &made->node[i], &made->weight[i], table);
+        fill_running(made);
+    } else {
+        free(made);
+        made = NULL;
+    }
+    gsl_integration_glfixed_table_free(table);
+    return made;
+}
+
+wt_status rule_of(size_t n, const gauss_rule **rule, wt_error *err)
+{
+    static pthread_mutex_t lock = PTHREAD_MUTEX_INITIALIZER;
+    static gauss_rule *made[RULE_MOST + 1];
+    gsl_quiet();
+    pthread_mutex_lock(&lock);
+    if (made[n] == NULL)
+        made[n] = make_rule(n);
+    *rule = made[n];
+    pthread_mutex_unlock(&lock);
+    return *rule != NULL ? WT_OK : wt_fail(err, WT_E_MEMORY, "out of memory for a quadrature rule");
+}

@@ -1,0 +1,16 @@
+/* Switching off GSL's aborting error handler, once. SPDX-License-Identifier: GPL-3.0-or-later */
+#include "core/math/gsl_quiet.h"
+
+#include <gsl/gsl_errno.h>
+#include <pthread.h>
+
+static void switch_off(void)
+{
+    gsl_set_error_handler_off();
+}
+
+void gsl_quiet(void)
+{
+    static pthread_once_t once = PTHREAD_ONCE_INIT;
+    pthread_once(&once, switch_off);
+}

@@ -1,0 +1,22 @@
+/* Special functions, from GSL.
+ *
+ * SPDX-License-Identifier: GPL-3.0-or-later
+ */
+#include "core/math/special.h"
+
+#include <gsl/gsl_errno.h>
+#include <gsl/gsl_sf_psi.h>
+#include <math.h>
+
+double digamma(double x)
+{
+    gsl_sf_result result;
+    if (!(x > 0.0) || isinf(x) || gsl_sf_psi_e(x, &result) != GSL_SUCCESS)
+        return (double)NAN;
+    return result.val;
+}
+
+const double gauss_8_node[4] = {0.1834346424956498049, 0.5255324099163289858, 0.7966664774136267396,
+                                0.9602898564975362317};
+const double gauss_8_weight[4] = {0.3626837833783619830, 0.3137066458778872873,
+                                  0.2223810344533744706, 0.1012285362903762592};

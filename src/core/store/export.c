@@ -1,0 +1,183 @@
+/* A table for other programs: rows under one header line, JSON, or a database. A missing number is
+ * an empty cell, or null. SPDX-License-Identifier: GPL-3.0-or-later */
+#include "core/base/json.h"
+#include "core/store/export_sqlite.h"
+#include "weartrack/data.h"
+
+#include <errno.h>
+#include <math.h>
+#include <string.h>
+
+/* ---- cells with a separator ------------------------------------------------------------------ */
+
+/* A spreadsheet takes a text that begins so for a formula, and obeys it; a number is none. */
+static bool is_formula(const char *text)
+{
+    double number;
+    return text[0] != '\0' && strchr("=+-@\t\r", text[0]) != NULL && text[1] != '\0' &&
+           !wt_number_parse(text, strlen(text), '.', &number);
+}
+
+/* As RFC 4180 has it, also between tabs; the mark before the text. */
+static void put_cell(FILE *out, const char *mark, const char *text, char separator)
+{
+    const char special[] = {separator, '"', '\n', '\r', '\0'};
+    if (strpbrk(text, special) == NULL) {
+        (void)fprintf(out, "%s%s", mark, text);
+        return;
+    }
+    (void)fprintf(out, "\"%s", mark);
+    for (const char *p = text; *p != '\0'; p++) {
+        if (*p == '"')
+            (void)putc('"', out);
+        (void)putc(*p, out);
+    }
+    (void)putc('"', out);
+}
+
+static const char *number_words(double value, char buffer[32])
+{
+    buffer[0] = '\0';
+    if (!isnan(value))
+        (void)wt_number_format(value, buffer);
+    return buffer;
+}
+
+static void put_header(FILE *out, const wt_table *table, bool blocks, char separator)
+{
+    if (blocks)
+        (void)fprintf(out, "block%c", separator);
+    for (size_t i = 0; i < wt_table_n_columns(table); i++) {
+        char name[256];
+        const char *unit = wt_table_column_unit(table, i);
+        const bool has_unit = *unit != '\0' && strcmp(unit, "1") != 0;
+        (void)snprintf(name, sizeof name, has_unit ? "%s[%s]" : "%s",
+                       wt_table_column_name(table, i), unit);
+        if (i > 0)
+            (void)putc(separator, out);
+        put_cell(out, "", name, separator);
+    }
+    (void)putc('\n', out);
+}
+
+/* Blocks are told apart by a first column, which a table of one block does not need. */
+static bool has_blocks(const wt_table *table)
+{
+    const size_t n = wt_table_n_rows(table);
+    return n > 0 && wt_table_block(table, n - 1) > 0;
+}
+
+static void put_separated(FILE *out, const wt_table *table, char separator, bool formulas)
+{
+    char number[32];
+    const bool blocks = has_blocks(table);
+    put_header(out, table, blocks, separator);
+    for (size_t row = 0; row < wt_table_n_rows(table); row++) {
+        if (blocks)
+            (void)fprintf(out, "%zu%c", wt_table_block(table, row), separator);
+        for (size_t i = 0; i < wt_table_n_columns(table); i++) {
+            if (i > 0)
+                (void)putc(separator, out);
+            if (wt_table_column_kind(table, i) == WT_COLUMN_TEXT)
+                put_cell(out, !formulas && is_formula(wt_table_text(table, row, i)) ? "'" : "",
+                         wt_table_text(table, row, i), separator);
+            else
+                (void)fputs(number_words(wt_table_number(table, row, i), number), out);
+        }
+        (void)putc('\n', out);
+    }
+}
+
+/* ---- JSON ------------------------------------------------------------------------------------ */
+
+/* JSON has no infinite numbers: they are words. */
+static void put_number(FILE *out, double value)
+{
+    char number[32];
+    if (isnan(value))
+        (void)fputs("null", out);
+    else
+        (void)fprintf(out, isinf(value) ? "\"%s\"" : "%s", number_words(value, number));
+}
+
+static void put_named(FILE *out, const char *before, const char *name, const char *text)
+{
+    (void)fprintf(out, "%s\"%s\": ", before, name);
+    json_put_text(out, text);
+}
+
+static void put_keys(FILE *out, const wt_table *table)
+{
+    (void)fputs(",\n \"keys\": {", out);
+    for (size_t i = 0; i < wt_table_n_keys(table); i++) {
+        const char *name = wt_table_key_name(table, i);
+        wt_estimate e;
+        (void)fputs(i > 0 ? ",\n  " : "\n  ", out);
+        json_put_text(out, name);
+        (void)fputs(": ", out);
+        if (!wt_table_estimate(table, name, &e)) {
+            json_put_text(out, wt_table_key(table, name));
+            continue;
+        }
+        (void)fputs("{\"value\": ", out);
+        put_number(out, e.value);
+        (void)fputs(", \"standard_error\": ", out);
+        put_number(out, e.standard_error);
+        (void)fputs(", \"numerical_error\": ", out);
+        put_number(out, e.numerical_error);
+        put_named(out, ", ", "unit", e.unit);
+        (void)putc('}', out);
+    }
+    (void)putc('}', out);
+}
+
+static void put_columns(FILE *out, const wt_table *table)
+{
+    (void)fputs(",\n \"columns\": [", out);
+    for (size_t i = 0; i < wt_table_n_columns(table); i++) {
+        put_named(out, i > 0 ? ",\n  {" : "\n  {", "name", wt_table_column_name(table, i));
+        if (wt_table_column_kind(table, i) == WT_COLUMN_NUMBER)
+            put_named(out, ", ", "unit", wt_table_column_unit(table, i));
+        put_named(out, ", ", "long_name", wt_table_column_long_name(table, i));
+        (void)putc('}', out);
+    }
+    (void)putc(']', out);
+}
+
+static void put_json(FILE *out, const wt_table *table)
+{
+    const bool blocks = has_blocks(table);
+    put_named(out, "{", "table", wt_table_name(table));
+    put_named(out, ",\n ", "title", wt_table_title(table));
+    put_keys(out, table);
+    put_columns(out, table);
+    (void)fputs(",\n \"rows\": [", out);
+    for (size_t row = 0; row < wt_table_n_rows(table); row++) {
+        (void)fputs(row > 0 ? ",\n  {" : "\n  {", out);
+        if (blocks)
+            (void)fprintf(out, "\"block\": %zu, ", wt_table_block(table, row));
+        for (size_t i = 0; i < wt_table_n_columns(table); i++) {
+            (void)fprintf(out, "%s\"%s\": ", i > 0 ? ", " : "", wt_table_column_name(table, i));
+            if (wt_table_column_kind(table, i) == WT_COLUMN_TEXT)
+                json_put_text(out, wt_table_text(table, row, i));
+            else
+                put_number(out, wt_table_number(table, row, i));
+        }
+        (void)putc('}', out);
+    }
+    (void)fputs("]}\n", out);
+}
+
+wt_status wt_table_export(FILE *out, const wt_table *table, wt_export_form form, bool formulas,
+                          wt_error *err)
+{
+    if (form == WT_EXPORT_STREAM)
+        return wt_stream_write(out, table, NULL, err);
+    if (form == WT_EXPORT_SQLITE)
+        return export_sqlite(out, table, has_blocks(table), err);
+    if (form == WT_EXPORT_JSON)
+        put_json(out, table);
+    else
+        put_separated(out, table, form == WT_EXPORT_CSV ? ',' : '\t', formulas);
+    return ferror(out) ? wt_fail(err, WT_E_IO, "cannot write: %s", strerror(errno)) : WT_OK;
+}

@@ -1,0 +1,287 @@
+/* A table as an SQLite database: made in memory, so that it goes where text goes, a pipe too, and
+ * appears whole or not at all. SPDX-License-Identifier: GPL-3.0-or-later */
+#include "core/store/export_sqlite.h"
+
+#include "core/base/array.h"
+#include "core/base/utf8.h"
+#include "core/system/file_signatures.h"
+#include "core/table/table.h"
+
+#include <endian.h>
+#include <errno.h>
+#include <inttypes.h>
+#include <math.h>
+#include <sqlite3.h>
+#include <stdlib.h>
+#include <string.h>
+#include <strings.h>
+
+/* Beside the table: what its columns are, and the values that belong to all of it. No table of this
+ * program has these names, one of another may. */
+#define COLUMNS_TABLE "weartrack_columns"
+#define KEYS_TABLE "weartrack_keys"
+#define OF_SQLITE "sqlite_" /* names that begin so are its own */
+#define BLOCK_COLUMN "block"
+
+typedef struct database {
+    sqlite3 *db;
+    const wt_table *table;
+    char **names; /* [n_columns] of the columns in the database */
+    bool blocks;  /* several: a first column tells them apart */
+    wt_error *err;
+} database;
+
+static wt_status failed(const database *d, int code)
+{
+    return code == SQLITE_NOMEM
+               ? wt_fail(d->err, WT_E_MEMORY, "out of memory")
+               : wt_fail(d->err, WT_E_INTERNAL, "SQLite: %s", sqlite3_errmsg(d->db));
+}
+
+static wt_status run(const database *d, const char *words)
+{
+    const int code = sqlite3_exec(d->db, words, NULL, NULL, NULL);
+    return code == SQLITE_OK ? WT_OK : failed(d, code);
+}
+
+static wt_status prepare(const database *d, const char *words, sqlite3_stmt **statement)
+{
+    const int code =
+        words == NULL ? SQLITE_NOMEM : sqlite3_prepare_v2(d->db, words, -1, statement, NULL);
+    return code == SQLITE_OK ? WT_OK : failed(d, code);
+}
+
+/* A text with U+FFFD for each byte that is not UTF-8, which a column of text must not have; new. */
+static char *whole_text(const char *text)
+{
+    static const char replacement[] = "\xef\xbf\xbd";
+    char *const whole = malloc((sizeof replacement - 1) * strlen(text) + 1);
+    char *to = whole;
+    for (size_t left = strlen(text), n; whole != NULL && left > 0; text += n, left -= n) {
+        n = utf8_character(text, left);
+        to = n > 0 ? mempcpy(to, text, n) : mempcpy(to, replacement, sizeof replacement - 1);
+        n += n == 0;
+    }
+    if (whole != NULL)
+        *to = '\0';
+    return whole;
+}
+
+/* What is not known is NULL, a text without a word likewise. What cannot be bound for want of
+ * memory stays NULL, and taking the row says so. */
+static void bind_text(sqlite3_stmt *row, int place, const char *text)
+{
+    const size_t length = text != NULL ? strlen(text) : 0;
+    if (length > 0 && utf8_check(text, length) < length)
+        (void)sqlite3_bind_text(row, place, whole_text(text), -1, free);
+    else if (length > 0)
+        (void)sqlite3_bind_text(row, place, text, -1, SQLITE_TRANSIENT);
+    else
+        (void)sqlite3_bind_null(row, place);
+}
+
+static void bind_number(sqlite3_stmt *row, int place, double value)
+{
+    if (isnan(value))
+        (void)sqlite3_bind_null(row, place);
+    else
+        (void)sqlite3_bind_double(row, place, value);
+}
+
+static wt_status put_row(const database *d, sqlite3_stmt *row)
+{
+    const int code = sqlite3_step(row);
+    const int ready = sqlite3_reset(row);
+    return code == SQLITE_DONE && ready == SQLITE_OK ? WT_OK : failed(d, code);
+}
+
+/* ---- names ----------------------------------------------------------------------------------- */
+
+/* A table that no database holds beside those of this program and of SQLite, or holds at all. */
+static wt_status check_table(const database *d)
+{
+    const char *const name = d->table->name;
+    const int most = sqlite3_limit(d->db, SQLITE_LIMIT_COLUMN, -1);
+    if (strcasecmp(name, COLUMNS_TABLE) == 0 || strcasecmp(name, KEYS_TABLE) == 0 ||
+        strncasecmp(name, OF_SQLITE, strlen(OF_SQLITE)) == 0)
+        (void)wt_fail(d->err, WT_E_UNSUPPORTED,
+                      "a table \"%s\" cannot be in a database: the name has another meaning there",
+                      name);
+    else if (d->table->n_columns + d->blocks > (size_t)most)
+        (void)wt_fail(d->err, WT_E_UNSUPPORTED,
+                      "a table \"%s\" of %zu columns cannot be in a database: %d it may have", name,
+                      d->table->n_columns + d->blocks, most);
+    else
+        return WT_OK;
+    wt_error_advice(d->err, "write it as json or csv");
+    return WT_E_UNSUPPORTED;
+}
+
+static bool is_taken(const database *d, size_t n, const char *name)
+{
+    bool taken = d->blocks && strcasecmp(name, BLOCK_COLUMN) == 0;
+    for (size_t i = 0; i < n && !taken; i++)
+        taken = strcasecmp(d->names[i], name) == 0;
+    return taken;
+}
+
+/* SQLite takes modulus_A for modulus_a: the later one gets a number. */
+static wt_status name_columns(database *d)
+{
+    const size_t n = d->table->n_columns;
+    d->names = calloc(n + 1, sizeof *d->names);
+    bool good = d->names != NULL;
+    for (size_t i = 0; good && i < n; i++) {
+        char *name = strdup(d->table->columns[i].name);
+        for (size_t number = 2; name != NULL && is_taken(d, i, name); number++) {
+            free(name);
+            if (asprintf(&name, "%s_%zu", d->table->columns[i].name, number) < 0)
+                name = NULL;
+        }
+        d->names[i] = name;
+        good = name != NULL;
+    }
+    return good ? WT_OK : wt_fail(d->err, WT_E_MEMORY, "out of memory");
+}
+
+/* ---- tables ---------------------------------------------------------------------------------- */
+
+/* CREATE TABLE, or INSERT with a place for each column; new, NULL when out of memory. */
+static char *table_words(const database *d, bool create)
+{
+    sqlite3_str *const s = sqlite3_str_new(d->db);
+    sqlite3_str_appendf(s, create ? "CREATE TABLE \"%w\"(" : "INSERT INTO \"%w\" VALUES(",
+                        d->table->name);
+    if (d->blocks)
+        sqlite3_str_appendall(s, create ? BLOCK_COLUMN " INTEGER, " : "?, ");
+    for (size_t i = 0; i < d->table->n_columns; i++) {
+        const bool is_text = d->table->columns[i].kind == WT_COLUMN_TEXT;
+        if (i > 0)
+            sqlite3_str_appendall(s, ", ");
+        if (create)
+            sqlite3_str_appendf(s, "\"%w\" %s", d->names[i], is_text ? "TEXT" : "REAL");
+        else
+            sqlite3_str_appendall(s, "?");
+    }
+    sqlite3_str_appendall(s, ")");
+    return sqlite3_str_finish(s);
+}
+
+static wt_status put_rows(const database *d)
+{
+    sqlite3_stmt *row = NULL;
+    char *words = table_words(d, true);
+    wt_status status = words != NULL ? run(d, words) : failed(d, SQLITE_NOMEM);
+    sqlite3_free(words);
+    words = status == WT_OK ? table_words(d, false) : NULL;
+    if (status == WT_OK)
+        status = prepare(d, words, &row);
+    sqlite3_free(words);
+    for (size_t i = 0; status == WT_OK && i < d->table->n_rows; i++) {
+        int place = 1;
+        if (d->blocks)
+            (void)sqlite3_bind_int64(row, place++, (sqlite3_int64)wt_table_block(d->table, i));
+        for (size_t column = 0; column < d->table->n_columns; column++, place++)
+            if (d->table->columns[column].kind == WT_COLUMN_TEXT)
+                bind_text(row, place, wt_table_text(d->table, i, column));
+            else
+                bind_number(row, place, wt_table_number(d->table, i, column));
+        status = put_row(d, row);
+    }
+    (void)sqlite3_finalize(row);
+    return status;
+}
+
+static wt_status put_columns(const database *d)
+{
+    sqlite3_stmt *row = NULL;
+    wt_status status = run(d, "CREATE TABLE " COLUMNS_TABLE
+                              "(\"table\" TEXT, \"column\" TEXT, unit TEXT, words TEXT)");
+    if (status == WT_OK)
+        status = prepare(d, "INSERT INTO " COLUMNS_TABLE " VALUES(?, ?, ?, ?)", &row);
+    for (size_t i = 0; status == WT_OK && i < d->table->n_columns; i++) {
+        const table_column *const column = &d->table->columns[i];
+        bind_text(row, 1, d->table->name);
+        bind_text(row, 2, d->names[i]);
+        bind_text(row, 3, column->kind == WT_COLUMN_TEXT ? NULL : column->unit);
+        bind_text(row, 4, column->long_name);
+        status = put_row(d, row);
+    }
+    (void)sqlite3_finalize(row);
+    return status;
+}
+
+static wt_status put_keys(const database *d)
+{
+    sqlite3_stmt *row = NULL;
+    if (d->table->n_keys == 0)
+        return WT_OK;
+    wt_status status = run(d, "CREATE TABLE " KEYS_TABLE
+                              "(\"table\" TEXT, \"key\" TEXT, value REAL, standard_error REAL, "
+                              "numerical_error REAL, unit TEXT, words TEXT)");
+    if (status == WT_OK)
+        status = prepare(d, "INSERT INTO " KEYS_TABLE " VALUES(?, ?, ?, ?, ?, ?, ?)", &row);
+    for (size_t i = 0; status == WT_OK && i < d->table->n_keys; i++) {
+        const table_key *const key = &d->table->keys[i];
+        const double numbers[] = {key->parsed.value, key->parsed.standard_error,
+                                  key->parsed.numerical_error};
+        bind_text(row, 1, d->table->name);
+        bind_text(row, 2, key->name);
+        for (int k = 0; k < (int)COUNT_OF(numbers); k++)
+            bind_number(row, 3 + k, key->is_estimate ? numbers[k] : (double)NAN);
+        bind_text(row, 6, key->is_estimate ? key->unit : NULL);
+        bind_text(row, 7, key->is_estimate ? NULL : key->text);
+        status = put_row(d, row);
+    }
+    (void)sqlite3_finalize(row);
+    return status;
+}
+
+/* By this a later run knows the file for one that it may replace. */
+static wt_status put_mark(const database *d)
+{
+    char words[64];
+    uint32_t id;
+    memcpy(&id, DATABASE_ID, sizeof id);
+    (void)snprintf(words, sizeof words, "PRAGMA application_id = %" PRIu32, be32toh(id));
+    return run(d, words);
+}
+
+static wt_status write_bytes(const database *d, FILE *out)
+{
+    sqlite3_int64 size = 0;
+    unsigned char *const bytes = sqlite3_serialize(d->db, "main", &size, 0);
+    if (bytes == NULL)
+        return failed(d, SQLITE_NOMEM);
+    const bool written = fwrite(bytes, 1, (size_t)size, out) == (size_t)size;
+    const int number = errno;
+    sqlite3_free(bytes);
+    return written ? WT_OK : wt_fail(d->err, WT_E_IO, "cannot write: %s", strerror(number));
+}
+
+wt_status export_sqlite(FILE *out, const wt_table *table, bool blocks, wt_error *err)
+{
+    database d = {.table = table, .blocks = blocks, .err = err};
+    const int opened = sqlite3_open_v2(
+        ":memory:", &d.db, SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE | SQLITE_OPEN_MEMORY, NULL);
+    wt_status status = opened == SQLITE_OK ? check_table(&d) : failed(&d, opened);
+    if (status == WT_OK)
+        status = name_columns(&d);
+    if (status == WT_OK)
+        status = run(&d, "BEGIN");
+    if (status == WT_OK)
+        status = put_mark(&d);
+    if (status == WT_OK)
+        status = put_rows(&d);
+    if (status == WT_OK)
+        status = put_columns(&d);
+    if (status == WT_OK)
+        status = put_keys(&d);
+    if (status == WT_OK)
+        status = run(&d, "COMMIT");
+    if (status == WT_OK)
+        status = write_bytes(&d, out);
+    (void)sqlite3_close(d.db);
+    wt_strings_free(d.names, d.names != NULL ? table->n_columns : 0);
+    return status;
+}

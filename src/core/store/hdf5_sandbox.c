@@ -1,0 +1,87 @@
+/* The door to HDF5. SPDX-License-Identifier: GPL-3.0-or-later */
+#include "core/store/hdf5_sandbox.h"
+#include "core/store/hdf5_scope.h"
+
+#include <string.h>
+
+/* ---- behind the door ------------------------------------------------------------------------- */
+
+/* HDF5 begins at 0, 512, 1024, 2048, ... */
+static bool has_signature(const hdf5_bytes *file)
+{
+    static const unsigned char signature[8] = {0x89, 'H', 'D', 'F', '\r', '\n', 0x1A, '\n'};
+    unsigned char found[sizeof signature];
+    for (size_t at = 0; at + sizeof signature <= file->size; at = at > 0 ? 2 * at : 512) {
+        if (hdf5_bytes_at(file, at, found, sizeof found) &&
+            memcmp(found, signature, sizeof signature) == 0)
+            return true;
+    }
+    return false;
+}
+
+/* The process has one thread and reads one file. */
+static hid_t open_bytes(hdf5_bytes *file)
+{
+    const hid_t access = H5Pcreate(H5P_FILE_ACCESS);
+    if (access < 0 || H5Pset_fclose_degree(access, H5F_CLOSE_STRONG) < 0 ||
+        !hdf5_bytes_access(access, file))
+        return -1;
+    return H5Fopen("weartrack.h5", H5F_ACC_RDONLY, access);
+}
+
+static wt_status read_file(const door_call *door, FILE *answer, wt_error *err)
+{
+    static hdf5_bytes from; /* the process ends with the file open */
+    hdf5_reading *const *reading = door->with;
+    from = (hdf5_bytes){.bytes = door->bytes, .file = DOOR_FILE, .size = door->size};
+    if (!has_signature(&from))
+        return wt_fail(err, WT_E_FORMAT, "not an HDF5 file, or its first bytes are damaged");
+    const hid_t file = open_bytes(&from);
+    if (file >= 0)
+        return (*reading)(file, door->size, answer, err);
+    wt_fail(err, WT_E_CORRUPT, "the HDF5 file is damaged or cut off");
+    wt_error_advice(err, "make the file again");
+    return WT_E_CORRUPT;
+}
+
+/* ---- in front of it -------------------------------------------------------------------------- */
+
+static void enter_hdf5(void *scope)
+{
+    hdf5_enter(scope);
+}
+
+static void leave_hdf5(void *scope)
+{
+    hdf5_leave(scope);
+}
+
+static door_call door_call_of(const hdf5_bytes *from, hdf5_reading *const *reading,
+                              hdf5_scope *scope)
+{
+    return (door_call){.what = "HDF5",
+                       .reading = read_file,
+                       .bytes = from->bytes,
+                       .size = from->size,
+                       .with = reading,
+                       .file = from->bytes != NULL ? -1 : from->file,
+                       .enter = enter_hdf5,
+                       .leave = leave_hdf5,
+                       .hold = scope};
+}
+
+wt_status hdf5_door_read(const hdf5_bytes *from, const door_limits *limits, hdf5_reading *reading,
+                         char **answer, size_t *length, wt_error *err)
+{
+    hdf5_scope scope;
+    const door_call door = door_call_of(from, &reading, &scope);
+    return door_read(&door, limits, answer, length, err);
+}
+
+wt_status hdf5_door_begin(const hdf5_bytes *from, const door_limits *limits, hdf5_reading *reading,
+                          door_flow **flow, wt_error *err)
+{
+    hdf5_scope scope;
+    const door_call door = door_call_of(from, &reading, &scope);
+    return door_begin(&door, limits, flow, err);
+}

@@ -1,0 +1,157 @@
+/* The abstract of a result file: behind its end, as HDF5 knows it, the tables that headlines are
+ * made of, once more, as they come through the door (store.h). It is read without HDF5, so that no
+ * process and no library stands between thousands of files and one table of them; its bytes are
+ * checked as those from behind the door are. A program that opens the file for writing cuts it off
+ * there, so that it cannot be older than what it is of; without it, or where headlines were made of
+ * other tables when it was written, the file is read as any other.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#include "core/store/store.h"
+#include "core/table/table.h"
+#include "core/table/table_bytes.h"
+
+#include <endian.h>
+#include <errno.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+/* The last bytes of the file: how long the abstract before them is, and that it is one. Another
+ * layout of it gets another mark. */
+typedef struct abstract_end {
+    uint64_t length; /* the low byte first */
+    char mark[8];
+} abstract_end;
+static const char mark[8] = {'W', 'T', 'A', 'B', 'S', 'T', '2', '\n'};
+
+/* ---- written --------------------------------------------------------------------------------- */
+
+static wt_status put_table(FILE *out, const wt_table *table, char *digest, wt_error *err)
+{
+    /* Of most tables the keys alone are headlines, and some are long. */
+    wt_table part = *table;
+    if (!store_has_headline_rows(table->name)) {
+        part.n_rows = 0;
+        part.n_blocks = 0;
+    }
+    const wt_status status = table_bytes_digest(&part, digest, err);
+    return status == WT_OK ? table_bytes_write(out, &part, err) : status;
+}
+
+wt_status store_abstract_write(FILE *out, const wt_result *result, wt_error *err)
+{
+    store_tail tail = {.n_tables = 0};
+    const size_t n = wt_result_n_tables(result);
+    char(*const digests)[STORE_DIGEST_SIZE] = calloc(n + 1, sizeof *digests);
+    const long from = fseek(out, 0, SEEK_END) == 0 ? ftell(out) : -1;
+    wt_status status = digests != NULL ? WT_OK : wt_fail(err, WT_E_MEMORY, "out of memory");
+    for (size_t i = 0; status == WT_OK && i < n; i++) {
+        const wt_table *const table = wt_result_table(result, i);
+        if (store_has_headlines(table->name))
+            status = put_table(out, table, digests[tail.n_tables++], err);
+    }
+    if (status == WT_OK) {
+        (void)fwrite(digests, sizeof *digests, tail.n_tables, out);
+        store_tail_write(out, &tail);
+        char of[STORE_DIGEST_SIZE];
+        store_headlines_digest(of);
+        (void)fwrite(of, sizeof of, 1, out);
+        const long to = ftell(out);
+        abstract_end end = {.length = htole64((uint64_t)(to - from))};
+        memcpy(end.mark, mark, sizeof mark);
+        if (from < 0 || to < from || fwrite(&end, sizeof end, 1, out) != 1 || fflush(out) != 0)
+            status = wt_fail(err, WT_E_IO, "cannot write the file: %s", strerror(errno));
+    }
+    free(digests);
+    return status;
+}
+
+/* ---- read ------------------------------------------------------------------------------------ */
+
+static bool read_at(int file, size_t at, void *to, size_t n)
+{
+    for (size_t got = 0; got < n;) {
+        const ssize_t more = pread(file, (char *)to + got, n - got, (off_t)(at + got));
+        if (more == 0 || (more < 0 && errno != EINTR))
+            return false;
+        got += more > 0 ? (size_t)more : 0;
+    }
+    return true;
+}
+
+/* An abstract that is longer is not used. A made one costs some twenty times this memory at most: a
+ * text of two bytes is a pointer and a piece of memory of its own. That of a whole case takes some
+ * 40 kB. */
+#define ABSTRACT_MOST ((size_t)2 << 20)
+
+/* Whether the abstract is of the tables that headlines are made of now. */
+static bool is_of_headlines(const char *bytes, size_t length)
+{
+    char of[STORE_DIGEST_SIZE];
+    store_headlines_digest(of);
+    return length >= sizeof of && memcmp(bytes + length - sizeof of, of, sizeof of) == 0;
+}
+
+/* The bytes of the abstract, new; NULL if the file has none of use or memory is short. */
+static char *take_abstract(int file, size_t size, size_t *length)
+{
+    abstract_end end;
+    if (size < sizeof end)
+        return NULL;
+    const size_t before = size - sizeof end;
+    if (!read_at(file, before, &end, sizeof end) || memcmp(end.mark, mark, sizeof mark) != 0)
+        return NULL;
+    *length = (size_t)le64toh(end.length);
+    const bool whole = *length > 0 && *length <= before && *length <= ABSTRACT_MOST;
+    char *const bytes = whole ? malloc(*length) : NULL;
+    if (bytes != NULL && read_at(file, before - *length, bytes, *length) &&
+        is_of_headlines(bytes, *length)) {
+        *length -= STORE_DIGEST_SIZE;
+        return bytes;
+    }
+    free(bytes);
+    return NULL;
+}
+
+wt_status store_abstract_read(int file, size_t size, const char *name, wt_result **result,
+                              wt_error *err)
+{
+    size_t length = 0;
+    char *const bytes = take_abstract(file, size, &length);
+    if (bytes == NULL)
+        return WT_END;
+    wt_result *const read = wt_result_new();
+    const wt_status status = read != NULL ? store_take(bytes, length, read, err)
+                                          : wt_fail(err, WT_E_MEMORY, "out of memory");
+    free(bytes);
+    if (status == WT_OK) {
+        *result = read;
+    } else {
+        wt_error_file(err, name);
+        wt_result_free(read);
+    }
+    return status;
+}
+
+wt_status wt_store_read_headlines(const char *path, wt_result **result, wt_error *err)
+{
+    static const unsigned char signature[8] = {0x89, 'H', 'D', 'F', '\r', '\n', 0x1a, '\n'};
+    unsigned char begin[sizeof signature];
+    struct stat info;
+    int file = -1;
+    wt_status status = store_open_regular(path, &file, &info, err);
+    if (status == WT_OK && (pread(file, begin, sizeof begin, 0) != (ssize_t)sizeof begin ||
+                            memcmp(begin, signature, sizeof begin) != 0)) {
+        status = wt_fail(err, WT_E_FORMAT, "not an HDF5 file");
+        wt_error_file(err, path);
+    }
+    if (status == WT_OK)
+        status = store_abstract_read(file, (size_t)info.st_size, path, result, err);
+    if (status == WT_END) {
+        const hdf5_bytes from = {.file = file, .size = (size_t)info.st_size};
+        status = store_read_bytes(&from, store_pass_headlines, path, result, err);
+    }
+    if (file >= 0)
+        (void)close(file);
+    return status;
+}

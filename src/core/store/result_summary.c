@@ -1,0 +1,341 @@
+/* The headlines of results, and one row for each result. SPDX-License-Identifier: GPL-3.0-or-later
+ */
+#include "core/base/array.h"
+#include "core/store/store.h"
+#include "core/table/result_value.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* ---- headlines of one result ----------------------------------------------------------------- */
+
+/* A row of the table "keys"; the words are those of a text, or what the number is. */
+static void put_key(table_writer *t, const char *name, wt_estimate e, const char *words)
+{
+    table_row(t);
+    keys_put_text(t, KEYS_KEY, name);
+    keys_put(t, KEYS_VALUE, e.value);
+    keys_put(t, KEYS_STANDARD_ERROR, e.standard_error);
+    keys_put(t, KEYS_NUMERICAL_ERROR, e.numerical_error);
+    keys_put_text(t, KEYS_UNIT, e.unit);
+    keys_put_text(t, KEYS_WORDS, words);
+}
+
+static void put_number(table_writer *t, const char *stem, const char *suffix, double value,
+                       const char *unit)
+{
+    char name[2 * SCHEMA_NAME_SIZE];
+    (void)snprintf(name, sizeof name, "%s%s", stem, suffix);
+    put_key(t, name, (wt_estimate){value, (double)NAN, (double)NAN, unit}, NULL);
+}
+
+static void put_text(table_writer *t, const char *name, const char *words)
+{
+    put_key(t, name, (wt_estimate){(double)NAN, (double)NAN, (double)NAN, NULL}, words);
+}
+
+/* Of a verdict the word alone: what stands behind its colon are numbers of columns of their own. */
+static void put_word(table_writer *t, const char *name, const char *verdict)
+{
+    char word[256];
+    const char *colon = strstr(verdict, ": ");
+    (void)snprintf(word, sizeof word, "%.*s",
+                   colon != NULL ? (int)(colon - verdict) : (int)strlen(verdict), verdict);
+    put_text(t, name, word);
+}
+
+static void put_ends(table_writer *t, const char *stem, const char *suffixes[2], double low,
+                     double high, const char *unit)
+{
+    if (isnan(low) && isnan(high))
+        return;
+    put_number(t, stem, suffixes[0], low, unit);
+    put_number(t, stem, suffixes[1], high, unit);
+}
+
+/* A number with its interval and what the choices of the model make of it. */
+static void put_finding(table_writer *t, const char *name, const finding *f)
+{
+    static const char *interval[2] = {"_low", "_high"}, *range[2] = {"_model_low", "_model_high"};
+    put_ends(t, name, interval, f->low, f->high, f->number.unit);
+    put_ends(t, name, range, f->range.low, f->range.high, f->number.unit);
+}
+
+/* The keys that are declared as headlines. */
+static void put_keys(table_writer *t, const finding_tables *found, const table_view *view)
+{
+    const table_schema *schema = view->schema;
+    for (unsigned i = 0; view->table != NULL && i < schema->n_keys; i++) {
+        const schema_field *key = &schema->keys[i];
+        finding f;
+        if (key->headline == NULL || view_key_text(view, schema, i) == NULL ||
+            strcmp(key->name, "verdict") == 0) /* the column is that of the comparison */
+            continue;
+        if (key->kind == SCHEMA_TEXT)
+            put_word(t, key->name, view_key_text(view, schema, i));
+        else
+            put_key(t, key->name, view_key(view, schema, i), key->headline);
+        if (finding_of_key(found, key, &f))
+            put_finding(t, key->name, &f);
+    }
+}
+
+static void put_groups(table_writer *t, const finding_tables *found)
+{
+    const table_view *groups = &found->groups;
+    for (size_t row = 0; row < groups->n_rows; row++) {
+        char stem[SCHEMA_NAME_SIZE];
+        const finding f = finding_of_group(found, row);
+        const char *group = modulus_groups_text(groups, row, MODULUS_GROUPS_GROUP);
+        (void)snprintf(stem, sizeof stem, "%s_%s", f.name, group);
+        put_number(t, stem, "", f.number.value, f.number.unit);
+        put_finding(t, stem, &f);
+        put_number(t, "accepted_", group, modulus_groups_get(groups, row, MODULUS_GROUPS_N), "1");
+        put_number(t, "rejected_", group,
+                   modulus_groups_get(groups, row, MODULUS_GROUPS_N_REJECTED), "1");
+    }
+}
+
+static void put_ratio(table_writer *t, const finding_tables *found)
+{
+    const finding f = finding_of_ratio(found);
+    if (found->comparison.n_rows == 0)
+        return;
+    if (f.verdict != NULL)
+        put_word(t, "verdict", f.verdict);
+    put_number(t, f.name, "", f.number.value, f.number.unit);
+    put_finding(t, f.name, &f);
+    put_number(t, "welch_p", "", comparison_get(&found->comparison, 0, COMPARISON_WELCH_P), "1");
+}
+
+/* A key that is a number without an error. */
+static double plain_key(const char *words)
+{
+    double value = (double)NAN;
+    return words != NULL && wt_number_parse(words, strlen(words), '.', &value) ? value
+                                                                               : (double)NAN;
+}
+
+/* How much of what was asked for the result has. */
+static wt_answered answered_by(const table_view *failures, const table_view *notes)
+{
+    bool lost = failures->n_rows > 0;
+    for (size_t row = 0; row < notes->n_rows; row++)
+        lost = lost || strcmp(notes_text(notes, row, NOTES_SEVERITY), "loss") == 0;
+    if (plain_key(failures_words(failures, FAILURES_KEY_STATUS)) == WT_ANSWERED_NOTHING)
+        return WT_ANSWERED_NOTHING;
+    return lost ? WT_ANSWERED_PARTLY : WT_ANSWERED_WHOLE;
+}
+
+/* How far one spectrum is from the isotherms: the number behind the word. */
+static void put_misfit(table_writer *t, const table_view *shifts)
+{
+    static const char *ends[2] = {"_low", "_high"};
+    put_ends(t, "superposition_misfit", ends,
+             plain_key(shift_factors_words(shifts, SHIFT_FACTORS_KEY_MISFIT_LOW)),
+             plain_key(shift_factors_words(shifts, SHIFT_FACTORS_KEY_MISFIT_HIGH)), "1");
+}
+
+/* The tables that have headlines beside those of the findings; behind the first ones all are keys.
+ */
+enum { ANSWER, NOTES, FAILURES, WITH_KEYS, N_TABLES = WITH_KEYS + 17 };
+static const table_schema *const sources[N_TABLES] = {[ANSWER] = &answer_schema,
+                                                      [NOTES] = &notes_schema,
+                                                      [FAILURES] = &failures_schema,
+                                                      [WITH_KEYS] = &shift_factors_schema,
+                                                      &glass_transition_schema,
+                                                      &friction_schema,
+                                                      &layer_schema,
+                                                      &dwell_schema,
+                                                      &sensitivity_schema,
+                                                      &thermal_schema,
+                                                      &material_ratio_schema,
+                                                      &common_law_schema,
+                                                      &ratio_pairs_schema,
+                                                      &identification_schema,
+                                                      &shared_pairs_schema,
+                                                      &validation_schema,
+                                                      &validation_running_in_schema,
+                                                      &record_schema,
+                                                      &wear_schema,
+                                                      &power_spectrum_schema};
+
+bool store_has_headlines(const char *table)
+{
+    for (size_t i = 0; i < N_TABLES; i++)
+        if (strcmp(sources[i]->name, table) == 0)
+            return true;
+    return findings_are_of(table);
+}
+
+bool store_has_headline_rows(const char *table)
+{
+    return findings_are_of(table) || strcmp(table, notes_schema.name) == 0 ||
+           strcmp(table, failures_schema.name) == 0;
+}
+
+/* The digest so far and one more name, with what is taken of that table. */
+static void add_name(const char *table, char hex[STORE_DIGEST_SIZE])
+{
+    char words[STORE_DIGEST_SIZE + SCHEMA_NAME_SIZE];
+    const int n = snprintf(words, sizeof words, "%s%c%s", hex,
+                           store_has_headline_rows(table) ? 'r' : 'k', table);
+    wt_digest(words, (size_t)n < sizeof words ? (size_t)n : sizeof words - 1, hex);
+}
+
+void store_headlines_digest(char hex[STORE_DIGEST_SIZE])
+{
+    hex[0] = '\0';
+    for (size_t i = 0; findings_table(i) != NULL; i++)
+        add_name(findings_table(i), hex);
+    for (size_t i = 0; i < N_TABLES; i++)
+        add_name(sources[i]->name, hex);
+}
+
+wt_status wt_result_headlines(const wt_result *result, wt_table **headlines, wt_error *err)
+{
+    finding_tables found;
+    table_view views[N_TABLES];
+    wt_status status = findings_bind(result, &found, err);
+    for (size_t i = 0; status == WT_OK && i < N_TABLES; i++)
+        status = table_bind_of(result, sources[i], "", &views[i], err);
+    if (status != WT_OK)
+        return status;
+    double n_remarks = 0;
+    for (size_t row = 0; row < views[NOTES].n_rows; row++)
+        n_remarks += strcmp(notes_text(&views[NOTES], row, NOTES_SEVERITY), "note") != 0;
+    table_writer t = table_begin(&keys_schema, err);
+    put_number(&t, "status", "", answered_by(&views[FAILURES], &views[NOTES]), "1");
+    if (views[ANSWER].table != NULL && answer_words(&views[ANSWER], ANSWER_KEY_CASE_TITLE) != NULL)
+        put_text(&t, "case_title", answer_words(&views[ANSWER], ANSWER_KEY_CASE_TITLE));
+    put_ratio(&t, &found);
+    put_groups(&t, &found);
+    for (size_t i = WITH_KEYS; i < N_TABLES; i++)
+        put_keys(&t, &found, &views[i]);
+    put_misfit(&t, &views[WITH_KEYS]);
+    put_number(&t, "remarks", "", n_remarks, "1");
+    put_number(&t, "failures", "", (double)views[FAILURES].n_rows, "1");
+    return table_end(&t, headlines);
+}
+
+/* ---- a row for each result ------------------------------------------------------------------- */
+
+/* A headline that some of the results have. */
+typedef struct column {
+    const char *name, *unit; /* unit "": a text */
+    const char *words;
+    bool has_error[2]; /* standard and numerical */
+} column;
+static const keys_column error_of[2] = {KEYS_STANDARD_ERROR, KEYS_NUMERICAL_ERROR};
+static const char *const error_suffix[2] = {"_standard_error", "_numerical_error"};
+static const char *const error_words[2] = {"its standard error", "its numerical error"};
+
+typedef struct columns {
+    column *column;
+    size_t n;
+} columns;
+
+/* Puts the headlines of a result into the list, a new one behind that which it follows there. */
+static wt_status merge_headlines(columns *list, const table_view *headlines, wt_error *err)
+{
+    size_t place = 0;
+    for (size_t row = 0; row < headlines->n_rows; row++) {
+        const char *name = keys_text(headlines, row, KEYS_KEY);
+        size_t i = place; /* most results have the same ones in the same order */
+        if (i >= list->n || strcmp(list->column[i].name, name) != 0)
+            i = 0;
+        while (i < list->n && strcmp(list->column[i].name, name) != 0)
+            i++;
+        if (i == list->n) {
+            column *grown = array_grow(list->column, list->n, sizeof *grown);
+            if (grown == NULL)
+                return wt_fail(err, WT_E_MEMORY, "out of memory");
+            list->column = grown;
+            memmove(grown + place + 1, grown + place, (list->n - place) * sizeof *grown);
+            grown[place] = (column){name,
+                                    keys_text(headlines, row, KEYS_UNIT),
+                                    keys_text(headlines, row, KEYS_WORDS),
+                                    {false, false}};
+            list->n++;
+            i = place;
+        }
+        for (int e = 0; e < 2; e++)
+            list->column[i].has_error[e] |= keys_get(headlines, row, error_of[e]) > 0;
+        place = i + 1;
+    }
+    return WT_OK;
+}
+
+static wt_status add_columns(wt_table *table, const columns *list, wt_error *err)
+{
+    wt_status status = wt_table_add_text_column(table, "file", "file of the result", err);
+    for (size_t i = 0; status == WT_OK && i < list->n; i++) {
+        const column *c = &list->column[i];
+        status = c->unit[0] == '\0' ? wt_table_add_text_column(table, c->name, "", err)
+                                    : wt_table_add_column(table, c->name, c->unit, c->words, err);
+        for (int e = 0; status == WT_OK && e < 2; e++) {
+            char name[SCHEMA_NAME_SIZE + 24];
+            (void)snprintf(name, sizeof name, "%s%s", c->name, error_suffix[e]);
+            if (c->has_error[e])
+                status = wt_table_add_column(table, name, c->unit, error_words[e], err);
+        }
+    }
+    return status;
+}
+
+static wt_status add_row(wt_table *table, const columns *list, const char *file,
+                         const table_view *headlines, wt_error *err)
+{
+    wt_status status = wt_table_add_row(table, err);
+    if (status == WT_OK)
+        status = wt_table_put_text(table, 0, file, err);
+    for (size_t i = 0, place = 1, next = 0; status == WT_OK && i < list->n; i++) {
+        const column *c = &list->column[i];
+        size_t row = next; /* likewise */
+        if (row >= headlines->n_rows || strcmp(keys_text(headlines, row, KEYS_KEY), c->name) != 0)
+            row = 0;
+        while (row < headlines->n_rows && strcmp(keys_text(headlines, row, KEYS_KEY), c->name) != 0)
+            row++;
+        const bool found = row < headlines->n_rows;
+        next = found ? row + 1 : next;
+        if (found && c->unit[0] == '\0')
+            status = wt_table_put_text(table, place, keys_text(headlines, row, KEYS_WORDS), err);
+        else if (found)
+            wt_table_put(table, place, keys_get(headlines, row, KEYS_VALUE));
+        place++;
+        for (int e = 0; e < 2; e++)
+            if (c->has_error[e] && found)
+                wt_table_put(table, place++, keys_get(headlines, row, error_of[e]));
+            else
+                place += c->has_error[e];
+    }
+    return status;
+}
+
+wt_status wt_summary(const char *const *files, const wt_table *const *headlines, size_t n,
+                     wt_table **summary, wt_error *err)
+{
+    columns list = {NULL, 0};
+    wt_status status = WT_OK;
+    table_view *views = calloc(n + 1, sizeof *views);
+    wt_table *table = wt_table_new("summary", "Headlines of the results");
+    if (views == NULL || table == NULL)
+        status = wt_fail(err, WT_E_MEMORY, "out of memory");
+    for (size_t i = 0; status == WT_OK && i < n; i++) {
+        status = table_bind(headlines[i], &keys_schema, "", &views[i], err);
+        if (status == WT_OK)
+            status = merge_headlines(&list, &views[i], err);
+    }
+    if (status == WT_OK)
+        status = add_columns(table, &list, err);
+    for (size_t i = 0; status == WT_OK && i < n; i++)
+        status = add_row(table, &list, files[i], &views[i], err);
+    free(list.column);
+    free(views);
+    if (status == WT_OK)
+        *summary = table;
+    else
+        wt_table_free(table);
+    return status;
+}

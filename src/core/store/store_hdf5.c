@@ -1,0 +1,541 @@
+/* The HDF5 file of a result to bytes, behind the door (hdf5_door.h). The file may be damaged or
+ * made to do harm: types, ranks and lengths are checked before memory is taken, no link leads out
+ * of the file. SPDX-License-Identifier: GPL-3.0-or-later */
+#include "core/store/force_map.h"
+#include "core/store/hdf5_scope.h"
+#include "core/store/store.h"
+#include "core/table/table_bytes.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+typedef struct reader {
+    hid_t file;
+    hsize_t file_size; /* no array and no text in the file can be larger */
+    const char *table; /* for messages, NULL outside of tables */
+    FILE *out;
+    wt_status status; /* of the first failure; the functions below are false from then on */
+    wt_error *err;
+} reader;
+
+static bool corrupt(reader *r, const char *name, const char *message)
+{
+    r->status = wt_fail(r->err, WT_E_CORRUPT, "%s", message);
+    const bool both = r->table != NULL && name[0] != '\0';
+    wt_error_place(r->err, "%s%s%s", r->table != NULL ? r->table : "", both ? "/" : "", name);
+    wt_error_advice(r->err, "make the file again");
+    return false;
+}
+
+static bool no_memory(reader *r)
+{
+    r->status = wt_fail(r->err, WT_E_MEMORY, "out of memory");
+    return false;
+}
+
+/* A name that the data types refuse is the file's fault, not an argument's. */
+static bool is_taken(reader *r, wt_status status)
+{
+    r->status = status == WT_E_ARG ? WT_E_CORRUPT : status;
+    if (status == WT_E_ARG && r->err != NULL)
+        r->err->status = WT_E_CORRUPT;
+    return status == WT_OK;
+}
+
+/* Copies n texts, each `width` bytes of `packed` or up to the first zero, NULL for empty ones. */
+static bool unpack(const char *packed, size_t width, size_t n, char **texts)
+{
+    for (size_t i = 0; i < n; i++) {
+        const char *const text = packed + i * width;
+        const size_t length = strnlen(text, width);
+        if (length > 0) {
+            texts[i] = strndup(text, length);
+            if (texts[i] == NULL)
+                return false;
+        }
+    }
+    return true;
+}
+
+/* Reads n texts of an attribute or a data set (is_attribute) into new copies. */
+static bool read_texts(reader *r, hid_t source, bool is_attribute, const char *name, size_t n,
+                       char **texts)
+{
+    bool good = false;
+    char *packed = NULL;
+    const hid_t type = is_attribute ? H5Aget_type(source) : H5Dget_type(source);
+    const size_t width = type >= 0 ? H5Tget_size(type) : 0;
+    if (width == 0 || H5Tget_class(type) != H5T_STRING || H5Tis_variable_str(type) != 0 ||
+        n > r->file_size / width)
+        good = corrupt(r, name, "not text of fixed length");
+    else if ((packed = malloc(n > 0 ? n * width : 1)) == NULL)
+        good = no_memory(r);
+    else if ((is_attribute ? H5Aread(source, type, packed)
+                           : H5Dread(source, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, packed)) < 0)
+        good = corrupt(r, name, "text cannot be read");
+    else
+        good = unpack(packed, width, n, texts) || no_memory(r);
+    free(packed);
+    hdf5_close(type);
+    return good;
+}
+
+/* Opens an attribute and gives its number of elements. */
+static hid_t open_attribute(hid_t object, const char *name, size_t *n)
+{
+    const hid_t attribute = H5Aopen(object, name, H5P_DEFAULT);
+    const hid_t space = attribute >= 0 ? H5Aget_space(attribute) : -1;
+    const hssize_t points = space >= 0 ? H5Sget_simple_extent_npoints(space) : -1;
+    hdf5_close(space);
+    *n = (size_t)points;
+    if (points >= 0)
+        return attribute;
+    hdf5_close(attribute);
+    return -1;
+}
+
+/* One text, new; NULL on failure. */
+static char *read_text(reader *r, hid_t object, const char *name)
+{
+    size_t n = 0;
+    char *found = NULL;
+    const hid_t attribute = open_attribute(object, name, &n);
+    const bool good = attribute < 0 || n != 1
+                          ? corrupt(r, name, "attribute missing or not one text")
+                          : read_texts(r, attribute, true, name, 1, &found);
+    hdf5_close(attribute);
+    if (good && found == NULL && (found = strdup("")) == NULL)
+        (void)no_memory(r);
+    return found;
+}
+
+/* A list of words, which is left out of the file where it is empty. */
+static bool read_words(reader *r, hid_t object, const char *name, size_t max, char ***words,
+                       size_t *n_words)
+{
+    size_t n = 0;
+    if (H5Aexists(object, name) == 0)
+        return true;
+    const hid_t attribute = open_attribute(object, name, &n);
+    char **const found = attribute >= 0 && n <= max ? calloc(n + 1, sizeof *found) : NULL;
+    bool good = attribute < 0 || n > max ? corrupt(r, name, "not a list of names")
+                : found == NULL          ? no_memory(r)
+                                         : read_texts(r, attribute, true, name, n, found);
+    for (size_t i = 0; good && i < n; i++)
+        good = found[i] != NULL || corrupt(r, name, "an empty name");
+    hdf5_close(attribute);
+    if (good) {
+        *words = found;
+        *n_words = n;
+    } else {
+        wt_strings_free(found, found != NULL ? n : 0);
+    }
+    return good;
+}
+
+/* One value that is a number; *is_text instead if that is not NULL and it is something else. */
+static bool read_number(reader *r, hid_t object, const char *name, double *value, bool *is_text)
+{
+    size_t n = 0;
+    const hid_t attribute = open_attribute(object, name, &n);
+    const hid_t type = attribute >= 0 ? H5Aget_type(attribute) : -1;
+    const bool is_number = type >= 0 && H5Tget_class(type) == H5T_FLOAT;
+    bool good = true;
+    if (type < 0 || n != 1)
+        good = corrupt(r, name, "attribute missing or not one value");
+    else if (!is_number && is_text != NULL)
+        *is_text = true;
+    else if (!is_number)
+        good = corrupt(r, name, "an error of a value is not a number");
+    else if (H5Aread(attribute, H5T_NATIVE_DOUBLE, value) < 0)
+        good = corrupt(r, name, "attribute cannot be read");
+    hdf5_close(type);
+    hdf5_close(attribute);
+    return good;
+}
+
+/* Whether `name` in `group` is a link within this file. */
+static bool is_inside(hid_t group, const char *name)
+{
+    H5L_info_t info;
+    return H5Lexists(group, name, H5P_DEFAULT) > 0 &&
+           H5Lget_info(group, name, &info, H5P_DEFAULT) >= 0 && info.type == H5L_TYPE_HARD;
+}
+
+/* Opens a group by its path, step by step; -1 if a step is missing or leads out of the file. */
+static hid_t open_group(reader *r, const char *path)
+{
+    char *const steps = strdup(path);
+    if (steps == NULL)
+        (void)no_memory(r);
+    hid_t group = steps != NULL ? H5Gopen2(r->file, "/", H5P_DEFAULT) : -1;
+    for (char *step = steps; group >= 0 && step != NULL;) {
+        char *const slash = strchr(step, '/');
+        if (slash != NULL)
+            *slash = '\0';
+        const hid_t inner = is_inside(group, step) ? H5Gopen2(group, step, H5P_DEFAULT) : -1;
+        (void)H5Gclose(group);
+        group = inner;
+        step = slash != NULL ? slash + 1 : NULL;
+    }
+    free(steps);
+    return group;
+}
+
+/* Opens a data set whose values all stand as they are in this file: in one piece or, of a map, in
+ * pieces of MAP_BLOCK. */
+static hid_t open_laid_out(const reader *r, hid_t group, const char *name, int rank,
+                           H5D_layout_t layout, hsize_t *n)
+{
+    bool good = false;
+    if (!is_inside(group, name))
+        return -1;
+    const hid_t dataset = H5Dopen2(group, name, H5P_DEFAULT);
+    if (dataset < 0)
+        return -1;
+    const hid_t creation = H5Dget_create_plist(dataset);
+    const hid_t space = H5Dget_space(dataset);
+    const hid_t type = H5Dget_type(dataset);
+    if (creation >= 0 && space >= 0 && type >= 0 && H5Sget_simple_extent_ndims(space) == rank &&
+        H5Pget_layout(creation) == layout && H5Pget_external_count(creation) == 0) {
+        const hssize_t points = H5Sget_simple_extent_npoints(space);
+        const hsize_t size = H5Tget_size(type);
+        const hsize_t stored = H5Dget_storage_size(dataset);
+        hsize_t piece = 0;
+        if (layout == H5D_CONTIGUOUS)
+            good = points >= 0 && size > 0 && stored <= r->file_size &&
+                   stored / size == (hsize_t)points;
+        else
+            good = points >= 0 && (hsize_t)points <= r->file_size / sizeof(double) &&
+                   H5Pget_nfilters(creation) == 0 && H5Tget_class(type) == H5T_FLOAT &&
+                   H5Pget_chunk(creation, 1, &piece) == 1 && piece == MAP_BLOCK;
+        *n = (hsize_t)points;
+    }
+    hdf5_close(type);
+    hdf5_close(space);
+    hdf5_close(creation);
+    if (good)
+        return dataset;
+    hdf5_close(dataset);
+    return -1;
+}
+
+static hid_t open_dataset(const reader *r, hid_t group, const char *name, int rank, hsize_t *n)
+{
+    return open_laid_out(r, group, name, rank, H5D_CONTIGUOUS, n);
+}
+
+static bool read_estimate(reader *r, hid_t group, const char *key, double value, wt_table *table)
+{
+    char *names[KEY_PARTS] = {NULL};
+    char *unit = NULL;
+    wt_estimate e = {.value = value};
+    bool good = table_key_part_names(key, names) || no_memory(r);
+    good = good && read_number(r, group, names[KEY_STANDARD_ERROR], &e.standard_error, NULL) &&
+           read_number(r, group, names[KEY_NUMERICAL_ERROR], &e.numerical_error, NULL) &&
+           (unit = read_text(r, group, names[KEY_UNITS])) != NULL;
+    e.unit = unit;
+    good = good && is_taken(r, wt_table_set_estimate(table, key, e, r->err));
+    for (size_t i = 0; i < KEY_PARTS; i++)
+        free(names[i]);
+    free(unit);
+    return good;
+}
+
+static bool read_keys(reader *r, hid_t group, wt_table *table)
+{
+    char **keys = NULL;
+    size_t n = 0;
+    bool good = read_words(r, group, STORE_KEYS_ATTRIBUTE, TABLE_KEYS_MAX, &keys, &n);
+    for (size_t i = 0; good && i < n; i++) {
+        double value;
+        bool is_text = false;
+        good = read_number(r, group, keys[i], &value, &is_text);
+        if (good && is_text) {
+            char *const text = read_text(r, group, keys[i]);
+            good = text != NULL && is_taken(r, wt_table_set_key(table, keys[i], text, r->err));
+            free(text);
+        } else if (good) {
+            good = read_estimate(r, group, keys[i], value, table);
+        }
+    }
+    wt_strings_free(keys, n);
+    return good;
+}
+
+/* Opens the data set of a column and adds the column without its rows; WT_COLUMN_TEXT or _NUMBER
+ * follows from the type. */
+static bool read_column(reader *r, hid_t group, const char *name, hsize_t n_rows, wt_table *table,
+                        hid_t *opened)
+{
+    hsize_t n = 0;
+    const hid_t dataset = open_dataset(r, group, name, 1, &n);
+    *opened = dataset;
+    if (dataset < 0 || n != n_rows)
+        return corrupt(r, name, "column missing, of another length or not stored in one piece");
+    const hid_t type = H5Dget_type(dataset);
+    const H5T_class_t class = H5Tget_class(type);
+    char *const units = read_text(r, dataset, STORE_UNITS_ATTRIBUTE);
+    char *const words = units != NULL ? read_text(r, dataset, STORE_LONG_NAME_ATTRIBUTE) : NULL;
+    bool good = words != NULL;
+    if (good && class == H5T_FLOAT)
+        good = is_taken(r, wt_table_add_column(table, name, units, words, r->err));
+    else if (good && class == H5T_STRING)
+        good = is_taken(r, wt_table_add_text_column(table, name, words, r->err));
+    else if (good)
+        good = corrupt(r, name, "a column that is neither numbers nor text");
+    free(units);
+    free(words);
+    hdf5_close(type);
+    return good;
+}
+
+/* Adds the rows with their blocks. */
+static bool read_blocks(reader *r, hid_t dataset, hsize_t n, wt_table *table)
+{
+    uint64_t *const blocks = calloc((size_t)n + 1, sizeof *blocks);
+    bool good = blocks != NULL || no_memory(r);
+    if (good && n > 0 &&
+        H5Dread(dataset, H5T_NATIVE_UINT64, H5S_ALL, H5S_ALL, H5P_DEFAULT, blocks) < 0)
+        good = corrupt(r, STORE_BLOCK_DATASET, "blocks cannot be read");
+    for (size_t row = 0; good && row < n; row++) {
+        const uint64_t before = row > 0 ? blocks[row - 1] : 0;
+        if (blocks[row] != before && blocks[row] != before + (row > 0))
+            good = corrupt(r, STORE_BLOCK_DATASET, "blocks are not numbered in order");
+        else if (blocks[row] != before)
+            good = is_taken(r, wt_table_new_block(table, r->err));
+        good = good && is_taken(r, wt_table_add_row(table, r->err));
+    }
+    free(blocks);
+    return good;
+}
+
+static bool read_cells(reader *r, hid_t dataset, table_column *column, size_t n)
+{
+    bool good = true;
+    if (column->kind == WT_COLUMN_TEXT)
+        good = read_texts(r, dataset, false, column->name, n, column->texts);
+    else if (H5Dread(dataset, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, column->numbers) <
+             0)
+        good = corrupt(r, column->name, "column cannot be read");
+    return good;
+}
+
+/* The columns, then their rows. */
+static bool read_columns(reader *r, hid_t group, wt_table *table)
+{
+    hsize_t n_rows = 0;
+    char **columns = NULL;
+    size_t n = 0, n_opened = 0;
+    const hid_t blocks = open_dataset(r, group, STORE_BLOCK_DATASET, 1, &n_rows);
+    if (blocks < 0)
+        return corrupt(r, STORE_BLOCK_DATASET, "blocks missing");
+    bool good = read_words(r, group, STORE_COLUMNS_ATTRIBUTE, TABLE_COLUMNS_MAX, &columns, &n);
+    hid_t *const opened = good ? calloc(n + 1, sizeof *opened) : NULL;
+    if (good && opened == NULL)
+        good = no_memory(r);
+    for (; good && n_opened < n; n_opened++)
+        good = read_column(r, group, columns[n_opened], n_rows, table, &opened[n_opened]);
+    good = good && read_blocks(r, blocks, n_rows, table);
+    for (size_t i = 0; good && n_rows > 0 && i < n; i++)
+        good = read_cells(r, opened[i], &table->columns[i], (size_t)n_rows);
+    for (size_t i = 0; i < n_opened; i++)
+        hdf5_close(opened[i]);
+    free(opened);
+    hdf5_close(blocks);
+    wt_strings_free(columns, n);
+    return good;
+}
+
+/* A table, new; NULL on failure. */
+static wt_table *read_table(reader *r, const char *name)
+{
+    wt_table *table = NULL;
+    r->table = name;
+    const hid_t group = table_name_is_valid(name) ? open_group(r, name) : -1;
+    char *const title = group >= 0 ? read_text(r, group, STORE_TITLE_ATTRIBUTE) : NULL;
+    if (group < 0 && r->status == WT_OK)
+        (void)corrupt(r, "", "table missing or misnamed");
+    else if (title != NULL && (table = wt_table_new(name, title)) == NULL)
+        (void)no_memory(r);
+    if (table != NULL && !(read_keys(r, group, table) && read_columns(r, group, table))) {
+        wt_table_free(table);
+        table = NULL;
+    }
+    free(title);
+    hdf5_close(group);
+    r->table = NULL;
+    return table;
+}
+
+static bool pass_table(reader *r, const char *name)
+{
+    wt_table *const table = read_table(r, name);
+    const bool good = table != NULL && is_taken(r, table_bytes_write(r->out, table, r->err));
+    wt_table_free(table);
+    return good;
+}
+
+static bool pass_case(reader *r, uint64_t *passed)
+{
+    hsize_t n = 0;
+    bool good = false;
+    char *text = NULL;
+    if (H5Lexists(r->file, STORE_CASE_DATASET, H5P_DEFAULT) == 0)
+        return true;
+    const hid_t dataset = open_dataset(r, r->file, STORE_CASE_DATASET, 0, &n);
+    const hid_t type = dataset >= 0 ? H5Dget_type(dataset) : -1;
+    const bool is_text =
+        type >= 0 && H5Tget_class(type) == H5T_STRING && H5Tis_variable_str(type) == 0;
+    /* not more than the file: open_dataset checked */
+    const size_t length = is_text ? H5Tget_size(type) : 0;
+    if (!is_text)
+        good = corrupt(r, STORE_CASE_DATASET, "not one text of fixed length");
+    else if ((text = malloc(length)) == NULL)
+        good = no_memory(r);
+    else if (H5Dread(dataset, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, text) < 0)
+        good = corrupt(r, STORE_CASE_DATASET, "cannot be read");
+    else
+        good = true;
+    if (good)
+        *passed = fwrite(text, 1, length, r->out);
+    free(text);
+    hdf5_close(type);
+    hdf5_close(dataset);
+    return good;
+}
+
+static bool check_format(reader *r)
+{
+    int format = 0;
+    size_t n = 0;
+    const hid_t attribute = open_attribute(r->file, STORE_FORMAT_ATTRIBUTE, &n);
+    const hid_t type = attribute >= 0 ? H5Aget_type(attribute) : -1;
+    if (type < 0 || n != 1 || H5Tget_class(type) != H5T_INTEGER ||
+        H5Aread(attribute, H5T_NATIVE_INT, &format) < 0) {
+        r->status = wt_fail(r->err, WT_E_FORMAT, "not a result file of weartrack");
+        wt_error_expected(r->err, "the attribute \"%s\"", STORE_FORMAT_ATTRIBUTE);
+    } else if (format < STORE_FORMAT || format > STORE_FORMAT_MAP) {
+        r->status = wt_fail(r->err, WT_E_UNSUPPORTED, "result file of another version");
+        wt_error_expected(r->err, "layout %d or %d", STORE_FORMAT, STORE_FORMAT_MAP);
+        wt_error_found(r->err, "%d", format);
+        wt_error_advice(
+            r->err,
+            "make it again from its case, or use the weartrack that wrote it or a newer one");
+    }
+    hdf5_close(type);
+    hdf5_close(attribute);
+    return r->status == WT_OK;
+}
+
+/* What a file says of all that is in it. */
+typedef struct store_words {
+    char **tables, **digests;
+    size_t n_tables, n_digests;
+    char *version, *command; /* or NULL */
+} store_words;
+
+static bool read_store_words(reader *r, store_words *w)
+{
+    bool good = check_format(r) && read_words(r, r->file, STORE_TABLES_ATTRIBUTE, RESULT_TABLES_MAX,
+                                              &w->tables, &w->n_tables);
+    if (good && H5Aexists(r->file, STORE_COMMAND_ATTRIBUTE) != 0)
+        good = (w->command = read_text(r, r->file, STORE_COMMAND_ATTRIBUTE)) != NULL &&
+               (w->version = read_text(r, r->file, STORE_VERSION_ATTRIBUTE)) != NULL;
+    good = good && read_words(r, r->file, STORE_DIGESTS_ATTRIBUTE, RESULT_TABLES_MAX + 2,
+                              &w->digests, &w->n_digests);
+    const size_t n = w->n_tables + (w->command != NULL) +
+                     (H5Lexists(r->file, STORE_CASE_DATASET, H5P_DEFAULT) > 0);
+    return good && (w->n_digests == n ||
+                    corrupt(r, STORE_DIGESTS_ATTRIBUTE, "not as many digests as there are tables"));
+}
+
+static void pass_digest(const reader *r, const char *digest)
+{
+    char padded[STORE_DIGEST_SIZE] = "";
+    (void)snprintf(padded, sizeof padded, "%s", digest);
+    (void)fwrite(padded, sizeof padded, 1, r->out);
+}
+
+/* Tables of all names, or those that `wanted` names, without origin and case then. */
+static wt_status pass_store(reader *r, bool (*wanted)(const char *name))
+{
+    store_words w = {.tables = NULL};
+    store_tail tail = {.n_tables = 0};
+    bool good = read_store_words(r, &w);
+    for (size_t i = 0; good && i < w.n_tables; i++)
+        if (wanted == NULL || wanted(w.tables[i])) {
+            good = pass_table(r, w.tables[i]);
+            tail.n_tables++;
+        }
+    tail.has_origin = wanted == NULL && w.command != NULL;
+    good = good && (!tail.has_origin || pass_table(r, STORE_INPUTS_TABLE)) &&
+           (wanted != NULL || pass_case(r, &tail.case_length));
+    if (good && tail.has_origin)
+        tail.origin_length = (uint64_t)fprintf(r->out, "%s\n%s", w.version, w.command);
+    for (size_t i = 0; good && i < w.n_digests; i++)
+        if (wanted == NULL || (i < w.n_tables && wanted(w.tables[i])))
+            pass_digest(r, w.digests[i]);
+    if (good)
+        store_tail_write(r->out, &tail);
+    wt_strings_free(w.tables, w.n_tables);
+    wt_strings_free(w.digests, w.n_digests);
+    free(w.version);
+    free(w.command);
+    return r->status;
+}
+
+wt_status store_pass(hid_t file, size_t size, FILE *out, wt_error *err)
+{
+    reader r = {.file = file, .file_size = size, .out = out, .err = err};
+    return pass_store(&r, NULL);
+}
+
+wt_status store_pass_headlines(hid_t file, size_t size, FILE *out, wt_error *err)
+{
+    reader r = {.file = file, .file_size = size, .out = out, .err = err};
+    return pass_store(&r, store_has_headlines);
+}
+
+/* Prints samples [from, from + n) of an array. */
+static bool pass_block(reader *r, hid_t dataset, const char *name, hsize_t from, hsize_t n,
+                       double *block)
+{
+    const hid_t in_memory = H5Screate_simple(1, &n, NULL);
+    const hid_t in_file = H5Dget_space(dataset);
+    const bool good =
+        in_memory >= 0 && in_file >= 0 &&
+        H5Sselect_hyperslab(in_file, H5S_SELECT_SET, &from, NULL, &n, NULL) >= 0 &&
+        H5Dread(dataset, H5T_NATIVE_DOUBLE, in_memory, in_file, H5P_DEFAULT, block) >= 0;
+    hdf5_close(in_memory);
+    hdf5_close(in_file);
+    return good ? fwrite(block, sizeof *block, (size_t)n, r->out) == n
+                : corrupt(r, name, "samples cannot be read");
+}
+
+wt_status store_pass_samples(hid_t file, size_t size, FILE *out, wt_error *err)
+{
+    static double block[MAP_BLOCK];
+    reader r = {
+        .file = file, .file_size = size, .table = MAP_SAMPLES_GROUP, .out = out, .err = err};
+    char **names = NULL;
+    size_t n = 0;
+    hid_t arrays[WT_Q_COUNT];
+    hsize_t n_samples = 0;
+    const hid_t group = open_group(&r, MAP_SAMPLES_GROUP);
+    bool good = group >= 0 ? read_words(&r, group, STORE_COLUMNS_ATTRIBUTE, WT_Q_COUNT, &names, &n)
+                           : corrupt(&r, "", "the samples are missing");
+    for (size_t i = 0; good && i < n; i++) {
+        hsize_t again = 0;
+        arrays[i] = open_laid_out(&r, group, names[i], 1, H5D_CHUNKED, &again);
+        n_samples = i == 0 ? again : n_samples;
+        if (arrays[i] < 0 || again != n_samples)
+            good = corrupt(&r, names[i], "array missing, of another length or not stored as it is");
+    }
+    for (hsize_t at = 0; good && at < n_samples; at += MAP_BLOCK)
+        for (size_t i = 0; good && i < n; i++)
+            good = pass_block(&r, arrays[i], names[i], at,
+                              n_samples - at < MAP_BLOCK ? n_samples - at : MAP_BLOCK, block);
+    wt_strings_free(names, n);
+    return r.status; /* the process ends with the file open */
+}

@@ -1,0 +1,400 @@
+/* Results to the HDF5 store. SPDX-License-Identifier: GPL-3.0-or-later */
+#include "core/store/hdf5_scope.h"
+#include "core/store/store_file.h"
+#include "core/table/registry.h"
+#include "core/table/table_bytes.h"
+
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <time.h>
+
+typedef store_file writer;
+
+static bool put_attribute(hid_t object, const char *name, hid_t file_type, hid_t memory_type,
+                          hid_t space, const void *value)
+{
+    const hid_t attribute = H5Acreate2(object, name, file_type, space, H5P_DEFAULT, H5P_DEFAULT);
+    if (attribute < 0)
+        return false;
+    const bool good = H5Awrite(attribute, memory_type, value) >= 0;
+    return H5Aclose(attribute) >= 0 && good;
+}
+
+/* UTF-8 text of so many bytes, filled up with zeros. HDF5 1.10 fails on damaged text of variable
+ * length with a violation of memory, so the store has none. */
+static hid_t text_type(size_t length)
+{
+    const hid_t type = H5Tcopy(H5T_C_S1);
+    if (type < 0 || H5Tset_size(type, length > 0 ? length : 1) < 0 ||
+        H5Tset_strpad(type, H5T_STR_NULLPAD) < 0 || H5Tset_cset(type, H5T_CSET_UTF8) < 0) {
+        (void)H5Tclose(type);
+        return -1;
+    }
+    return type;
+}
+
+bool store_put_text(const store_file *w, hid_t object, const char *name, const char *text)
+{
+    const hid_t type = text_type(strlen(text));
+    const bool good = type >= 0 && put_attribute(object, name, type, type, w->scalar, text);
+    return type >= 0 && H5Tclose(type) >= 0 && good;
+}
+
+/* Texts of one width as an array, new, with that width; NULL when out of memory. */
+static char *pack_texts(const char *const *texts, size_t n, size_t *width)
+{
+    *width = 1;
+    for (size_t i = 0; i < n; i++) {
+        const size_t length = strlen(texts[i]);
+        if (length > *width)
+            *width = length;
+    }
+    char *const packed = calloc(n > 0 ? n : 1, *width);
+    for (size_t i = 0; packed != NULL && i < n; i++)
+        memcpy(packed + i * *width, texts[i], strlen(texts[i]));
+    return packed;
+}
+
+static bool put_number(const writer *w, hid_t object, const char *name, double value)
+{
+    return put_attribute(object, name, H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE, w->scalar, &value);
+}
+
+/* A list of words; none is written for an empty one. */
+bool store_put_words(hid_t object, const char *name, const char *const *words, size_t n)
+{
+    const hsize_t size = n;
+    size_t width = 0;
+    if (n == 0)
+        return true;
+    char *const packed = pack_texts(words, n, &width);
+    const hid_t type = text_type(width);
+    const hid_t space = H5Screate_simple(1, &size, NULL);
+    const bool good = packed != NULL && type >= 0 && space >= 0 &&
+                      put_attribute(object, name, type, type, space, packed);
+    free(packed);
+    if (type >= 0)
+        (void)H5Tclose(type);
+    if (space >= 0)
+        (void)H5Sclose(space);
+    return good;
+}
+
+static bool put_dataset(const writer *w, hid_t group, const char *name, hid_t file_type,
+                        hid_t memory_type, const void *values, size_t n, const char *units,
+                        const char *long_name)
+{
+    const hsize_t size = n;
+    const hid_t space = H5Screate_simple(1, &size, NULL);
+    const hid_t dataset =
+        H5Dcreate2(group, name, file_type, space, H5P_DEFAULT, w->dataset_creation, H5P_DEFAULT);
+    bool good = dataset >= 0;
+    if (good && n > 0)
+        good = H5Dwrite(dataset, memory_type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values) >= 0;
+    good = good && store_put_text(w, dataset, STORE_UNITS_ATTRIBUTE, units) &&
+           store_put_text(w, dataset, STORE_LONG_NAME_ATTRIBUTE, long_name);
+    if (dataset >= 0)
+        good = H5Dclose(dataset) >= 0 && good;
+    return space >= 0 && H5Sclose(space) >= 0 && good;
+}
+
+/* Opens a group by its path, making what is missing. */
+hid_t store_make_group(const store_file *w, const char *path)
+{
+    char *const partial = strdup(path);
+    hid_t group = -1;
+    for (char *slash = partial; slash != NULL;) {
+        slash = strchr(slash, '/');
+        if (slash != NULL)
+            *slash = '\0';
+        const htri_t exists = H5Lexists(w->file, partial, H5P_DEFAULT);
+        if (group >= 0)
+            (void)H5Gclose(group);
+        group = exists > 0
+                    ? H5Gopen2(w->file, partial, H5P_DEFAULT)
+                    : H5Gcreate2(w->file, partial, H5P_DEFAULT, w->group_creation, H5P_DEFAULT);
+        if (group < 0)
+            break;
+        if (slash != NULL)
+            *slash++ = '/';
+    }
+    free(partial);
+    return group;
+}
+
+static bool put_keys(const writer *w, hid_t group, const wt_table *table)
+{
+    const char **const words = calloc(table->n_keys + 1, sizeof *words);
+    bool good = words != NULL;
+    for (size_t i = 0; good && i < table->n_keys; i++) {
+        const table_key *const key = &table->keys[i];
+        words[i] = key->name;
+        if (!key->is_estimate) {
+            good = store_put_text(w, group, key->name, key->text);
+            continue;
+        }
+        char *names[KEY_PARTS] = {NULL};
+        good = table_key_part_names(key->name, names) &&
+               put_number(w, group, key->name, key->parsed.value) &&
+               put_number(w, group, names[KEY_STANDARD_ERROR], key->parsed.standard_error) &&
+               put_number(w, group, names[KEY_NUMERICAL_ERROR], key->parsed.numerical_error) &&
+               store_put_text(w, group, names[KEY_UNITS], key->unit);
+        for (size_t k = 0; k < KEY_PARTS; k++)
+            free(names[k]);
+    }
+    good = good && store_put_words(group, STORE_KEYS_ATTRIBUTE, words, table->n_keys);
+    free(words);
+    return good;
+}
+
+static bool put_columns(const writer *w, hid_t group, const wt_table *table)
+{
+    const size_t n = table->n_rows > table->n_columns ? table->n_rows : table->n_columns;
+    const char **const words = calloc(n + 1, sizeof *words);
+    uint64_t *const blocks = calloc(table->n_rows + 1, sizeof *blocks);
+    bool good = words != NULL && blocks != NULL;
+    for (size_t i = 0; good && i < table->n_columns; i++)
+        words[i] = table->columns[i].name;
+    good = good && store_put_words(group, STORE_COLUMNS_ATTRIBUTE, words, table->n_columns);
+    for (size_t i = 0; good && i < table->n_columns; i++) {
+        const table_column *const column = &table->columns[i];
+        if (column->kind == WT_COLUMN_NUMBER) {
+            good = put_dataset(w, group, column->name, H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE,
+                               column->numbers, table->n_rows, column->unit, column->long_name);
+            continue;
+        }
+        for (size_t row = 0; row < table->n_rows; row++)
+            words[row] = wt_table_text(table, row, i);
+        size_t width = 0;
+        char *const packed = pack_texts(words, table->n_rows, &width);
+        const hid_t type = text_type(width);
+        good = packed != NULL && type >= 0 &&
+               put_dataset(w, group, column->name, type, type, packed, table->n_rows, "",
+                           column->long_name);
+        free(packed);
+        if (type >= 0)
+            (void)H5Tclose(type);
+    }
+    for (size_t row = 0; good && row < table->n_rows; row++)
+        blocks[row] = wt_table_block(table, row);
+    good = good && put_dataset(w, group, STORE_BLOCK_DATASET, H5T_STD_U64LE, H5T_NATIVE_UINT64,
+                               blocks, table->n_rows, "1", "number of the block of a row");
+    free(words);
+    free(blocks);
+    return good;
+}
+
+static bool put_table(const writer *w, const wt_table *table)
+{
+    const hid_t group = store_make_group(w, table->name);
+    if (group < 0)
+        return false;
+    const bool good = store_put_text(w, group, STORE_TITLE_ATTRIBUTE, table->title) &&
+                      put_keys(w, group, table) && put_columns(w, group, table);
+    return H5Gclose(group) >= 0 && good;
+}
+
+/* One string of the length of the file, so that nothing in it needs to be UTF-8. */
+static bool put_case(const writer *w, const char *text, size_t length)
+{
+    const hid_t type = text_type(length);
+    const hid_t dataset = H5Dcreate2(w->file, STORE_CASE_DATASET, type, w->scalar, H5P_DEFAULT,
+                                     w->dataset_creation, H5P_DEFAULT);
+    bool good = dataset >= 0 && H5Dwrite(dataset, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, text) >= 0 &&
+                store_put_text(w, dataset, STORE_UNITS_ATTRIBUTE, "") &&
+                store_put_text(w, dataset, STORE_LONG_NAME_ATTRIBUTE, "the case file, whole");
+    if (dataset >= 0)
+        good = H5Dclose(dataset) >= 0 && good;
+    return type >= 0 && H5Tclose(type) >= 0 && good;
+}
+
+static bool put_origin(const writer *w, const wt_provenance *provenance, const wt_table *inputs)
+{
+    char created[32];
+    const time_t now = time(NULL);
+    struct tm utc;
+    if (gmtime_r(&now, &utc) == NULL ||
+        strftime(created, sizeof created, "%Y-%m-%dT%H:%M:%SZ", &utc) == 0)
+        return false;
+    return store_put_text(w, w->file, STORE_VERSION_ATTRIBUTE, wt_version()) &&
+           store_put_text(w, w->file, STORE_COMMAND_ATTRIBUTE, wt_provenance_command(provenance)) &&
+           store_put_text(w, w->file, STORE_CREATED_ATTRIBUTE, created) && put_table(w, inputs);
+}
+
+/* As many texts as there are tables, and two more: of each table, the inputs and the case file. */
+static wt_status make_digests(const wt_result *result, const wt_table *inputs,
+                              char (*digests)[STORE_DIGEST_SIZE], size_t *n, wt_error *err)
+{
+    size_t case_length = 0;
+    const char *const case_file = wt_result_case(result, &case_length);
+    wt_status status = WT_OK;
+    for (*n = 0; status == WT_OK && *n < wt_result_n_tables(result); ++*n)
+        status = table_bytes_digest(wt_result_table(result, *n), digests[*n], err);
+    if (status == WT_OK && inputs != NULL)
+        status = table_bytes_digest(inputs, digests[(*n)++], err);
+    if (status == WT_OK && case_file != NULL)
+        wt_digest(case_file, case_length, digests[(*n)++]);
+    return status;
+}
+
+static bool put_result(const writer *w, const wt_result *result, const wt_table *inputs,
+                       char (*digests)[STORE_DIGEST_SIZE], size_t n_digests)
+{
+    const int format =
+        wt_result_find(result, map_curves_schema.name) != NULL ? STORE_FORMAT_MAP : STORE_FORMAT;
+    const size_t n = wt_result_n_tables(result);
+    size_t case_length = 0;
+    const char *const case_file = wt_result_case(result, &case_length);
+    const char **const words = calloc(n_digests + 1, sizeof *words);
+    bool good = words != NULL && put_attribute(w->file, STORE_FORMAT_ATTRIBUTE, H5T_STD_I32LE,
+                                               H5T_NATIVE_INT, w->scalar, &format);
+    for (size_t i = 0; good && i < n; i++)
+        words[i] = wt_table_name(wt_result_table(result, i));
+    good = good && store_put_words(w->file, STORE_TABLES_ATTRIBUTE, words, n);
+    for (size_t i = 0; good && i < n_digests; i++)
+        words[i] = digests[i];
+    good = good && store_put_words(w->file, STORE_DIGESTS_ATTRIBUTE, words, n_digests);
+    if (inputs != NULL)
+        good = good && put_origin(w, wt_result_provenance_const(result), inputs);
+    for (size_t i = 0; good && i < n; i++)
+        good = put_table(w, wt_result_table(result, i));
+    if (case_file != NULL)
+        good = good && put_case(w, case_file, case_length);
+    free(words);
+    return good;
+}
+
+/* Object headers without times and with everything in place: the bytes depend on the content alone.
+ */
+static bool set_creation(hid_t list)
+{
+    return list >= 0 && H5Pset_obj_track_times(list, false) >= 0;
+}
+
+static bool set_group_creation(hid_t list)
+{
+    return set_creation(list) && H5Pset_attr_phase_change(list, UINT16_MAX, 0) >= 0 &&
+           H5Pset_link_phase_change(list, UINT16_MAX, 0) >= 0;
+}
+
+static void free_file(store_file *w)
+{
+    hdf5_scope scope;
+    hdf5_enter(&scope);
+    hdf5_close(w->file);
+    hdf5_close(w->scalar);
+    hdf5_close(w->group_creation);
+    hdf5_close(w->dataset_creation);
+    hdf5_leave(&scope);
+    wt_outfile_discard(w->out);
+    free(w);
+}
+
+static bool create(store_file *w)
+{
+    const hid_t access = H5Pcreate(H5P_FILE_ACCESS);
+    const hid_t creation = H5Pcreate(H5P_FILE_CREATE);
+    w->scalar = H5Screate(H5S_SCALAR);
+    w->group_creation = H5Pcreate(H5P_GROUP_CREATE);
+    w->dataset_creation = H5Pcreate(H5P_DATASET_CREATE);
+    /* The layout of HDF5 1.8 has checksums over its own structures and is read everywhere. */
+    if (w->scalar >= 0 && set_group_creation(w->group_creation) &&
+        set_creation(w->dataset_creation) && set_group_creation(creation) &&
+        hdf5_bytes_access(access, &w->to) &&
+        H5Pset_libver_bounds(access, H5F_LIBVER_V18, H5F_LIBVER_V18) >= 0 &&
+        H5Pset_fclose_degree(access, H5F_CLOSE_STRONG) >= 0)
+        w->file = H5Fcreate("weartrack.h5", H5F_ACC_TRUNC, creation, access);
+    hdf5_close(access);
+    hdf5_close(creation);
+    return w->file >= 0;
+}
+
+wt_status store_failed(const store_file *w, wt_error *err)
+{
+    const wt_status status =
+        w->to.failed != 0
+            ? wt_fail(err, WT_E_IO, "cannot write the file: %s", strerror(w->to.failed))
+            : wt_fail(err, WT_E_INTERNAL, "HDF5 cannot make the file");
+    wt_error_file(err, w->path);
+    return status;
+}
+
+wt_status store_begin(const char *path, store_file **file, wt_error *err)
+{
+    struct stat info;
+    hdf5_scope scope;
+    store_file *const w = calloc(1, sizeof *w);
+    if (w == NULL)
+        return wt_fail(err, WT_E_MEMORY, "out of memory");
+    *w = (store_file){
+        .path = path, .file = -1, .scalar = -1, .group_creation = -1, .dataset_creation = -1};
+    wt_status status = wt_outfile_open(path, &w->out, err);
+    if (status == WT_OK) {
+        w->to.file = fileno(wt_outfile_stream(w->out));
+        if (fstat(w->to.file, &info) != 0 || !S_ISREG(info.st_mode))
+            status = wt_fail(err, WT_E_IO, "not a regular file: HDF5 writes no pipe and no device");
+    }
+    if (status == WT_OK) {
+        hdf5_enter(&scope);
+        const bool good = create(w);
+        hdf5_leave(&scope);
+        status = good ? WT_OK : store_failed(w, err);
+    }
+    if (status != WT_OK) {
+        wt_error_file(err, path);
+        free_file(w);
+        return status;
+    }
+    *file = w;
+    return WT_OK;
+}
+
+wt_status store_end(store_file *w, const wt_result *result, bool with_provenance, wt_error *err)
+{
+    size_t n_digests = 0;
+    wt_table *inputs = NULL;
+    char(*const digests)[STORE_DIGEST_SIZE] =
+        calloc(wt_result_n_tables(result) + 2, sizeof *digests);
+    wt_status status = digests != NULL ? WT_OK : wt_fail(err, WT_E_MEMORY, "out of memory");
+    if (status == WT_OK && with_provenance)
+        status = wt_provenance_table(wt_result_provenance_const(result), STORE_INPUTS_TABLE,
+                                     &inputs, err);
+    if (status == WT_OK)
+        status = make_digests(result, inputs, digests, &n_digests, err);
+    if (status == WT_OK) {
+        hdf5_scope scope;
+        hdf5_enter(&scope);
+        bool good = put_result(w, result, inputs, digests, n_digests);
+        good = H5Fclose(w->file) >= 0 && good && w->to.failed == 0;
+        w->file = -1;
+        hdf5_leave(&scope);
+        status = good ? WT_OK : store_failed(w, err);
+    }
+    if (status == WT_OK)
+        status = store_abstract_write(wt_outfile_stream(w->out), result, err);
+    if (status == WT_OK) {
+        status = wt_outfile_commit(w->out, err);
+        w->out = NULL;
+    }
+    if (status != WT_OK)
+        wt_error_file(err, w->path);
+    wt_table_free(inputs);
+    free(digests);
+    free_file(w);
+    return status;
+}
+
+void store_discard(store_file *w)
+{
+    if (w != NULL)
+        free_file(w);
+}
+
+wt_status wt_store_write(const char *path, const wt_result *result, bool with_provenance,
+                         wt_error *err)
+{
+    store_file *file = NULL;
+    const wt_status status = store_begin(path, &file, err);
+    return status == WT_OK ? store_end(file, result, with_provenance, err) : status;
+}

@@ -1,0 +1,257 @@
+/* Output files that appear only when they are complete. SPDX-License-Identifier: GPL-3.0-or-later
+ */
+#include "core/system/temporary.h"
+
+#include <errno.h>
+#include <fcntl.h>
+#include <limits.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+struct wt_outfile {
+    char *final;     /* where it goes */
+    char *temporary; /* where it is written; equal text if the target is a device or a pipe */
+    bool direct;  /* there is nothing to rename: it is no regular file, or has its name already */
+    bool unnamed; /* `temporary` is no name in a folder: nothing is left if this program dies */
+    FILE *stream;
+};
+
+static void outfile_free(wt_outfile *file)
+{
+    if (file == NULL)
+        return;
+    free(file->final);
+    free(file->temporary);
+    free(file);
+}
+
+enum { ATTEMPTS = 16, LINKS = 40 }; /* to find a name that is not taken; in a row */
+
+/* Mode as for any new file: the umask decides. */
+static int create_beside(const char *folder, char **name)
+{
+    temporary_sweep(folder);
+    for (int attempt = 0; attempt < ATTEMPTS; attempt++) {
+        char *const path = temporary_name(folder);
+        if (path == NULL)
+            return -1;
+        const int descriptor = open(path, O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+        if (descriptor >= 0) {
+            *name = path;
+            return descriptor;
+        }
+        const int reason = errno;
+        free(path);
+        errno = reason;
+        if (reason != EEXIST)
+            return -1;
+    }
+    return -1;
+}
+
+/* A file without a name on the file system of `folder`. Not every file system can do that, and it
+ * gets its name through /proc: -1 where either is missing. */
+static int create_unnamed(const char *folder, char **name)
+{
+    char path[48];
+    const int descriptor = open(folder, O_TMPFILE | O_RDWR | O_CLOEXEC, 0666);
+    if (descriptor < 0)
+        return -1;
+    (void)snprintf(path, sizeof path, "/proc/self/fd/%d", descriptor);
+    *name = access(path, F_OK) == 0 ? strdup(path) : NULL;
+    if (*name != NULL)
+        return descriptor;
+    (void)close(descriptor);
+    return -1;
+}
+
+/* The name is safe on disk only when its folder is; not every file system can do that, and the file
+ * is complete either way. */
+static void sync_folder(const char *path)
+{
+    char *const folder = wt_path_folder(path);
+    const int descriptor = folder != NULL ? open(folder, O_RDONLY | O_DIRECTORY | O_CLOEXEC) : -1;
+    if (descriptor >= 0) {
+        (void)fsync(descriptor);
+        (void)close(descriptor);
+    }
+    free(folder);
+}
+
+/* Gives an unnamed file its name, or a temporary one in the same folder if that is taken. */
+static bool name_unnamed(wt_outfile *file)
+{
+    const char *const from = file->temporary;
+    if (linkat(AT_FDCWD, from, AT_FDCWD, file->final, AT_SYMLINK_FOLLOW) == 0) {
+        file->direct = true;
+        sync_folder(file->final);
+        return true;
+    }
+    if (errno != EEXIST)
+        return false;
+    char *const folder = wt_path_folder(file->final);
+    bool named = false;
+    errno = ENOMEM;
+    if (folder != NULL)
+        temporary_sweep(folder);
+    for (int attempt = 0; folder != NULL && attempt < ATTEMPTS && !named; attempt++) {
+        char *const path = temporary_name(folder);
+        if (path == NULL)
+            break;
+        named = linkat(AT_FDCWD, from, AT_FDCWD, path, AT_SYMLINK_FOLLOW) == 0;
+        if (named) {
+            free(file->temporary);
+            file->temporary = path;
+            file->unnamed = false;
+            break;
+        }
+        const int reason = errno;
+        free(path);
+        errno = reason;
+        if (reason != EEXIST)
+            break;
+    }
+    const int reason = errno;
+    free(folder);
+    errno = reason;
+    return named;
+}
+
+/* Removes what was written, if it has a name. */
+static void remove_temporary(const wt_outfile *file)
+{
+    if (!file->direct && !file->unnamed)
+        (void)unlink(file->temporary);
+}
+
+/* The file that is meant: behind symbolic links, whether it is there or not. */
+static char *behind_links(const char *path)
+{
+    char target[PATH_MAX];
+    char *name = strdup(path);
+    for (int i = 0; name != NULL && i < LINKS; i++) {
+        const ssize_t length = readlink(name, target, sizeof target - 1);
+        if (length < 0)
+            break;
+        target[length] = '\0';
+        char *const folder = wt_path_folder(name);
+        free(name);
+        name = folder != NULL ? wt_path_join(folder, target) : NULL;
+        free(folder);
+    }
+    return name;
+}
+
+/* `info` is of the file that is replaced, NULL if there is none. */
+static wt_status open_stream(wt_outfile *new_file, const char *folder, const struct stat *info,
+                             wt_error *err)
+{
+    int descriptor = -1;
+    if (new_file->direct) {
+        new_file->temporary = strdup(new_file->final);
+        if (new_file->temporary != NULL)
+            descriptor = open(new_file->final, O_WRONLY | O_CLOEXEC);
+    } else {
+        descriptor = create_unnamed(folder, &new_file->temporary);
+        new_file->unnamed = descriptor >= 0;
+        if (descriptor < 0)
+            descriptor = create_beside(folder, &new_file->temporary);
+    }
+    if (descriptor >= 0 && !new_file->direct)
+        temporary_hold(descriptor);
+    /* Before there is anything in it that others might not read. */
+    const bool moded =
+        info == NULL || new_file->direct || fchmod(descriptor, info->st_mode & 0777) == 0;
+    if (descriptor >= 0 && moded)
+        new_file->stream = fdopen(descriptor, "w");
+    if (new_file->stream != NULL)
+        return WT_OK;
+    wt_fail(err, WT_E_IO, "cannot create the file: %s", strerror(errno));
+    wt_error_advice(err, "check that the folder exists and may be written to");
+    if (descriptor >= 0) {
+        (void)close(descriptor);
+        remove_temporary(new_file);
+    }
+    return WT_E_IO;
+}
+
+wt_status wt_outfile_open(const char *path, wt_outfile **file, wt_error *err)
+{
+    char *folder = NULL;
+    struct stat info;
+    wt_outfile *new_file = calloc(1, sizeof *new_file);
+    const bool exists = stat(path, &info) == 0;
+    if (new_file != NULL) {
+        new_file->direct = exists && !S_ISREG(info.st_mode);
+        new_file->final = new_file->direct ? strdup(path) : behind_links(path);
+        folder = new_file->final != NULL ? wt_path_folder(new_file->final) : NULL;
+    }
+    wt_status status =
+        folder == NULL ? wt_fail(err, WT_E_MEMORY, "out of memory") : wt_guard_write(path, err);
+    if (status == WT_OK && exists && S_ISDIR(info.st_mode)) {
+        status = wt_fail(err, WT_E_IO, "cannot write: it is a folder");
+        wt_error_expected(err, "the name of a file");
+    }
+    if (status == WT_OK)
+        status = open_stream(new_file, folder, exists ? &info : NULL, err);
+    if (status == WT_OK) {
+        *file = new_file;
+    } else {
+        wt_error_file(err, path);
+        outfile_free(new_file);
+    }
+    free(folder);
+    return status;
+}
+
+FILE *wt_outfile_stream(wt_outfile *file)
+{
+    return file->stream;
+}
+
+wt_status wt_outfile_commit(wt_outfile *file, wt_error *err)
+{
+    const char *what = NULL;
+    int reason = 0;
+    if (fflush(file->stream) != 0 || ferror(file->stream)) {
+        what = "cannot write the file";
+        reason = errno;
+    } else if (!file->direct && fsync(fileno(file->stream)) != 0) {
+        what = "cannot write the file to the disk";
+        reason = errno;
+    } else if (file->unnamed && !name_unnamed(file)) {
+        what = "cannot give the file its name";
+        reason = errno;
+    }
+    if (fclose(file->stream) != 0 && what == NULL) {
+        what = "cannot close the file";
+        reason = errno;
+    }
+    if (what == NULL && !file->direct) {
+        if (rename(file->temporary, file->final) != 0) {
+            what = "cannot give the file its name";
+            reason = errno;
+        } else {
+            sync_folder(file->final);
+        }
+    }
+    wt_status status = WT_OK;
+    if (what != NULL) {
+        remove_temporary(file);
+        status = wt_fail(err, WT_E_IO, "%s: %s", what, strerror(reason));
+        wt_error_file(err, file->final);
+    }
+    outfile_free(file);
+    return status;
+}
+
+void wt_outfile_discard(wt_outfile *file)
+{
+    if (file == NULL)
+        return;
+    (void)fclose(file->stream);
+    remove_temporary(file);
+    outfile_free(file);
+}

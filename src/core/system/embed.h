@@ -1,0 +1,16 @@
+/* A file that is part of the library; src/embed.cmake writes the arrays of them.
+ *
+ * SPDX-License-Identifier: GPL-3.0-or-later
+ */
+#ifndef WT_CORE_SYSTEM_EMBED_H
+#define WT_CORE_SYSTEM_EMBED_H
+
+#include <stddef.h>
+
+typedef struct embedded_text {
+    const char *name; /* file name without its folder; NULL ends the list */
+    const char *text; /* followed by a terminating zero that `length` does not count */
+    size_t length;
+} embedded_text;
+
+#endif

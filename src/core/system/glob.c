@@ -1,0 +1,137 @@
+/* Shell patterns to sorted lists of files. SPDX-License-Identifier: GPL-3.0-or-later */
+#include "core/base/array.h"
+#include "weartrack/base.h"
+
+#include <dirent.h>
+#include <errno.h>
+#include <glob.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+
+typedef struct list {
+    char **paths;
+    size_t n;
+    size_t n_folders; /* within folders, not entered */
+} list;
+
+/* Takes `path`, also on failure. */
+static bool list_take(list *l, char *path)
+{
+    char **const paths = path != NULL ? array_grow(l->paths, l->n, sizeof *paths) : NULL;
+    if (paths == NULL) {
+        free(path);
+        return false;
+    }
+    l->paths = paths;
+    l->paths[l->n++] = path;
+    return true;
+}
+
+static int by_bytes(const void *a, const void *b)
+{
+    char *const *const p = a, *const *const q = b;
+    return strcmp(*p, *q);
+}
+
+/* Adds a file, or the regular files of a folder (hidden ones left out). */
+static wt_status add_path(list *l, const char *path, wt_error *err)
+{
+    struct stat info;
+    if (stat(path, &info) != 0) {
+        const wt_status status = wt_fail(err, WT_E_IO, "%s", strerror(errno));
+        wt_error_file(err, path);
+        return status;
+    }
+    if (!S_ISDIR(info.st_mode))
+        return list_take(l, strdup(path)) ? WT_OK : wt_fail(err, WT_E_MEMORY, "out of memory");
+    DIR *const folder = opendir(path);
+    if (folder == NULL) {
+        const wt_status status =
+            wt_fail(err, WT_E_IO, "cannot read the folder: %s", strerror(errno));
+        wt_error_file(err, path);
+        return status;
+    }
+    wt_status status = WT_OK;
+    const struct dirent *item;
+    while (status == WT_OK && (item = readdir(folder)) != NULL) {
+        if (item->d_name[0] == '.')
+            continue;
+        char *const inner = wt_path_join(path, item->d_name);
+        const bool known = inner != NULL && stat(inner, &info) == 0;
+        l->n_folders += known && S_ISDIR(info.st_mode);
+        if (inner == NULL)
+            status = wt_fail(err, WT_E_MEMORY, "out of memory");
+        else if (!known || !S_ISREG(info.st_mode))
+            free(inner);
+        else if (!list_take(l, inner))
+            status = wt_fail(err, WT_E_MEMORY, "out of memory");
+    }
+    (void)closedir(folder);
+    return status;
+}
+
+/* The folder with every character that means something to glob quoted. */
+static char *quote_for_glob(const char *text)
+{
+    char *const quoted = malloc(2 * strlen(text) + 1);
+    if (quoted == NULL)
+        return NULL;
+    char *to = quoted;
+    for (const char *from = text; *from != '\0'; from++) {
+        if (strchr("*?[]\\", *from) != NULL)
+            *to++ = '\\';
+        *to++ = *from;
+    }
+    *to = '\0';
+    return quoted;
+}
+
+wt_status wt_glob(const char *folder, const char *pattern, char ***paths, size_t *n, wt_error *err)
+{
+    wt_status status = WT_OK;
+    list l = {NULL, 0, 0};
+    glob_t found = {0};
+    struct stat info;
+    char *quoted = quote_for_glob(folder != NULL ? folder : "");
+    char *full = quoted != NULL ? wt_path_join(quoted, pattern) : NULL;
+    char *literal = wt_path_join(folder, pattern);
+    if (full == NULL || literal == NULL) {
+        status = wt_fail(err, WT_E_MEMORY, "out of memory");
+    } else if (stat(literal, &info) == 0) {
+        /* A file may be called "curve[1].txt". */
+        status = add_path(&l, literal, err);
+    } else {
+        const int code = glob(full, GLOB_NOSORT, NULL, &found);
+        if (code != 0 && code != GLOB_NOMATCH) {
+            status = code == GLOB_NOSPACE ? wt_fail(err, WT_E_MEMORY, "out of memory")
+                                          : wt_fail(err, WT_E_IO, "cannot read a folder");
+            wt_error_file(err, literal);
+        }
+        for (size_t i = 0; status == WT_OK && i < found.gl_pathc; i++)
+            status = add_path(&l, found.gl_pathv[i], err);
+    }
+    if (status == WT_OK && l.n == 0) {
+        status = wt_fail(err, WT_E_NOT_FOUND, "no file found");
+        wt_error_file(err, literal);
+        wt_error_expected(err, "the name of a file or a folder with files, or a pattern such as "
+                               "'*.txt'");
+        if (l.n_folders > 0) {
+            wt_error_found(err, "folders only: %zu", l.n_folders);
+            wt_error_advice(err, "'%s/*' takes the files of each", pattern);
+        }
+    }
+    if (status == WT_OK) {
+        /* Bytewise: glob's own order depends on the locale. */
+        qsort(l.paths, l.n, sizeof *l.paths, by_bytes);
+        *paths = l.paths;
+        *n = l.n;
+        l = (list){NULL, 0, 0};
+    }
+    wt_strings_free(l.paths, l.n);
+    globfree(&found);
+    free(quoted);
+    free(full);
+    free(literal);
+    return status;
+}

@@ -1,0 +1,140 @@
+/* Files that were read and must not be written over. SPDX-License-Identifier: GPL-3.0-or-later */
+#include "core/system/file_signatures.h"
+#include "weartrack/base.h"
+
+#include <pthread.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+static struct {
+    pthread_mutex_t lock;
+    bool started;
+    struct file_id {
+        dev_t device;
+        ino_t number;
+    } * files;
+    size_t n, capacity;
+} guard = {.lock = PTHREAD_MUTEX_INITIALIZER};
+
+void wt_guard_start(void)
+{
+    (void)pthread_mutex_lock(&guard.lock);
+    guard.started = true;
+    (void)pthread_mutex_unlock(&guard.lock);
+}
+
+/* The guard is locked. */
+static wt_status remember_file(const struct stat *info)
+{
+    if (guard.n == guard.capacity) {
+        const size_t capacity = guard.capacity > 0 ? 2 * guard.capacity : 64;
+        struct file_id *const files = realloc(guard.files, capacity * sizeof *files);
+        if (files == NULL)
+            return WT_E_MEMORY;
+        guard.files = files;
+        guard.capacity = capacity;
+    }
+    guard.files[guard.n++] = (struct file_id){info->st_dev, info->st_ino};
+    return WT_OK;
+}
+
+static bool is_read(const struct stat *info)
+{
+    for (size_t i = guard.n; i-- > 0;)
+        if (guard.files[i].device == info->st_dev && guard.files[i].number == info->st_ino)
+            return true;
+    return false;
+}
+
+wt_status wt_guard_read(const char *path, wt_error *err)
+{
+    struct stat info;
+    const bool standard = strcmp(path, "-") == 0;
+    wt_status status = WT_OK;
+    if ((standard ? fstat(STDIN_FILENO, &info) : stat(path, &info)) != 0 || !S_ISREG(info.st_mode))
+        return WT_OK;
+    (void)pthread_mutex_lock(&guard.lock);
+    if (guard.started)
+        status = remember_file(&info);
+    (void)pthread_mutex_unlock(&guard.lock);
+    return status == WT_OK ? WT_OK : wt_fail(err, status, "out of memory");
+}
+
+static bool block_holds(const unsigned char *block, size_t n, const char *mark)
+{
+    return memmem(block, n, mark, strlen(mark) + 1) != NULL;
+}
+
+/* Whether the bytes are of no text. */
+static bool is_binary(const unsigned char *block, size_t n)
+{
+    for (size_t i = 0; i < n; i++)
+        if (block[i] == 0x7f ||
+            (block[i] < 0x20 && !(block[i] >= '\t' && block[i] <= '\r') && block[i] != 0x1b))
+            return true;
+    return false;
+}
+
+/* Whether it ends as a PDF of this program does. */
+static bool is_own_pdf(FILE *file)
+{
+    char end[sizeof PDF_MARK - 1];
+    return fseeko(file, -(off_t)sizeof end, SEEK_END) == 0 &&
+           fread(end, 1, sizeof end, file) == sizeof end && memcmp(end, PDF_MARK, sizeof end) == 0;
+}
+
+static bool is_own_database(const unsigned char *begin, size_t n)
+{
+    return n >= DATABASE_ID_AT + DATABASE_ID_SIZE &&
+           memcmp(begin, DATABASE_START, sizeof DATABASE_START) == 0 &&
+           memcmp(begin + DATABASE_ID_AT, DATABASE_ID, DATABASE_ID_SIZE) == 0;
+}
+
+/* Whether the file is one of an instrument, say: neither text nor HDF5, database or PDF of this
+ * program, which is what outputs are. Headers of instruments are text: the middle and the end
+ * count, too. */
+static bool is_foreign(const char *path, off_t size)
+{
+    static const char nanoscope[] = "\\*F";
+    const off_t places[] = {0, size / 2, size > (off_t)STORE_START ? size - (off_t)STORE_START : 0};
+    unsigned char block[STORE_START];
+    bool foreign = false;
+    FILE *file = fopen(path, "rbe");
+    if (file == NULL)
+        return false; /* whether it may be written is seen when that is tried */
+    bool own = is_own_pdf(file);
+    for (size_t i = 0; i < sizeof places / sizeof *places && !own && !foreign; i++) {
+        const size_t n =
+            fseeko(file, places[i], SEEK_SET) == 0 ? fread(block, 1, sizeof block, file) : 0;
+        own = i == 0 && (block_holds(block, n, STORE_FORMAT_ATTRIBUTE) ||
+                         block_holds(block, n, STORE_MAP_ATTRIBUTE) || is_own_database(block, n));
+        foreign =
+            !own && (is_binary(block, n) || (i == 0 && n > 3 && memcmp(block, nanoscope, 3) == 0));
+    }
+    (void)fclose(file);
+    return foreign;
+}
+
+wt_status wt_guard_write(const char *path, wt_error *err)
+{
+    struct stat info;
+    if (stat(path, &info) != 0)
+        return WT_OK;
+    (void)pthread_mutex_lock(&guard.lock);
+    const bool read = is_read(&info), started = guard.started;
+    (void)pthread_mutex_unlock(&guard.lock);
+    if (read)
+        wt_fail(err, WT_E_ARG, "this is also an input and would be lost: nothing is written");
+    else if (started && S_ISREG(info.st_mode) && is_foreign(path, info.st_size))
+        wt_fail(err, WT_E_ARG,
+                "there is such a file, which this program has not written, and it would be lost: "
+                "nothing is written");
+    else
+        return WT_OK;
+    wt_error_file(err, path);
+    wt_error_advice(err, "give another name");
+    return WT_E_ARG;
+}

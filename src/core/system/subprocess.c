@@ -1,0 +1,246 @@
+/* Starting another program, and its end.
+ *
+ * SPDX-License-Identifier: GPL-3.0-or-later
+ */
+#include "core/system/subprocess.h"
+
+#include <errno.h>
+#include <fcntl.h>
+#include <poll.h>
+#include <signal.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/prctl.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+extern char **environ;
+
+static size_t count(const char *const *list)
+{
+    size_t n = 0;
+    while (list != NULL && list[n] != NULL)
+        n++;
+    return n;
+}
+
+/* Whether `text` begins with one of `beginnings`, or is a locale. */
+static bool is_hidden(const char *text, const char *const *beginnings)
+{
+    bool hide = strncmp(text, "LC_", 3) == 0 || strncmp(text, "LANG=", 5) == 0 ||
+                strncmp(text, "LANGUAGE=", 9) == 0;
+    for (size_t k = 0; k < count(beginnings) && !hide; k++)
+        hide = strncmp(text, beginnings[k], strlen(beginnings[k])) == 0;
+    return hide;
+}
+
+/* The caller's environment with the locale replaced, without what is hidden and with what is added.
+ * The strings are borrowed; freed with free(). */
+static const char **environment(const program_call *call)
+{
+    const size_t n = count((const char *const *)environ), added = count(call->added);
+    size_t kept = 0;
+    const char **list = calloc(n + added + 2, sizeof *list);
+    if (list == NULL)
+        return NULL;
+    list[kept++] = "LC_ALL=C.UTF-8";
+    for (size_t i = 0; i < added; i++)
+        list[kept++] = call->added[i];
+    for (size_t i = 0; i < n; i++)
+        if (!is_hidden(environ[i], call->hidden))
+            list[kept++] = environ[i];
+    return list;
+}
+
+/* The name and what it is given, as exec takes it; freed with free(). */
+static const char **command_line(const program_call *call, const char *path)
+{
+    const size_t n = count(call->arguments);
+    const char **list = calloc(n + 2, sizeof *list);
+    if (list == NULL)
+        return NULL;
+    list[0] = path;
+    for (size_t i = 0; i < n; i++)
+        list[i + 1] = call->arguments[i];
+    return list;
+}
+
+/* The last line of what the program says that is not blank. */
+typedef struct last_line {
+    char text[400];
+    size_t length;
+    bool ended; /* the next byte that is not blank begins a new line */
+} last_line;
+
+/* Reads what there is at once; false if there will be no more. */
+static bool read_words(int fd, last_line *last)
+{
+    char chunk[4096];
+    const ssize_t got = read(fd, chunk, sizeof chunk);
+    for (ssize_t i = 0; i < got; i++) {
+        const bool blank = chunk[i] == '\n' || chunk[i] == '\t' || chunk[i] == ' ';
+        if (last->ended && !blank)
+            last->length = 0;
+        last->ended = chunk[i] == '\n' || (last->ended && blank);
+        if (!last->ended && last->length + 1 < sizeof last->text && !(blank && last->length == 0))
+            last->text[last->length++] = blank ? ' ' : chunk[i];
+    }
+    last->text[last->length] = '\0';
+    return got > 0 || (got < 0 && errno == EINTR);
+}
+
+/* The program may be given relative to the current folder, but it is started in another one. */
+static char *program_path(const char *program)
+{
+    if (program[0] == '/' || strchr(program, '/') == NULL)
+        return strdup(program);
+    char *absolute = realpath(program, NULL);
+    return absolute != NULL ? absolute : strdup(program);
+}
+
+/* What the child becomes the program with. */
+typedef struct start {
+    const char *path;
+    const program_call *call;
+    const char **arguments, **environment;
+    int words; /* for standard output and error */
+    int told;  /* gets the error number if it cannot be started; closed if it can */
+    pid_t parent;
+} start;
+
+/* 0: no limit. */
+static bool limit_resource(int resource, size_t most)
+{
+    const struct rlimit limit = {most, most};
+    return most == 0 || setrlimit((__rlimit_resource_t)resource, &limit) == 0;
+}
+
+/* In the child, where only what is safe after a fork may be called. It is the leader of a group, so
+ * that what it starts ends with it, and it does not outlive the parent. */
+_Noreturn static void become_program(const start *s)
+{
+    const program_call *const call = s->call;
+    if (prctl(PR_SET_PDEATHSIG, SIGKILL) == 0 && getppid() == s->parent && setpgid(0, 0) == 0 &&
+        limit_resource(RLIMIT_FSIZE, call->file_size) &&
+        limit_resource(RLIMIT_DATA, call->memory) && limit_resource(RLIMIT_CPU, call->cpu_time) &&
+        chdir(call->folder) == 0) {
+        const int none = open("/dev/null", O_RDONLY | O_CLOEXEC);
+        // What a program prints must not end in the data of a pipe.
+        if (none >= 0 && dup2(none, STDIN_FILENO) >= 0 && dup2(s->words, STDOUT_FILENO) >= 0 &&
+            dup2(s->words, STDERR_FILENO) >= 0)
+            (void)execvpe(s->path, (char *const *)s->arguments, (char *const *)s->environment);
+    }
+    const int code = errno;
+    (void)!write(s->told, &code, sizeof code);
+    _exit(127);
+}
+
+/* What the child says that it could not become the program for, or 0; closes its end of the pipe.
+ */
+static int why_not_started(int told[2], pid_t child)
+{
+    int code = 0;
+    ssize_t got = 0;
+    close(told[1]);
+    told[1] = -1;
+    do
+        got = read(told[0], &code, sizeof code);
+    while (got < 0 && errno == EINTR);
+    if (got > 0)
+        (void)waitpid(child, NULL, 0);
+    return got > 0 ? code : 0;
+}
+
+/* Gives the process, and the end of the pipe that its words come from; *code says why there is
+ * none. */
+static wt_status start_program(const program_call *call, pid_t *child, int *words, int *code,
+                               wt_error *err)
+{
+    wt_status status = WT_OK;
+    int said[2] = {-1, -1}, told[2] = {-1, -1};
+    char *path = program_path(call->program);
+    const char **list = environment(call), **line = command_line(call, path);
+    if (list == NULL || path == NULL || line == NULL) {
+        status = wt_fail(err, WT_E_MEMORY, "out of memory");
+    } else if (pipe2(said, O_CLOEXEC) != 0 || pipe2(told, O_CLOEXEC) != 0) {
+        status = wt_fail(err, WT_E_IO, "no pipe for the messages of %s: %s", call->program,
+                         strerror(errno));
+    } else {
+        const start s = {path, call, line, list, said[1], told[1], getpid()};
+        *child = fork();
+        if (*child == 0)
+            become_program(&s);
+        *code = *child < 0 ? errno : why_not_started(told, *child);
+    }
+    if (status == WT_OK && *code == 0) {
+        *words = said[0];
+        said[0] = -1;
+        (void)fcntl(*words, F_SETFL, O_NONBLOCK);
+    }
+    for (int i = 0; i < 2; i++) {
+        if (said[i] >= 0)
+            close(said[i]);
+        if (told[i] >= 0)
+            close(told[i]);
+    }
+    free(path);
+    free(list);
+    free(line);
+    return status;
+}
+
+/* Waits for the end, the limit or a cancellation, whatever becomes of the pipe: what the program
+ * starts may hold it open. The process is left to be reaped. */
+static wt_status await_end(const program_call *call, pid_t child, int fd, last_line *last,
+                           program_ending *how, wt_error *err)
+{
+    enum { ASK = 50, SOON = 2 }; // ms
+    const double end = wt_time_wall() + call->limit;
+    bool open = true;
+    for (;;) {
+        struct pollfd words = {open ? fd : -1, POLLIN, 0};
+        if (poll(&words, 1, open ? ASK : SOON) > 0)
+            open = read_words(fd, last);
+        siginfo_t info = {.si_pid = 0};
+        if (waitid(P_PID, (id_t)child, &info, WEXITED | WNOHANG | WNOWAIT) != 0)
+            return wt_fail(err, WT_E_TOOL, "the end of %s was not seen: %s", call->program,
+                           strerror(errno));
+        *how = PROGRAM_EXITED;
+        if (info.si_pid == child)
+            return WT_OK;
+        *how = PROGRAM_CANCELLED;
+        if (call->go_on != NULL && !call->go_on(call->user))
+            return WT_OK;
+        *how = PROGRAM_TOO_LONG;
+        if (wt_time_wall() >= end)
+            return WT_OK;
+    }
+}
+
+wt_status program_run(const program_call *call, program_end *end, wt_error *err)
+{
+    enum { LEFT = 32 }; // more than a pipe holds, less than for ever
+    last_line last = {.length = 0};
+    pid_t child = 0;
+    int words = -1, state = 0;
+    *end = (program_end){.how = PROGRAM_NOT_STARTED};
+    wt_status status = start_program(call, &child, &words, &end->code, err);
+    if (status != WT_OK || end->code != 0)
+        return status;
+    status = await_end(call, child, words, &last, &end->how, err);
+    (void)kill(-child, SIGKILL); // before it is reaped: until then the number is its own
+    for (int i = 0; i < LEFT && read_words(words, &last); i++)
+        ;
+    close(words);
+    while (waitpid(child, &state, 0) < 0 && errno == EINTR)
+        ;
+    memcpy(end->words, last.text, sizeof end->words);
+    if (end->how == PROGRAM_EXITED && WIFSIGNALED(state))
+        end->how = PROGRAM_SIGNALLED;
+    if (end->how == PROGRAM_SIGNALLED)
+        end->code = WTERMSIG(state);
+    else if (end->how == PROGRAM_EXITED)
+        end->code = WEXITSTATUS(state);
+    return status;
+}

@@ -1,0 +1,35 @@
+/* The words of the lists of columns and keys, as members of a schema_field; SHOWS(member) is given
+ * by who includes this. SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef WT_CORE_TABLE_FIELD_MACROS_H
+#define WT_CORE_TABLE_FIELD_MACROS_H
+
+#include "core/table/schema.h"
+
+/* What may stand in a row of a list. */
+/* In the place of the name: that of the member; of a member of a part. */
+#define AS(own) SHOWS(own), .name = #own
+#define IN(part, own) SHOWS(part.own), .name = #own
+#define NUMBER .quantity = WT_Q_NONE
+#define SI(q) .quantity = WT_Q_##q
+#define UNIT(words) .unit = words
+#define TEXT .kind = SCHEMA_TEXT
+#define PLAIN .kind = SCHEMA_PLAIN
+#define YES_NO .yes_no = true
+#define LABEL(words) .label = words
+#define HEADLINE(words) .headline = words
+#define STANDARD_ERROR(id) .standard_error = id##_STANDARD_ERROR
+#define NUMERICAL_ERROR(id) .numerical_error = id##_NUMERICAL_ERROR
+#define BOTH_ERRORS(id) STANDARD_ERROR(id), NUMERICAL_ERROR(id)
+#define INTERVAL(low_end, high_end) .low = low_end, .high = high_end
+#define LIKE(column) .like = column
+#define MISSING(words) .missing = words
+#define DIGITS(n) .digits = n
+#define DECIMALS(n) .decimals = n
+#define SPARSE .sparse = true
+#define PRECISION(n) .precision = n
+#define OPTIONAL .optional = true
+
+#define COLUMN(id, ...) {__VA_ARGS__},
+#define KEY(id, ...) {__VA_ARGS__},
+
+#endif

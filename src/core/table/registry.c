@@ -1,0 +1,28 @@
+/* The schemas made from the lists. SPDX-License-Identifier: GPL-3.0-or-later */
+#include "core/table/registry.h"
+#include "core/table/field_macros.h"
+
+/* Whoever writes the table knows the structure: core/table/table_rows.h. */
+#define SHOWS(name) .member = #name
+
+/* The row behind the last one stands for none. */
+#define SCHEMA(table, TABLE, table_name, words, subcommand)                                        \
+    static const schema_field table##_columns[] = {TABLE##_COLUMNS(COLUMN){.name = NULL}};         \
+    static const schema_field table##_keys[] = {TABLE##_KEYS(KEY){.name = NULL}};                  \
+    const table_schema table##_schema = {                                                          \
+        .name = table_name,                                                                        \
+        .title = words,                                                                            \
+        .made_by = subcommand,                                                                     \
+        .columns = table##_columns,                                                                \
+        .n_columns = TABLE##_N_COLUMNS,                                                            \
+        .keys = table##_keys,                                                                      \
+        .n_keys = TABLE##_N_KEYS,                                                                  \
+    };                                                                                             \
+    _Static_assert((int)TABLE##_N_COLUMNS <= (int)SCHEMA_MOST &&                                   \
+                       (int)TABLE##_N_KEYS <= (int)SCHEMA_MOST,                                    \
+                   "a set of columns or keys has one bit for each");
+TABLES(SCHEMA)
+
+#define SCHEMA_POINTER(table, ...) &table##_schema,
+const table_schema *const table_schemas[] = {TABLES(SCHEMA_POINTER)};
+const size_t table_n_schemas = sizeof table_schemas / sizeof *table_schemas;

@@ -1,0 +1,266 @@
+/* All tables that leave the program, each declared once: a column or a key is a row in the list of
+ * its table, which names the member that it shows (rows.h); what no member shows is put by a call.
+ *
+ * For a table `layer` this header makes the types layer_column and layer_key, the schema
+ * layer_schema, and the functions below that take nothing but those. The columns or keys of another
+ * table are then an error of the compiler.
+ *
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef WT_CORE_TABLE_REGISTRY_H
+#define WT_CORE_TABLE_REGISTRY_H
+
+#include "case/tables.h"
+#include "core/table/table_view.h"
+#include "core/table/table_writer.h"
+#include "dma/tables.h"
+#include "dma/tables_materials.h"
+#include "dma/tables_ramp.h"
+#include "dma/tables_strain.h"
+#include "friction/tables.h"
+#include "friction/tables_maps.h"
+#include "indentation/tables.h"
+#include "indentation/tables_calibration.h"
+#include "indentation/tables_dwell.h"
+#include "indentation/tables_spot.h"
+#include "layer/tables.h"
+#include "layer/tables_identification.h"
+#include "record/tables.h"
+#include "record/tables_measured.h"
+#include "record/tables_validation.h"
+#include "study/tables.h"
+#include "study/tables_accuracy.h"
+#include "study/tables_collection.h" /* with its intervals */
+#include "study/tables_coverage.h"
+#include "study/tables_error_budget.h"
+#include "study/tables_what_if.h"
+#include "surface/tables.h"
+
+/* Columns that come together: a number with its standard error behind it; with both errors; the
+ * ends of an interval. `heading` is that of the page. */
+#define COLUMN_AND_ERROR(X, ID, name, words, unit, heading, ...)                                   \
+    X(ID, name, words, unit, LABEL(heading), STANDARD_ERROR(ID), __VA_ARGS__)                      \
+    X(ID##_STANDARD_ERROR, name "_standard_error", "its standard error", unit, LABEL("± stat."))
+#define COLUMN_AND_ERRORS(X, ID, name, words, unit, heading, ...)                                  \
+    X(ID, name, words, unit, LABEL(heading), BOTH_ERRORS(ID), __VA_ARGS__)                         \
+    X(ID##_STANDARD_ERROR, name "_standard_error", "its standard error", unit, LABEL("± stat."))   \
+    X(ID##_NUMERICAL_ERROR, name "_numerical_error", "its numerical error", unit, LABEL("± num."))
+/* The same of tables that earlier versions wrote without them. */
+#define COLUMN_AND_NEW_ERROR(X, ID, name, words, unit, ...)                                        \
+    X(ID, name, words, unit, STANDARD_ERROR(ID), __VA_ARGS__)                                      \
+    X(ID##_STANDARD_ERROR, name "_standard_error", "its standard error", unit, LABEL("± stat."),   \
+      OPTIONAL)
+#define COLUMN_AND_NEW_ERRORS(X, ID, name, words, unit, ...)                                       \
+    X(ID, name, words, unit, BOTH_ERRORS(ID), __VA_ARGS__)                                         \
+    X(ID##_STANDARD_ERROR, name "_standard_error", "its standard error", unit, LABEL("± stat."),   \
+      OPTIONAL)                                                                                    \
+    X(ID##_NUMERICAL_ERROR, name "_numerical_error", "its numerical error", unit, LABEL("± num."), \
+      OPTIONAL)
+#define INTERVAL_COLUMNS(X, ID, prefix, ...)                                                       \
+    X(ID##_LOW, prefix "low", "lower end of its 95 % interval", LABEL("95 % interval from"),       \
+      __VA_ARGS__)                                                                                 \
+    X(ID##_HIGH, prefix "high", "upper end of its 95 % interval", LABEL("to"), __VA_ARGS__)
+/* A number with its error and interval; empty where it is not known. */
+#define NUMBER_AND_INTERVAL(X, ID, name, words, unit, heading, ...)                                \
+    X(ID, name, words, unit, LABEL(heading), STANDARD_ERROR(ID), INTERVAL(ID##_LOW, ID##_HIGH),    \
+      SPARSE, __VA_ARGS__)                                                                         \
+    X(ID##_STANDARD_ERROR, name "_standard_error", "its standard error", unit, LABEL("± stat."),   \
+      SPARSE)                                                                                      \
+    INTERVAL_COLUMNS(X, ID, name "_", unit, SPARSE)
+
+/* name in C, name of its lists, name of the table, title, the subcommand that makes it. Two tables
+ * share a name: the counter surface as computed and a spectrum as measured. */
+#define TABLES(X)                                                                                  \
+    X(answer, ANSWER, "answer", "The answer", "run")                                               \
+    X(inputs, INPUTS, "inputs", "Files that were read", "run")                                     \
+    X(notes, NOTES, "notes", "Notes and warnings", "run")                                          \
+    X(methods, METHODS, "methods", "Methods and where they are described", "run")                  \
+    X(failures, FAILURES, "failures", "What could not be used", "run")                             \
+    X(cost, COST, "cost", "Stages, their time and their numerical error", "run")                   \
+    X(plan, PLAN, "plan", "Stages of this case", "run")                                            \
+    X(indentation, INDENTATION, "indentation/", "Indentation of every curve", "indent")            \
+    X(force_displacement, FORCE_DISPLACEMENT, "force_displacement",                                \
+      "Force against piezo displacement", "indent")                                                \
+    X(force_indentation, FORCE_INDENTATION, "force_indentation", "Force against indentation",      \
+      "indent")                                                                                    \
+    X(curves, CURVES, "curves", "Curves to look at", "indent")                                     \
+    X(choices, CHOICES, "choices", "What was chosen by hand", "indent")                            \
+    X(modulus_depth, MODULUS_DEPTH, "modulus_depth", "Modulus against depth", "indent")            \
+    X(dwell, DWELL, "dwell", "Dwells", "dwell")                                                    \
+    X(dwell_points, DWELL_POINTS, "dwell_points", "Modulus against time in the dwells", "dwell")   \
+    X(dwell_moduli, DWELL_MODULI, "dwell_moduli", "Moduli against frequency in the dwells",        \
+      "dwell")                                                                                     \
+    X(sensitivity, SENSITIVITY, "sensitivity", "Deflection sensitivity", "sensitivity")            \
+    X(sensitivity_curves, SENSITIVITY_CURVES, "sensitivity_curves",                                \
+      "Deflection sensitivity of every curve", "sensitivity")                                      \
+    X(thermal, THERMAL, "thermal", "Spring constant by thermal noise", "thermal")                  \
+    X(spot, SPOT, "spot", "Roughness and imprint of a spot", "spot")                               \
+    X(spot_map, SPOT_MAP, "spot_map", "Heights about a spot", "spot")                              \
+    X(modulus_groups, MODULUS_GROUPS, "modulus_groups", "Modulus of the groups", "compare")        \
+    X(modulus_budget, MODULUS_BUDGET, "modulus_budget",                                            \
+      "Error budget of the moduli of the groups", "compare")                                       \
+    X(modulus_rate, MODULUS_RATE, "modulus_rate", "Modulus against indentation rate", "compare")   \
+    X(comparison, COMPARISON, "comparison", "Wear track against bulk", "compare")                  \
+    X(track_layer, TRACK_LAYER, "track_layer", "Thickness of the layer by the curves", "compare")  \
+    X(dma_comparison, DMA_COMPARISON, "dma_comparison", "Indentation against DMA", "compare")      \
+    X(dwell_dma, DWELL_DMA, "dwell_dma", "Dwells against DMA", "compare")                          \
+    X(materials, MATERIALS, "materials", "Materials side by side", "compare")                      \
+    X(material_ratio, MATERIAL_RATIO, "material_ratio", "Ratio of the moduli of materials",        \
+      "compare")                                                                                   \
+    X(collection, COLLECTION, "collection", "Cases side by side", "collect")                       \
+    X(collected_modulus, COLLECTED_MODULUS, "collected_modulus",                                   \
+      "Modulus against indentation rate, of all cases", "collect")                                 \
+    X(collected_friction, COLLECTED_FRICTION, "collected_friction",                                \
+      "Friction against velocity, of all cases", "collect")                                        \
+    X(collected_force, COLLECTED_FORCE, "collected_force",                                         \
+      "Force against indentation, of all cases", "collect")                                        \
+    X(shared_constants, SHARED_CONSTANTS, "shared_constants",                                      \
+      "Constants that cases have in common", "collect")                                            \
+    X(shared_members, SHARED_MEMBERS, "shared_members", "What a shared constant is of", "collect") \
+    X(collected_constants, COLLECTED_CONSTANTS, "collected_constants",                             \
+      "Critical energy and wear rate of all cases", "collect")                                     \
+    X(shared_pairs, SHARED_PAIRS, "shared_pairs",                                                  \
+      "Critical energy and wear rate that cases have in common", "collect")                        \
+    X(ratio_pairs, RATIO_PAIRS, "ratio_pairs", "Modulus ratios of cases against one another",      \
+      "collect")                                                                                   \
+    X(shift_factors, SHIFT_FACTORS, "shift_factors", "Shift factors", "master")                    \
+    X(common_law, COMMON_LAW, "common_law", "One law for several samples", "master")               \
+    X(master_curve, MASTER_CURVE, "master_curve", "Master curve", "master")                        \
+    X(prony, PRONY, "prony", "Prony series", "master")                                             \
+    X(relaxation_spectrum, RELAXATION_SPECTRUM, "relaxation_spectrum", "Relaxation spectrum",      \
+      "master")                                                                                    \
+    X(prony_reduced, PRONY_REDUCED, "prony_reduced", "Prony series with few terms", "master")      \
+    X(material_draws, MATERIAL_DRAWS, "material_draws", "Draws of the material, law and vertical", \
+      "master")                                                                                    \
+    X(series_draws, SERIES_DRAWS, "series_draws", "Draws of the Prony series", "master")           \
+    X(ramp, RAMP, "ramp", "Moduli against temperature", "ramp")                                    \
+    X(glass_transition, GLASS_TRANSITION, "glass_transition", "Glass transition", "ramp")          \
+    X(moduli_at, MODULI_AT, "moduli_at", "Moduli at temperatures", "ramp")                         \
+    X(payne_sweep, PAYNE_SWEEP, "payne_sweep", "Moduli against strain amplitude", "payne")         \
+    X(payne, PAYNE, "payne", "Softening with strain (Payne effect)", "payne")                      \
+    X(record, RECORD, "record", "Friction as measured", "record")                                  \
+    X(record_cycles, RECORD_CYCLES, "record_cycles", "Friction of every cycle", "record")          \
+    X(wear, WEAR, "wear", "Wear as measured", "record")                                            \
+    X(power_spectrum, POWER_SPECTRUM, "power_spectrum", "Power spectrum of a measured surface",    \
+      "psd")                                                                                       \
+    X(place_errors, PLACE_ERRORS, "place_errors", "Errors of a power spectrum by its places",      \
+      "psd")                                                                                       \
+    X(angular_spectrum, ANGULAR_SPECTRUM, "angular_spectrum",                                      \
+      "Angular spectrum of a measured surface", "psd")                                             \
+    X(surfaces, SURFACES, "surfaces", "Scans of a surface", "psd")                                 \
+    X(height_map, HEIGHT_MAP, "height_map", "Heights of a surface", "psd")                         \
+    X(height_profile, HEIGHT_PROFILE, "height_profile", "Heights along a line of a surface",       \
+      "psd")                                                                                       \
+    X(scan_spectra, SCAN_SPECTRA, "scan_spectra", "Power spectrum of every scan", "psd")           \
+    X(roughness, ROUGHNESS, "roughness", "Power spectrum of the counter surface", "run")           \
+    X(friction, FRICTION, "friction", "Friction against velocity", "friction")                     \
+    X(contact_area, CONTACT_AREA, "contact_area", "Contact area against magnification",            \
+      "friction")                                                                                  \
+    X(directions, DIRECTIONS, "directions", "What the directions of the material do", "friction")  \
+    X(softening, SOFTENING, "softening", "What softening with strain does", "friction")            \
+    X(anisotropy, ANISOTROPY, "anisotropy", "What the direction of sliding does", "friction")      \
+    X(friction_map, FRICTION_MAP, "friction_map",                                                  \
+      "Friction against velocity at several temperatures and pressures", "friction")               \
+    X(friction_decades, FRICTION_DECADES, "friction_decades",                                      \
+      "Friction by decades of the wavenumber", "friction")                                         \
+    X(flash, FLASH, "flash_temperature", "What the flash temperature does", "friction")            \
+    X(layer, LAYER, "layer", "Thickness of the modified layer", "layer")                           \
+    X(energy_density, ENERGY_DENSITY, "energy_density", "Energy density with depth", "layer")      \
+    X(identification, IDENTIFICATION, "identification",                                            \
+      "Critical energy and wear rate of a layer", "identify")                                      \
+    X(layer_bands, LAYER_BANDS, "layer_bands", "Modified bands in time", "layer")                  \
+    X(running_in, RUNNING_IN, "running_in", "Friction with the layer in running-in", "layer")      \
+    X(layer_balances, LAYER_BALANCES, "layer_balances",                                            \
+      "Balances of a layer that acts back on its energy", "layer")                                 \
+    X(existence, EXISTENCE, "existence", "Where a layer exists", "layer")                          \
+    X(what_if, WHAT_IF, "what_if", "What if a choice of the model were another", "friction")       \
+    X(validation, VALIDATION, "validation", "Measured friction against predicted friction",        \
+      "validate")                                                                                  \
+    X(validation_running_in, VALIDATION_RUNNING_IN, "validation_running_in",                       \
+      "Running-in with the layer against records", "validate")                                     \
+    X(validation_course, VALIDATION_COURSE, "validation_course",                                   \
+      "Friction in running-in, measured and predicted", "validate")                                \
+    X(validation_choices, VALIDATION_CHOICES, "validation_choices",                                \
+      "What the record says of the choices of the model", "validate")                              \
+    X(validation_sources, VALIDATION_SOURCES, "validation_sources",                                \
+      "Where the error of measured over predicted comes from", "validate")                         \
+    X(error_budget, ERROR_BUDGET, "error_budget", "Error budget", "accuracy")                      \
+    X(coverage, COVERAGE, "coverage", "How often the stated intervals hold", "accuracy")           \
+    X(work_precision, WORK_PRECISION, "work_precision", "Error against run time", "accuracy")      \
+    X(force_curve, FORCE_CURVE, "force_curve/", "force curve", "convert")                          \
+    X(map_curves, MAP_CURVES, "force_map/curves", "force curves", "convert")                       \
+    X(map_segments, MAP_SEGMENTS, "force_map/segments", "segments of the force curves", "convert") \
+    X(map_channels, MAP_CHANNELS, "force_map/channels", "channels of the segments", "convert")     \
+    X(sweep, SWEEP, "sweep", "DMA frequency sweeps", "convert")                                    \
+    X(spectrum, SPECTRUM, "roughness", "power spectrum", "convert")                                \
+    X(image, IMAGE, "image/", "name of the image", "convert")                                      \
+    X(contents, CONTENTS, "contents", "Tables of a result", "table")                               \
+    X(keys, KEYS, "keys", "Values of a table", "table")                                            \
+    X(facts, FACTS, "facts", "What the file is", "info")                                           \
+    X(description, DESCRIPTION, "description", "Columns that the description understands",         \
+      "formats")
+
+#define TABLE_ID(id, ...) id,
+#define TABLE_TYPES(table, TABLE, ...)                                                             \
+    typedef enum table##_column{TABLE##_COLUMNS(TABLE_ID) TABLE##_N_COLUMNS} table##_column;       \
+    typedef enum table##_key{TABLE##_KEYS(TABLE_ID) TABLE##_N_KEYS} table##_key;                   \
+    extern const table_schema table##_schema;                                                      \
+    /* a cell of the last row */                                                                   \
+    static inline void table##_put(table_writer *w, table##_column c, double value)                \
+    {                                                                                              \
+        writer_number(w, &table##_schema, (unsigned)c, value);                                     \
+    }                                                                                              \
+    static inline void table##_put_text(table_writer *w, table##_column c, const char *text)       \
+    {                                                                                              \
+        writer_text(w, &table##_schema, (unsigned)c, text);                                        \
+    }                                                                                              \
+    /* keys; the unit of an estimate is that of the schema */                                      \
+    static inline void table##_set(table_writer *w, table##_key k, wt_estimate estimate)           \
+    {                                                                                              \
+        writer_key(w, &table##_schema, (unsigned)k, estimate);                                     \
+    }                                                                                              \
+    static inline void table##_set_value(table_writer *w, table##_key k, double value,             \
+                                         double standard_error, double numerical_error)            \
+    {                                                                                              \
+        table##_set(w, k, (wt_estimate){value, standard_error, numerical_error, NULL});            \
+    }                                                                                              \
+    static inline void table##_set_text(table_writer *w, table##_key k, const char *text)          \
+    {                                                                                              \
+        writer_key_text(w, &table##_schema, (unsigned)k, text);                                    \
+    }                                                                                              \
+    static inline void table##_set_print(table_writer *, table##_key, const char *, ...)           \
+        WT_PRINTF(3, 4);                                                                           \
+    static inline void table##_set_print(table_writer *w, table##_key k, const char *format, ...)  \
+    {                                                                                              \
+        va_list list;                                                                              \
+        va_start(list, format);                                                                    \
+        writer_key_print(w, &table##_schema, (unsigned)k, format, list);                           \
+        va_end(list);                                                                              \
+    }                                                                                              \
+    /* reading what is bound */                                                                    \
+    static inline bool table##_has(const table_view *v, table##_column c)                          \
+    {                                                                                              \
+        return view_has(v, &table##_schema, (unsigned)c);                                          \
+    }                                                                                              \
+    static inline double table##_get(const table_view *v, size_t row, table##_column c)            \
+    {                                                                                              \
+        return view_number(v, &table##_schema, row, (unsigned)c);                                  \
+    }                                                                                              \
+    static inline const char *table##_text(const table_view *v, size_t row, table##_column c)      \
+    {                                                                                              \
+        return view_text(v, &table##_schema, row, (unsigned)c);                                    \
+    }                                                                                              \
+    static inline wt_estimate table##_value(const table_view *v, table##_key k)                    \
+    {                                                                                              \
+        return view_key(v, &table##_schema, (unsigned)k);                                          \
+    }                                                                                              \
+    static inline const char *table##_words(const table_view *v, table##_key k)                    \
+    {                                                                                              \
+        return view_key_text(v, &table##_schema, (unsigned)k);                                     \
+    }
+TABLES(TABLE_TYPES)
+
+/* Every schema, in the order of the list. */
+extern const table_schema *const table_schemas[];
+extern const size_t table_n_schemas;
+
+#endif

@@ -1,0 +1,130 @@
+/* Results: the tables of one run. SPDX-License-Identifier: GPL-3.0-or-later */
+#include "core/table/table.h"
+
+#include "core/base/array.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+struct wt_result {
+    wt_table **tables;
+    size_t n;
+    wt_provenance *provenance;
+    char *case_file; /* with a terminating zero that is not counted */
+    size_t case_length;
+};
+
+wt_result *wt_result_new(void)
+{
+    wt_result *const result = calloc(1, sizeof *result);
+    if (result == NULL)
+        return NULL;
+    result->provenance = wt_provenance_new();
+    if (result->provenance == NULL) {
+        free(result);
+        return NULL;
+    }
+    return result;
+}
+
+void wt_result_free(wt_result *result)
+{
+    if (result == NULL)
+        return;
+    for (size_t i = 0; i < result->n; i++)
+        wt_table_free(result->tables[i]);
+    free(result->tables);
+    wt_provenance_free(result->provenance);
+    free(result->case_file);
+    free(result);
+}
+
+/* Whether one name is the other or a folder of the other: a table may not hold tables. */
+static bool collide(const char *a, const char *b)
+{
+    while (*a != '\0' && *a == *b) {
+        a++;
+        b++;
+    }
+    return (*a == '\0' && (*b == '\0' || *b == '/')) || (*b == '\0' && *a == '/');
+}
+
+wt_status wt_result_add(wt_result *result, wt_table *table, wt_error *err)
+{
+    wt_status status = WT_OK;
+    wt_table **tables = NULL;
+    if (!table_name_is_valid(table->name) || collide(table->name, "case") ||
+        collide(table->name, "provenance")) {
+        status = wt_fail(err, WT_E_ARG, "not a name for a table");
+        wt_error_expected(err, "a to z, digits and '_' in parts joined by '/', but not \"case\" "
+                               "or \"provenance\"");
+        wt_error_found(err, "\"%s\"", table->name);
+    } else if (result->n >= RESULT_TABLES_MAX) {
+        status = wt_fail(err, WT_E_ARG, "more than %d tables", (int)RESULT_TABLES_MAX);
+    }
+    for (size_t i = 0; status == WT_OK && i < result->n; i++)
+        if (collide(result->tables[i]->name, table->name))
+            status = wt_fail(err, WT_E_ARG, "tables \"%s\" and \"%s\" collide",
+                             result->tables[i]->name, table->name);
+    if (status == WT_OK && (tables = array_grow(result->tables, result->n, sizeof *tables)) == NULL)
+        status = wt_fail(err, WT_E_MEMORY, "out of memory");
+    if (status == WT_OK) {
+        result->tables = tables;
+        result->tables[result->n++] = table;
+    } else {
+        wt_table_free(table);
+    }
+    return status;
+}
+
+size_t wt_result_n_tables(const wt_result *result)
+{
+    return result->n;
+}
+
+const wt_table *wt_result_table(const wt_result *result, size_t i)
+{
+    return result->tables[i];
+}
+
+const wt_table *wt_result_find(const wt_result *result, const char *name)
+{
+    for (size_t i = 0; i < result->n; i++) {
+        if (strcmp(result->tables[i]->name, name) == 0)
+            return result->tables[i];
+    }
+    return NULL;
+}
+
+wt_provenance *wt_result_provenance(wt_result *result)
+{
+    return result->provenance;
+}
+
+const wt_provenance *wt_result_provenance_const(const wt_result *result)
+{
+    return result->provenance;
+}
+
+wt_status wt_result_set_case(wt_result *result, const char *xml, size_t length, wt_error *err)
+{
+    char *copy = NULL;
+    if (length > 0) {
+        copy = length < SIZE_MAX ? malloc(length + 1) : NULL;
+        if (copy == NULL)
+            return wt_fail(err, WT_E_MEMORY, "out of memory");
+        memcpy(copy, xml, length);
+        copy[length] = '\0';
+    }
+    free(result->case_file);
+    result->case_file = copy;
+    result->case_length = length;
+    return WT_OK;
+}
+
+const char *wt_result_case(const wt_result *result, size_t *length)
+{
+    if (length != NULL)
+        *length = result->case_length;
+    return result->case_file;
+}

@@ -1,0 +1,329 @@
+/* Findings, from the tables of a result. SPDX-License-Identifier: GPL-3.0-or-later */
+#include "core/table/result_value.h"
+
+#include "core/base/array.h"
+#include "core/math/normal_quantile.h"
+
+#include <math.h>
+#include <stddef.h>
+#include <string.h>
+
+/* Where the view of each table is. */
+static const struct {
+    const table_schema *schema;
+    size_t view;
+} bound[] = {{&modulus_groups_schema, offsetof(finding_tables, groups)},
+             {&modulus_budget_schema, offsetof(finding_tables, budget)},
+             {&modulus_rate_schema, offsetof(finding_tables, rates)},
+             {&comparison_schema, offsetof(finding_tables, comparison)},
+             {&friction_schema, offsetof(finding_tables, friction)},
+             {&layer_schema, offsetof(finding_tables, layer)},
+             {&what_if_schema, offsetof(finding_tables, what_if)}};
+
+const char *findings_table(size_t i)
+{
+    return i < COUNT_OF(bound) ? bound[i].schema->name : NULL;
+}
+
+bool findings_are_of(const char *table)
+{
+    for (size_t i = 0; i < COUNT_OF(bound); i++)
+        if (strcmp(bound[i].schema->name, table) == 0)
+            return true;
+    return false;
+}
+
+wt_status findings_bind(const wt_result *result, finding_tables *tables, wt_error *err)
+{
+    wt_status status = WT_OK;
+    for (size_t i = 0; i < COUNT_OF(bound); i++) {
+        table_view *view = (table_view *)((char *)tables + bound[i].view);
+        const wt_status one =
+            table_bind_of(result, bound[i].schema, "", view, status == WT_OK ? err : NULL);
+        if (one != WT_OK)
+            *view = (table_view){.schema = bound[i].schema, .suffix = ""};
+        status = status == WT_OK ? one : status;
+    }
+    return status;
+}
+
+static finding empty_finding(const char *name, const char *words, wt_quantity quantity,
+                             const char *unit)
+{
+    const double unknown = (double)NAN;
+    return (finding){.name = name,
+                     .words = words,
+                     .quantity = quantity,
+                     .number = {unknown, unknown, unknown, unit},
+                     .low = unknown,
+                     .high = unknown,
+                     .neutral = unknown,
+                     .range = {.low = unknown, .high = unknown},
+                     .frequency = {unknown, unknown},
+                     .velocity = unknown,
+                     .pressure = unknown};
+}
+
+/* ---- groups ---------------------------------------------------------------------------------- */
+
+/* Equivalent frequencies of the rates between two; of one group, or NULL: of all. */
+static void find_frequencies(const finding_tables *t, const char *group, double slowest,
+                             double fastest, double frequency[2])
+{
+    for (size_t i = 0; i < t->rates.n_rows; i++) {
+        const double rate = modulus_rate_get(&t->rates, i, MODULUS_RATE_RATE),
+                     omega = modulus_rate_get(&t->rates, i, MODULUS_RATE_EQUIVALENT_FREQUENCY);
+        if ((group != NULL &&
+             strcmp(modulus_rate_text(&t->rates, i, MODULUS_RATE_GROUP), group) != 0) ||
+            rate < slowest || rate > fastest)
+            continue;
+        frequency[0] = fmin(frequency[0], omega); /* which leave out NaN */
+        frequency[1] = fmax(frequency[1], omega);
+    }
+}
+
+finding finding_of_group(const finding_tables *t, size_t row)
+{
+    const char *group = modulus_groups_text(&t->groups, row, MODULUS_GROUPS_GROUP);
+    finding f = empty_finding("modulus", "Modulus", WT_Q_MODULUS, "Pa");
+    f.number.value = modulus_groups_get(&t->groups, row, MODULUS_GROUPS_GEOMETRIC_MEAN);
+    f.low = modulus_groups_get(&t->groups, row, MODULUS_GROUPS_LOW);
+    f.high = modulus_groups_get(&t->groups, row, MODULUS_GROUPS_HIGH);
+    const bool lone = modulus_groups_get(&t->groups, row, MODULUS_GROUPS_N_SPOTS) == 1;
+    f.includes = lone ? "a given scatter of spots" : "scatter of the spots";
+    table_view budget = t->budget;
+    budget.suffix = group;
+    const double low = modulus_budget_value(&budget, MODULUS_BUDGET_KEY_LOW).value;
+    if (!isnan(low)) {
+        f.low = low;
+        f.high = modulus_budget_value(&budget, MODULUS_BUDGET_KEY_HIGH).value;
+        f.includes = lone ? "a given scatter of spots and what is stated of lever and tip"
+                          : "scatter of the spots and what is stated of lever and tip";
+    }
+    find_frequencies(t, group, 0, (double)INFINITY, f.frequency);
+    return f;
+}
+
+/* ---- their ratio ----------------------------------------------------------------------------- */
+
+/* The first row of the comparison is that over all rates. */
+finding finding_of_ratio(const finding_tables *t)
+{
+    const table_view *c = &t->comparison;
+    finding f = empty_finding("modulus_ratio", "Modulus, track over bulk", WT_Q_NONE, "1");
+    if (c->n_rows == 0)
+        return f;
+    double slowest = (double)NAN, fastest = (double)NAN;
+    f.number.value = comparison_get(c, 0, COMPARISON_RATIO);
+    f.low = comparison_get(c, 0, COMPARISON_RATIO_LOW);
+    f.high = comparison_get(c, 0, COMPARISON_RATIO_HIGH);
+    f.neutral = 1;
+    f.verdict = comparison_words(c, COMPARISON_KEY_DIFFERS);
+    f.remedy = comparison_words(c, COMPARISON_KEY_SETTLED_BY);
+    f.includes = comparison_words(c, COMPARISON_KEY_INCLUDES);
+    for (size_t i = 1; i < c->n_rows; i++)
+        if (!isnan(comparison_get(c, i, COMPARISON_RATIO))) {
+            slowest = fmin(slowest, comparison_get(c, i, COMPARISON_RATE_LOW));
+            fastest = fmax(fastest, comparison_get(c, i, COMPARISON_RATE_HIGH));
+        }
+    if (!isnan(slowest))
+        find_frequencies(t, NULL, slowest, fastest, f.frequency);
+    return f;
+}
+
+double finding_ratio_of_all(const finding_tables *t)
+{
+    const finding ratio = finding_of_ratio(t);
+    double mean[2] = {(double)NAN, (double)NAN};
+    for (size_t i = 0; i < t->groups.n_rows; i++)
+        for (int g = 0; g < 2; g++)
+            if (strcmp(modulus_groups_text(&t->groups, i, MODULUS_GROUPS_GROUP),
+                       g == 0 ? "bulk" : "track") == 0)
+                mean[g] = modulus_groups_get(&t->groups, i, MODULUS_GROUPS_GEOMETRIC_MEAN);
+    const double of_all = mean[1] / mean[0];
+    return of_all < ratio.low || of_all > ratio.high ? of_all : (double)NAN;
+}
+
+/* ---- sliding and layer ----------------------------------------------------------------------- */
+
+/* A number of the table what_if in one of its rows. */
+typedef double what_if_number(const table_view *what_if, size_t row);
+
+#define NUMBER_OF(name, column)                                                                    \
+    static double name(const table_view *what_if, size_t row)                                      \
+    {                                                                                              \
+        return what_if_get(what_if, row, column);                                                  \
+    }
+NUMBER_OF(hysteresis_of, WHAT_IF_HYSTERESIS)
+NUMBER_OF(area_of, WHAT_IF_AREA_RATIO)
+NUMBER_OF(total_of, WHAT_IF_FRICTION)
+NUMBER_OF(thickness_of, WHAT_IF_THICKNESS)
+NUMBER_OF(with_layer_of, WHAT_IF_WITH_LAYER)
+
+static double change_of(const table_view *what_if, size_t row)
+{
+    return with_layer_of(what_if, row) - total_of(what_if, row);
+}
+
+static double relative_change_of(const table_view *what_if, size_t row)
+{
+    return with_layer_of(what_if, row) / total_of(what_if, row) - 1;
+}
+
+/* A choice and how far it alone moves the number. The rows of one choice follow one another. */
+static double reach_of_choice(const table_view *what_if, size_t *row, what_if_number *number)
+{
+    const char *choice = what_if_text(what_if, *row, WHAT_IF_CHOICE);
+    double low = number(what_if, 0), high = low;
+    for (;
+         *row < what_if->n_rows && strcmp(what_if_text(what_if, *row, WHAT_IF_CHOICE), choice) == 0;
+         ++*row) {
+        low = fmin(low, number(what_if, *row)); /* which leave out NaN */
+        high = fmax(high, number(what_if, *row));
+    }
+    return high - low;
+}
+
+/* The first row is as used. What lies within the numerical error is the same. */
+static finding_range range_of(const table_view *what_if, what_if_number *number, double error)
+{
+    finding_range r = {.low = (double)NAN, .high = (double)NAN};
+    size_t low = 0, high = 0;
+    double widest = 0;
+    if (what_if->n_rows < 2 || !isfinite(number(what_if, 0)))
+        return r;
+    for (size_t i = 1; i < what_if->n_rows; i++) {
+        const double value = number(what_if, i);
+        low = value < number(what_if, low) ? i : low;
+        high = value > number(what_if, high) ? i : high;
+    }
+    if (low == high || number(what_if, high) - number(what_if, low) <= error)
+        return r; /* such as a thickness that was observed */
+    for (size_t i = 1; i < what_if->n_rows;) {
+        const char *choice = what_if_text(what_if, i, WHAT_IF_CHOICE);
+        const double reach = reach_of_choice(what_if, &i, number);
+        if (reach > widest) {
+            widest = reach;
+            r.widest = choice;
+        }
+    }
+    r.low = number(what_if, low);
+    r.high = number(what_if, high);
+    r.low_choice = low == 0 ? "" : what_if_text(what_if, low, WHAT_IF_CHOICE);
+    r.low_tried = what_if_text(what_if, low, WHAT_IF_TRIED);
+    r.high_choice = high == 0 ? "" : what_if_text(what_if, high, WHAT_IF_CHOICE);
+    r.high_tried = what_if_text(what_if, high, WHAT_IF_TRIED);
+    return r;
+}
+
+/* Of a normal error; what cannot be negative is not said to be. */
+static void set_interval(finding *f, bool positive)
+{
+    const double half = NORMAL_95 * f->number.standard_error;
+    if (!(half > 0) || !isfinite(half) || !isfinite(f->number.value))
+        return;
+    f->low = f->number.value - half;
+    f->high = f->number.value + half;
+    if (positive)
+        f->low = fmax(f->low, 0);
+}
+
+typedef struct predicted {
+    friction_key key;
+    what_if_number *number;
+    bool positive;
+} predicted;
+
+static const predicted of_friction[] = {
+    {FRICTION_KEY_FRICTION, total_of, true},
+    {FRICTION_KEY_HYSTERESIS, hysteresis_of, true},
+    {FRICTION_KEY_AREA_RATIO, area_of, true},
+    {FRICTION_KEY_WITH_LAYER, with_layer_of, true},
+    {FRICTION_KEY_CHANGE, change_of, false},
+    {FRICTION_KEY_RELATIVE_CHANGE, relative_change_of, false},
+};
+
+finding finding_of_friction(const finding_tables *t, friction_key key)
+{
+    const schema_field *field = &friction_schema.keys[key];
+    const char *words = field->headline != NULL ? field->headline : field->label;
+    finding f = empty_finding(field->name, words, field->quantity, "1");
+    for (size_t i = 0; i < COUNT_OF(of_friction); i++) {
+        if (of_friction[i].key != key || t->friction.table == NULL)
+            continue;
+        f.predicted = true;
+        f.number = friction_value(&t->friction, key);
+        f.neutral = of_friction[i].positive ? (double)NAN : 0;
+        f.includes = friction_words(&t->friction, FRICTION_KEY_ERROR_INCLUDES);
+        f.lacks = friction_words(&t->friction, FRICTION_KEY_ERROR_LACKS);
+        f.velocity = friction_value(&t->friction, FRICTION_KEY_REFERENCE_VELOCITY).value;
+        f.pressure = friction_value(&t->friction, FRICTION_KEY_PRESSURE).value;
+        f.range = range_of(&t->what_if, of_friction[i].number, f.number.numerical_error);
+        set_interval(&f, of_friction[i].positive);
+    }
+    return f;
+}
+
+finding finding_of_thickness(const finding_tables *t)
+{
+    const schema_field *field = &layer_schema.keys[LAYER_KEY_BALANCE_THICKNESS];
+    finding f = empty_finding(field->name, field->headline, field->quantity, "m");
+    if (t->layer.table == NULL)
+        return f;
+    f.predicted = true;
+    f.number = layer_value(&t->layer, LAYER_KEY_BALANCE_THICKNESS);
+    f.includes = layer_words(&t->layer, LAYER_KEY_ERROR_INCLUDES);
+    f.lacks = layer_words(&t->layer, LAYER_KEY_ERROR_LACKS);
+    f.velocity = layer_value(&t->layer, LAYER_KEY_VELOCITY).value;
+    f.pressure = layer_value(&t->layer, LAYER_KEY_PRESSURE).value;
+    f.range = range_of(&t->what_if, thickness_of, f.number.numerical_error);
+    set_interval(&f, true);
+    return f;
+}
+
+bool finding_of_key(const finding_tables *t, const schema_field *key, finding *f)
+{
+    if (key == &layer_schema.keys[LAYER_KEY_BALANCE_THICKNESS]) {
+        *f = finding_of_thickness(t);
+        return true;
+    }
+    for (size_t i = 0; i < COUNT_OF(of_friction); i++)
+        if (key == &friction_schema.keys[of_friction[i].key]) {
+            *f = finding_of_friction(t, of_friction[i].key);
+            return true;
+        }
+    return false;
+}
+
+int finding_digits(double value, double low, double high)
+{
+    enum { LEAST = 3, MOST = 6, OF_ERROR = 2 };
+    const double half = (high - low) / 2;
+    if (!(half > 0) || !isfinite(half) || !(fabs(value) > 0) || !isfinite(value))
+        return LEAST;
+    const double digits = floor(log10(fabs(value))) - floor(log10(half)) + OF_ERROR;
+    return (int)fmax(LEAST, fmin(MOST, digits));
+}
+
+/* ---- signs ----------------------------------------------------------------------------------- */
+
+static finding_sign sign_between(double low, double high, double neutral)
+{
+    return high < neutral ? FINDING_LESS : low > neutral ? FINDING_MORE : FINDING_OPEN;
+}
+
+finding_sign finding_sign_measured(const finding *f)
+{
+    const bool known = !isnan(f->low) && !isnan(f->high);
+    return sign_between(known ? f->low : f->number.value, known ? f->high : f->number.value,
+                        f->neutral);
+}
+
+finding_sign finding_sign_of(const finding *f)
+{
+    const finding_sign measured = finding_sign_measured(f);
+    if (isnan(f->range.low))
+        return measured;
+    return sign_between(f->range.low, f->range.high, f->neutral) == measured ? measured
+                                                                             : FINDING_OPEN;
+}

@@ -1,0 +1,311 @@
+/* The text stream to tables. Nothing is taken on trust: a stream may have been edited by hand or by
+ * another program. SPDX-License-Identifier: GPL-3.0-or-later */
+#include "core/table/stream.h"
+#include "core/table/table.h"
+
+#include "core/base/array.h"
+#include "core/base/number.h"
+#include "core/base/utf8.h"
+
+#include <errno.h>
+#include <stdlib.h>
+#include <string.h>
+
+typedef struct reader {
+    FILE *in;
+    char *line; /* without its line end */
+    size_t size, length;
+    size_t number;     /* of the line, from 1, counted from where this table began */
+    char **long_names; /* of "## column:" lines: name, words, name, words, ... */
+    size_t n_long_names;
+    wt_table *table;
+    bool named; /* a "## table:" line was there: then the end must be marked */
+} reader;
+
+static void reader_free(reader *r)
+{
+    free(r->line);
+    wt_strings_free(r->long_names, r->n_long_names);
+    wt_table_free(r->table);
+}
+
+/* Says where; column counts from 1, 0 = the whole line. */
+static void set_place(const reader *r, size_t column, wt_error *err)
+{
+    char of_table[96] = "", of_column[96] = "";
+    if (r->named)
+        (void)snprintf(of_table, sizeof of_table, " of table %.64s", r->table->name);
+    if (column > 0 && r->table != NULL && column <= r->table->n_columns)
+        (void)snprintf(of_column, sizeof of_column, ", column %zu (%.48s)", column,
+                       r->table->columns[column - 1].name);
+    else if (column > 0)
+        (void)snprintf(of_column, sizeof of_column, ", column %zu", column);
+    wt_error_place(err, "line %zu%s%s", r->number, of_table, of_column);
+}
+
+/* WT_OK, WT_END, or an error. */
+static wt_status next_line(reader *r, wt_error *err)
+{
+    errno = 0;
+    const ssize_t n = getline(&r->line, &r->size, r->in);
+    if (n < 0) {
+        if (ferror(r->in) || !feof(r->in))
+            return wt_fail(err, errno == ENOMEM ? WT_E_MEMORY : WT_E_IO, "cannot read: %s",
+                           strerror(errno));
+        return WT_END;
+    }
+    r->number++;
+    r->length = (size_t)n;
+    if (r->length > 0 && r->line[r->length - 1] == '\n')
+        r->length--;
+    if (r->length > 0 && r->line[r->length - 1] == '\r')
+        r->length--;
+    r->line[r->length] = '\0';
+    if (r->number == 1 && r->length >= 3 && memcmp(r->line, "\xEF\xBB\xBF", 3) == 0) {
+        r->length -= 3;
+        memmove(r->line, r->line + 3, r->length + 1);
+    }
+    const size_t good = utf8_check(r->line, r->length);
+    if (good != r->length || memchr(r->line, '\0', r->length) != NULL) {
+        (void)wt_fail(err, WT_E_CORRUPT, "the line is not UTF-8 text");
+        wt_error_expected(err, "a text stream of weartrack");
+        set_place(r, 0, err);
+        return WT_E_CORRUPT;
+    }
+    return WT_OK;
+}
+
+static wt_status corrupt(const reader *r, size_t column, const char *message, const char *expected,
+                         const char *found, wt_error *err)
+{
+    (void)wt_fail(err, WT_E_CORRUPT, "%s", message);
+    wt_error_expected(err, "%s", expected);
+    if (found != NULL)
+        wt_error_found(err, "\"%s\"", found);
+    set_place(r, column, err);
+    return WT_E_CORRUPT;
+}
+
+/* A name that the table refuses is the file's fault, not an argument's. */
+static wt_status fail_name(const reader *r, size_t column, wt_status status, wt_error *err)
+{
+    if (status == WT_E_ARG) {
+        status = WT_E_CORRUPT;
+        if (err != NULL)
+            err->status = status;
+    }
+    set_place(r, column, err);
+    return status;
+}
+
+static wt_status begin_table(reader *r, const char *name, wt_error *err)
+{
+    r->table = wt_table_new(name, "");
+    return r->table != NULL ? WT_OK : wt_fail(err, WT_E_MEMORY, "out of memory");
+}
+
+static wt_status set_title(reader *r, const char *title, wt_error *err)
+{
+    char *const copy = strdup(title);
+    if (copy == NULL)
+        return wt_fail(err, WT_E_MEMORY, "out of memory");
+    free(r->table->title);
+    r->table->title = copy;
+    return WT_OK;
+}
+
+/* Keeps a string, which it takes, until the columns are made. */
+static wt_status keep_long_name(reader *r, char *text, wt_error *err)
+{
+    char **const kept = array_grow(r->long_names, r->n_long_names, sizeof *kept);
+    r->long_names = kept != NULL ? kept : r->long_names;
+    if (text == NULL || kept == NULL) {
+        free(text);
+        return wt_fail(err, WT_E_MEMORY, "out of memory");
+    }
+    r->long_names[r->n_long_names++] = text;
+    return WT_OK;
+}
+
+/* "## key: value"; the text is changed in place. */
+static wt_status read_key(reader *r, wt_error *err)
+{
+    static const char form[] = "a line \"## key: value\"";
+    char *const key = r->line + 3;
+    char *const colon = strchr(key, ':');
+    if (r->length < 4 || r->line[2] != ' ' || colon == NULL)
+        return corrupt(r, 0, "not a line of a stream", form, r->line, err);
+    char *value = colon + 1;
+    if (*value == ' ')
+        value++;
+    *colon = '\0';
+    const bool has_parts = strcmp(key, "input") == 0 || strcmp(key, "column") == 0;
+    char *const tab = has_parts ? strchr(value, '\t') : NULL;
+    char *const text = tab != NULL ? tab + 1 : value;
+    if (strcmp(key, "input") == 0)
+        return WT_OK; /* for people: the table is what is read */
+    if (!stream_unescape(text, strlen(text)))
+        return corrupt(r, 0, "an escape that is not known",
+                       "\\t, \\n, \\r, \\\\, \\#, \\- or \\x41", text, err);
+    if (strcmp(key, "weartrack") == 0 || strcmp(key, "command") == 0)
+        return WT_OK;
+    if (strcmp(key, "table") == 0) {
+        if (r->table != NULL)
+            return corrupt(r, 0, "the table has a name already, or its name comes late",
+                           "\"## table:\" once, before the other keys", text, err);
+        if (!table_name_is_valid(text))
+            return corrupt(r, 0, "not a name for a table", "a to z, digits, '_' and '/'", text,
+                           err);
+        const wt_status status = begin_table(r, text, err);
+        r->named = status == WT_OK;
+        return status;
+    }
+    if (strcmp(key, "column") == 0) {
+        if (tab == NULL)
+            return corrupt(r, 0, "not the words for a column", "\"## column: name<TAB>words\"",
+                           value, err);
+        *tab = '\0';
+        if (r->n_long_names >= 2 * TABLE_COLUMNS_MAX)
+            return corrupt(r, 0, "words for too many columns", "one line for each column", NULL,
+                           err);
+        const wt_status status = keep_long_name(r, strdup(value), err);
+        return status == WT_OK ? keep_long_name(r, strdup(text), err) : status;
+    }
+    wt_status status = r->table == NULL ? begin_table(r, "table", err) : WT_OK;
+    if (status == WT_OK && strcmp(key, "title") == 0)
+        return set_title(r, text, err);
+    if (status == WT_OK && wt_table_key(r->table, key) != NULL)
+        return corrupt(r, 0, "the key is there twice", "each key once", key, err);
+    if (status == WT_OK)
+        status = wt_table_set_key(r->table, key, text, err);
+    return status == WT_OK ? WT_OK : fail_name(r, 0, status, err);
+}
+
+/* Ends the cell at the next tab and returns what follows it, NULL after the last cell. */
+static char *end_cell(char *cell)
+{
+    char *const tab = strchr(cell, '\t');
+    if (tab == NULL)
+        return NULL;
+    *tab = '\0';
+    return tab + 1;
+}
+
+static const char *long_name_of(const reader *r, const char *name)
+{
+    for (size_t i = 0; i + 1 < r->n_long_names; i += 2) {
+        if (strcmp(r->long_names[i], name) == 0)
+            return r->long_names[i + 1];
+    }
+    return "";
+}
+
+/* "# name[unit]<TAB>name[unit]" */
+static wt_status read_header(reader *r, wt_error *err)
+{
+    static const char form[] = "a header line \"# name[unit]<TAB>name[unit]...\"";
+    if (r->length < 3 || r->line[0] != '#' || r->line[1] != ' ')
+        return corrupt(r, 0, "the header line is missing", form, r->line, err);
+    wt_status status = r->table == NULL ? begin_table(r, "table", err) : WT_OK;
+    size_t column = 0;
+    char *next = NULL;
+    for (char *cell = r->line + 2; status == WT_OK && cell != NULL; cell = next) {
+        column++;
+        next = end_cell(cell);
+        const size_t length = strlen(cell);
+        char *const bracket = strchr(cell, '[');
+        if (bracket == NULL || cell[length - 1] != ']')
+            return corrupt(r, column, "a column without a unit", form, cell, err);
+        cell[length - 1] = '\0';
+        *bracket = '\0';
+        const char *const unit = bracket + 1;
+        if (strcmp(unit, STREAM_TEXT_UNIT) == 0)
+            status = wt_table_add_text_column(r->table, cell, long_name_of(r, cell), err);
+        else
+            status = wt_table_add_column(r->table, cell, unit, long_name_of(r, cell), err);
+        if (status != WT_OK)
+            status = fail_name(r, column, status, err);
+    }
+    return status;
+}
+
+static wt_status read_row(reader *r, wt_error *err)
+{
+    wt_table *const table = r->table;
+    wt_status status = wt_table_add_row(table, err);
+    size_t n_cells = 0;
+    char *next = NULL;
+    for (char *cell = r->line; status == WT_OK && cell != NULL; cell = next) {
+        next = end_cell(cell);
+        const size_t column = n_cells++;
+        if (column >= table->n_columns)
+            continue;
+        if (table->columns[column].kind == WT_COLUMN_TEXT) {
+            if (!stream_unescape(cell, strlen(cell)))
+                return corrupt(r, column + 1, "an escape that is not known",
+                               "\\t, \\n, \\r, \\\\, \\#, \\- or \\x41", cell, err);
+            status = wt_table_put_text(table, column, cell, err);
+        } else {
+            double value;
+            if (!number_read(cell, strlen(cell), &value))
+                return corrupt(r, column + 1, "not a number",
+                               "a number with a decimal point, or nan", cell, err);
+            wt_table_put(table, column, value);
+        }
+    }
+    if (status == WT_OK && n_cells != table->n_columns) {
+        status = wt_fail(err, WT_E_CORRUPT, "the row does not fit the header line");
+        wt_error_expected(err, "%zu cells parted by tabs", table->n_columns);
+        wt_error_found(err, "%zu", n_cells);
+        set_place(r, 0, err);
+    }
+    return status;
+}
+
+wt_status wt_stream_read(FILE *in, const char *name, wt_table **table, wt_error *err)
+{
+    reader r = {.in = in};
+    bool header = false, ended = false, begun = false;
+    wt_status status = WT_OK;
+    while (status == WT_OK && !ended) {
+        status = next_line(&r, err);
+        if (status != WT_OK)
+            break;
+        if (r.length > 0 && strcmp(r.line, "##") != 0)
+            begun = true;
+        if (strcmp(r.line, "##") == 0)
+            ended = begun; /* before a table it parts nothing */
+        else if (r.length == 0)
+            status = header ? wt_table_new_block(r.table, err) : WT_OK;
+        else if (!header && strncmp(r.line, "##", 2) == 0)
+            status = read_key(&r, err);
+        else if (!header) {
+            status = read_header(&r, err);
+            header = true;
+        } else if (r.line[0] == '#')
+            status = corrupt(&r, 0, "a comment among the rows",
+                             "a row, or \"##\" alone where the table ends", r.line, err);
+        else
+            status = read_row(&r, err);
+    }
+    if (status == WT_END && begun) {
+        status = WT_OK;
+        if (r.named) {
+            status = wt_fail(err, WT_E_CORRUPT, "the stream ends before the table does");
+            wt_error_expected(err, "a line \"##\" alone at its end");
+            wt_error_advice(err, "the program that wrote it may have failed: look at its message");
+            set_place(&r, 0, err);
+        }
+    }
+    if (status == WT_OK && !header)
+        status = corrupt(&r, 0, "a table without a header line",
+                         "a header line \"# name[unit]<TAB>name[unit]...\"", NULL, err);
+    if (status == WT_OK) {
+        *table = r.table;
+        r.table = NULL;
+    }
+    if (status != WT_OK && status != WT_END)
+        wt_error_file(err, name);
+    reader_free(&r);
+    return status;
+}

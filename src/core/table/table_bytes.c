@@ -1,0 +1,276 @@
+/* Tables as bytes. A number is 8 bytes, the low one first; a text ends with a zero. In this order:
+ * name, title; the number of keys, each with its name, 1 and value, errors and unit of an estimate,
+ * or 0 and a text; the number of columns, each with its name, 1 if it is of text, unit and words;
+ * the numbers of rows and of blocks, the first row of each block; the cells, column by column.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#include "core/table/table_bytes.h"
+
+#include "core/table/table.h"
+
+#include <endian.h>
+#include <errno.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* ---- to bytes -------------------------------------------------------------------------------- */
+
+static void put_count(FILE *out, uint64_t n)
+{
+    const uint64_t low_first = htole64(n);
+    (void)fwrite(&low_first, sizeof low_first, 1, out);
+}
+
+static void put_text(FILE *out, const char *text)
+{
+    (void)fwrite(text, 1, strlen(text) + 1, out);
+}
+
+static void put_numbers(FILE *out, const double *numbers, size_t n)
+{
+    uint64_t piece[256];
+    for (size_t from = 0; from < n;) {
+        const size_t many = n - from < 256 ? n - from : 256;
+        memcpy(piece, numbers + from, many * sizeof *piece);
+        for (size_t i = 0; i < many; i++)
+            piece[i] = htole64(piece[i]);
+        (void)fwrite(piece, sizeof *piece, many, out);
+        from += many;
+    }
+}
+
+static void put_keys(FILE *out, const wt_table *table)
+{
+    put_count(out, table->n_keys);
+    for (size_t i = 0; i < table->n_keys; i++) {
+        const table_key *const key = &table->keys[i];
+        const wt_estimate *const e = &key->parsed;
+        put_text(out, key->name);
+        put_count(out, key->is_estimate);
+        if (key->is_estimate)
+            put_numbers(out, (double[]){e->value, e->standard_error, e->numerical_error}, 3);
+        put_text(out, key->is_estimate ? key->unit : key->text);
+    }
+}
+
+static void put_columns(FILE *out, const wt_table *table)
+{
+    put_count(out, table->n_columns);
+    for (size_t i = 0; i < table->n_columns; i++) {
+        const table_column *const column = &table->columns[i];
+        put_text(out, column->name);
+        put_count(out, column->kind == WT_COLUMN_TEXT);
+        put_text(out, column->unit);
+        put_text(out, column->long_name);
+    }
+    /* A block that was begun last may have no row. */
+    size_t n_blocks = table->n_blocks;
+    n_blocks -= n_blocks > 0 && table->blocks[n_blocks - 1] == table->n_rows;
+    put_count(out, table->n_rows);
+    put_count(out, n_blocks);
+    for (size_t i = 0; i < n_blocks; i++)
+        put_count(out, table->blocks[i]);
+    for (size_t i = 0; i < table->n_columns; i++) {
+        if (table->columns[i].kind == WT_COLUMN_NUMBER)
+            put_numbers(out, table->columns[i].numbers, table->n_rows);
+        for (size_t row = 0; table->columns[i].kind == WT_COLUMN_TEXT && row < table->n_rows; row++)
+            put_text(out, wt_table_text(table, row, i));
+    }
+}
+
+wt_status table_bytes_write(FILE *out, const wt_table *table, wt_error *err)
+{
+    if (!table_name_is_valid(table->name) || table->n_columns == 0)
+        return wt_fail(err, WT_E_ARG, "table \"%s\" has no columns or no valid name", table->name);
+    put_text(out, table->name);
+    put_text(out, table->title);
+    put_keys(out, table);
+    put_columns(out, table);
+    return ferror(out) ? wt_fail(err, WT_E_IO, "cannot write: %s", strerror(errno)) : WT_OK;
+}
+
+wt_status table_bytes_digest(const wt_table *table, char hex[65], wt_error *err)
+{
+    char *bytes = NULL;
+    size_t length = 0;
+    FILE *const out = open_memstream(&bytes, &length);
+    if (out == NULL)
+        return wt_fail(err, WT_E_MEMORY, "out of memory");
+    wt_status status = table_bytes_write(out, table, err);
+    if (fclose(out) != 0 || status == WT_E_IO)
+        status = wt_fail(err, WT_E_MEMORY, "out of memory");
+    if (status == WT_OK)
+        wt_digest(bytes, length, hex);
+    free(bytes);
+    return status;
+}
+
+/* ---- from bytes ------------------------------------------------------------------------------ */
+
+typedef struct byte_reader {
+    const char *at, *end;
+    wt_table *table;
+    wt_status status; /* of the first failure; the functions below are false from then on */
+    wt_error *err;
+} byte_reader;
+
+static bool corrupt(byte_reader *r, const char *message)
+{
+    if (r->status == WT_OK)
+        r->status = wt_fail(r->err, WT_E_CORRUPT, "%s", message);
+    return false;
+}
+
+static bool no_memory(byte_reader *r)
+{
+    r->status = wt_fail(r->err, WT_E_MEMORY, "out of memory");
+    return false;
+}
+
+/* A name that the table refuses is the file's fault, not an argument's. */
+static bool is_taken(byte_reader *r, wt_status status)
+{
+    r->status = status == WT_E_ARG ? WT_E_CORRUPT : status;
+    if (status == WT_E_ARG && r->err != NULL)
+        r->err->status = WT_E_CORRUPT;
+    return status == WT_OK;
+}
+
+/* At most `most`, which the caller knows to be sound. */
+static bool take_count(byte_reader *r, size_t most, size_t *n)
+{
+    uint64_t low_first = 0;
+    if ((size_t)(r->end - r->at) < sizeof low_first)
+        return corrupt(r, "a table that is not whole");
+    memcpy(&low_first, r->at, sizeof low_first);
+    r->at += sizeof low_first;
+    *n = (size_t)le64toh(low_first);
+    return *n <= most || corrupt(r, "a table with a number that is too large");
+}
+
+static bool take_text(byte_reader *r, const char **text)
+{
+    const char *const zero = memchr(r->at, '\0', (size_t)(r->end - r->at));
+    if (zero == NULL)
+        return corrupt(r, "a table that is not whole");
+    *text = r->at;
+    r->at = zero + 1;
+    return true;
+}
+
+static bool take_numbers(byte_reader *r, double *numbers, size_t n)
+{
+    if ((size_t)(r->end - r->at) / sizeof *numbers < n)
+        return corrupt(r, "a table that is not whole");
+    for (size_t i = 0; i < n; i++) {
+        uint64_t bits;
+        memcpy(&bits, r->at + i * sizeof bits, sizeof bits);
+        bits = le64toh(bits);
+        memcpy(&numbers[i], &bits, sizeof bits);
+    }
+    r->at += n * sizeof *numbers;
+    return true;
+}
+
+static bool take_keys(byte_reader *r)
+{
+    size_t n = 0, is_estimate = 0;
+    const char *name = NULL, *text = NULL;
+    bool good = take_count(r, TABLE_KEYS_MAX, &n);
+    for (size_t i = 0; good && i < n; i++) {
+        double number[3] = {0};
+        good = take_text(r, &name) && take_count(r, 1, &is_estimate) &&
+               take_numbers(r, number, is_estimate ? 3 : 0) && take_text(r, &text) &&
+               (wt_table_key(r->table, name) == NULL || corrupt(r, "a key is there twice"));
+        const wt_estimate e = {number[0], number[1], number[2], text};
+        good = good && is_taken(r, is_estimate ? wt_table_set_estimate(r->table, name, e, r->err)
+                                               : wt_table_set_key(r->table, name, text, r->err));
+    }
+    return good;
+}
+
+/* The columns without their rows. */
+static bool take_columns(byte_reader *r)
+{
+    size_t n = 0, is_text = 0;
+    const char *name = NULL, *unit = NULL, *words = NULL;
+    bool good = take_count(r, TABLE_COLUMNS_MAX, &n);
+    for (size_t i = 0; good && i < n; i++) {
+        good = take_text(r, &name) && take_count(r, 1, &is_text) && take_text(r, &unit) &&
+               take_text(r, &words);
+        good =
+            good && is_taken(r, is_text ? wt_table_add_text_column(r->table, name, words, r->err)
+                                        : wt_table_add_column(r->table, name, unit, words, r->err));
+    }
+    return good;
+}
+
+/* The least bytes that a row takes: those of its numbers, and the zero of each text. */
+static size_t row_least(const wt_table *table)
+{
+    size_t least = 0;
+    for (size_t i = 0; i < table->n_columns; i++)
+        least += table->columns[i].kind == WT_COLUMN_NUMBER ? sizeof(double) : 1;
+    return least;
+}
+
+/* Rows take room before their cells are read: as many as there are bytes for, no more. */
+static bool take_rows(byte_reader *r)
+{
+    size_t n = 0, n_blocks = 0, next = 0;
+    const size_t least = row_least(r->table);
+    const size_t most = least > 0 ? (size_t)(r->end - r->at) / least : 0;
+    bool good = take_count(r, most, &n) && take_count(r, n, &n_blocks);
+    for (size_t block = 0; good && block < n_blocks; block++) {
+        const size_t first = next;
+        good = take_count(r, n - 1, &next) &&
+               ((block == 0 ? next == 0 : next > first) || corrupt(r, "blocks without an order"));
+        while (good && r->table->n_rows < next)
+            good = is_taken(r, wt_table_add_row(r->table, r->err));
+        good = good && is_taken(r, wt_table_new_block(r->table, r->err));
+    }
+    while (good && r->table->n_rows < n)
+        good = is_taken(r, wt_table_add_row(r->table, r->err));
+    return good;
+}
+
+static bool take_texts(byte_reader *r, char **texts, size_t n)
+{
+    const char *text = NULL;
+    for (size_t row = 0; row < n; row++) {
+        char *const above = row > 0 ? texts[row - 1] : NULL;
+        if (!take_text(r, &text))
+            return false;
+        if (text[0] == '\0')
+            continue;
+        texts[row] = above != NULL && strcmp(text, above) == 0 ? above : strdup(text);
+        if (texts[row] == NULL)
+            return no_memory(r);
+    }
+    return true;
+}
+
+wt_status table_bytes_read(const char **at, const char *end, wt_table **table, wt_error *err)
+{
+    byte_reader r = {.at = *at, .end = end, .err = err};
+    const char *name = NULL, *title = NULL;
+    bool good = take_text(&r, &name) && take_text(&r, &title) &&
+                (table_name_is_valid(name) || corrupt(&r, "not a name for a table"));
+    if (good)
+        r.table = wt_table_new(name, title);
+    good = good && (r.table != NULL || no_memory(&r)) && take_keys(&r) && take_columns(&r) &&
+           take_rows(&r);
+    for (size_t i = 0; good && i < r.table->n_columns; i++) {
+        const table_column *const column = &r.table->columns[i];
+        good = column->kind == WT_COLUMN_NUMBER ? take_numbers(&r, column->numbers, r.table->n_rows)
+                                                : take_texts(&r, column->texts, r.table->n_rows);
+    }
+    if (good) {
+        *at = r.at;
+        *table = r.table;
+    } else {
+        wt_error_place(err, "%s", r.table != NULL ? r.table->name : "");
+        wt_error_advice(err, "make the file again");
+        wt_table_free(r.table);
+    }
+    return r.status;
+}

@@ -1,0 +1,102 @@
+/* Rows and keys of a table out of the members of a structure.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#include "core/table/table_writer.h"
+
+#include "core/base/clocale.h"
+
+#include <math.h>
+
+/* A member that is a number in any form, with NaN for what the form does not have. */
+typedef struct shown_number {
+    wt_estimate estimate;
+    double low, high;
+} shown_number;
+
+static shown_number number_at(const schema_field *field, const void *row)
+{
+    const void *const at = (const char *)row + field->offset;
+    const wt_interval *interval = at;
+    shown_number n = {.low = (double)NAN, .high = (double)NAN};
+    if (field->form == FORM_NUMBER)
+        n.estimate.value = *(const double *)at;
+    else if (field->form == FORM_COUNT)
+        n.estimate.value = (double)*(const size_t *)at;
+    else if (field->form == FORM_YES_NO)
+        n.estimate.value = *(const bool *)at;
+    else if (field->form == FORM_ESTIMATE)
+        n.estimate = *(const wt_estimate *)at;
+    else
+        n = (shown_number){
+            {interval->value, interval->standard_error, 0, NULL}, interval->low, interval->high};
+    return n;
+}
+
+static const char *words_at(const schema_field *field, const void *row)
+{
+    const char *const at = (const char *)row + field->offset;
+    return field->form == FORM_WORDS ? *(const char *const *)(const void *)at : at;
+}
+
+static bool is_words(const schema_field *field)
+{
+    return field->form == FORM_WORDS || field->form == FORM_LETTERS;
+}
+
+static void put_shown(table_writer *w, const table_schema *of, const schema_field *field,
+                      unsigned column, const void *row)
+{
+    if (is_words(field)) {
+        writer_text(w, of, column, words_at(field, row));
+        return;
+    }
+    const shown_number n = number_at(field, row);
+    const unsigned columns[] = {field->standard_error, field->numerical_error, field->low,
+                                field->high};
+    const double values[] = {n.estimate.standard_error, n.estimate.numerical_error, n.low, n.high};
+    const size_t first = field->form == FORM_ESTIMATE || field->form == FORM_INTERVAL ? 0 : 4,
+                 last = field->form == FORM_INTERVAL ? 4 : 2;
+    writer_number(w, of, column, n.estimate.value);
+    for (size_t i = first; i < last; i++)
+        if (columns[i] != 0)
+            writer_number(w, of, columns[i], values[i]);
+}
+
+void writer_row(table_writer *w, const table_schema *of, const schema_field *fields,
+                const void *row)
+{
+    table_row(w);
+    for (size_t i = 0; w->status == WT_OK && i < of->n_columns; i++)
+        if (fields[i].form != FORM_NONE && !(w->left_out & SCHEMA_BIT(i)))
+            put_shown(w, of, &fields[i], (unsigned)i, row);
+}
+
+static void set_shown(table_writer *w, const table_schema *of, const schema_field *field,
+                      unsigned key, const void *keys)
+{
+    char text[64];
+    if (is_words(field)) {
+        const char *const words = words_at(field, keys);
+        if (!field->optional || (words != NULL && words[0] != '\0'))
+            writer_key_text(w, of, key, words);
+        return;
+    }
+    const wt_estimate estimate = number_at(field, keys).estimate;
+    if (field->optional && isnan(estimate.value))
+        return;
+    if (field->kind == SCHEMA_NUMBER || field->form == FORM_ESTIMATE ||
+        field->form == FORM_INTERVAL) {
+        writer_key(w, of, key, estimate);
+    } else {
+        const int digits = field->form == FORM_COUNT ? 17 : field->precision;
+        (void)clocale_print(text, sizeof text, "%.*g", digits != 0 ? digits : 6, estimate.value);
+        writer_key_text(w, of, key, text);
+    }
+}
+
+void writer_keys(table_writer *w, const table_schema *of, const schema_field *fields,
+                 const void *keys)
+{
+    for (size_t i = 0; w->status == WT_OK && i < of->n_keys; i++)
+        if (fields[i].form != FORM_NONE)
+            set_shown(w, of, &fields[i], (unsigned)i, keys);
+}

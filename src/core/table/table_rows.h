@@ -1,0 +1,73 @@
+/* Binds the columns and keys of a table to the structure that a row of it is. The list of the table
+ * names the members, by AS(member) in the place of the name, IN(part, member) or SHOWS(member); the
+ * kind follows from the member, so the two cannot disagree:
+ *
+ *     TABLE_ROW(force_indentation, FORCE_INDENTATION, const char *group;
+ *               double indentation, force, fitted_force;)
+ *     TABLE_ADD(force_indentation, &writer, group, delta[i], shown[i], model[i]);
+ *
+ * TABLE_ADD begins a row and puts all that its members show; what none shows is put behind it.
+ * TABLE_KEYS and TABLE_SET do the same for keys: those that are optional are left out if they are
+ * NaN, NULL or "". A column that is an estimate or an interval fills the columns of its errors and
+ * ends, as far as it has them. unit_tables_shown looks at all of them.
+ *
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef WT_CORE_TABLE_TABLE_ROWS_H
+#define WT_CORE_TABLE_TABLE_ROWS_H
+
+#include "core/table/field_macros.h"
+#include "core/table/registry.h"
+
+/* A string that is pointed to, or what else a member is. */
+#define SHOWN_FORM(of)                                                                             \
+    _Generic(&((shown_row *)NULL)->of, char **                                                         \
+             : FORM_WORDS, default                                                                 \
+             : _Generic(((shown_row *)NULL)->of, double                                                \
+                        : FORM_NUMBER, size_t                                                      \
+                        : FORM_COUNT, bool                                                         \
+                        : FORM_YES_NO, wt_estimate                                                 \
+                        : FORM_ESTIMATE, wt_interval                                               \
+                        : FORM_INTERVAL, const char *                                              \
+                        : FORM_WORDS, char *                                                       \
+                        : FORM_LETTERS))
+#define SHOWS(name) .member = #name, .offset = offsetof(shown_row, name), .form = SHOWN_FORM(name)
+
+#define SHOWN_BY(table, row, FIELDS, add, writer)                                                  \
+    const schema_field *table##_##row##_shows(void);                                               \
+    const schema_field *table##_##row##_shows(void)                                                \
+    {                                                                                              \
+        typedef table##_##row shown_row;                                                           \
+        static const schema_field fields[] = {FIELDS{.name = NULL}};                               \
+        return fields;                                                                             \
+    }                                                                                              \
+    static inline void table##_##add(table_writer *w, const table##_##row *from)                   \
+    {                                                                                              \
+        writer(w, &table##_schema, table##_##row##_shows(), from);                                 \
+    }
+#define SHOWN_COLUMNS(table, TABLE)                                                                \
+    SHOWN_BY(table, row, TABLE##_COLUMNS(COLUMN), add_row, writer_row)
+#define SHOWN_KEYS(table, TABLE) SHOWN_BY(table, keys, TABLE##_KEYS(KEY), set_keys, writer_keys)
+
+/* With these members, or with a structure that there is. */
+#define TABLE_ROW(table, TABLE, ...)                                                               \
+    typedef struct table##_row {                                                                   \
+        __VA_ARGS__                                                                                \
+    } table##_row;                                                                                 \
+    SHOWN_COLUMNS(table, TABLE)
+#define TABLE_KEYS(table, TABLE, ...)                                                              \
+    typedef struct table##_keys {                                                                  \
+        __VA_ARGS__                                                                                \
+    } table##_keys;                                                                                \
+    SHOWN_KEYS(table, TABLE)
+#define TABLE_ROW_OF(table, TABLE, type)                                                           \
+    typedef type table##_row;                                                                      \
+    SHOWN_COLUMNS(table, TABLE)
+#define TABLE_KEYS_OF(table, TABLE, type)                                                          \
+    typedef type table##_keys;                                                                     \
+    SHOWN_KEYS(table, TABLE)
+
+/* A row of these values, in the order of the members; the same for keys. */
+#define TABLE_ADD(table, writer, ...) table##_add_row(writer, &(table##_row){__VA_ARGS__})
+#define TABLE_SET(table, writer, ...) table##_set_keys(writer, &(table##_keys){__VA_ARGS__})
+
+#endif

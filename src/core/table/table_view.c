@@ -1,0 +1,111 @@
+/* Reading a table as its schema says. SPDX-License-Identifier: GPL-3.0-or-later */
+#include "core/table/table_view.h"
+
+#include <assert.h>
+#include <math.h>
+#include <string.h>
+
+static void advise_producer(const table_schema *schema, wt_error *err)
+{
+    wt_error_advice(err, "give the output of `weartrack %s`", schema->made_by);
+}
+
+static wt_status fail_missing(const wt_table *table, const table_schema *schema, const char *what,
+                              const char *name, wt_error *err)
+{
+    (void)wt_fail(err, WT_E_MISSING, "table \"%s\" has no %s \"%s\"", wt_table_name(table), what,
+                  name);
+    advise_producer(schema, err);
+    return WT_E_MISSING;
+}
+
+static wt_status check_column(const wt_table *table, const table_schema *schema, size_t place,
+                              const schema_field *c, wt_error *err)
+{
+    const char *const unit = wt_table_column_unit(table, place), *const si = schema_unit(c);
+    const bool is_text = wt_table_column_kind(table, place) == WT_COLUMN_TEXT;
+    if (is_text == (c->kind == SCHEMA_TEXT) && strcmp(unit, si) == 0)
+        return WT_OK;
+    (void)wt_fail(err, WT_E_UNIT, "column \"%s\" of table \"%s\"", c->name, wt_table_name(table));
+    wt_error_expected(err, "%s%s", c->kind == SCHEMA_TEXT ? "text" : "numbers in ", si);
+    wt_error_found(err, "%s%s", is_text ? "text" : "numbers in ", unit);
+    advise_producer(schema, err);
+    return WT_E_UNIT;
+}
+
+wt_status table_bind(const wt_table *table, const table_schema *schema, const char *suffix,
+                     table_view *view, wt_error *err)
+{
+    *view = (table_view){
+        .table = table, .schema = schema, .suffix = suffix, .n_rows = wt_table_n_rows(table)};
+    for (size_t i = 0; i < schema->n_columns; i++) {
+        const schema_field *const c = &schema->columns[i];
+        wt_status status = WT_OK;
+        view->column[i] = wt_table_find(table, c->name);
+        if (view->column[i] >= 0)
+            status = check_column(table, schema, (size_t)view->column[i], c, err);
+        else if (!c->optional)
+            status = fail_missing(table, schema, "column", c->name, err);
+        if (status != WT_OK)
+            return status;
+    }
+    for (size_t i = 0; i < schema->n_keys; i++)
+        if (!schema->keys[i].optional && wt_table_key(table, schema->keys[i].name) == NULL)
+            return fail_missing(table, schema, "key", schema->keys[i].name, err);
+    return WT_OK;
+}
+
+wt_status table_bind_of(const wt_result *result, const table_schema *schema, const char *suffix,
+                        table_view *view, wt_error *err)
+{
+    char name[SCHEMA_NAME_SIZE];
+    schema_name(schema->name, suffix, name);
+    const wt_table *const table = wt_result_find(result, name);
+    if (table != NULL)
+        return table_bind(table, schema, suffix, view, err);
+    *view = (table_view){.schema = schema, .suffix = suffix};
+    return WT_OK;
+}
+
+/* Place of a column that is read as one of the schema `of`, -1 if it is not there. */
+static long place_of(const table_view *view, const table_schema *of, unsigned column)
+{
+    assert(view->schema == of && column < of->n_columns);
+    return view->schema == of ? view->column[column] : -1;
+}
+
+bool view_has(const table_view *view, const table_schema *of, unsigned column)
+{
+    return place_of(view, of, column) >= 0;
+}
+
+double view_number(const table_view *view, const table_schema *of, size_t row, unsigned column)
+{
+    const long place = place_of(view, of, column);
+    return place < 0 ? (double)NAN : wt_table_number(view->table, row, (size_t)place);
+}
+
+const char *view_text(const table_view *view, const table_schema *of, size_t row, unsigned column)
+{
+    const long place = place_of(view, of, column);
+    return place < 0 ? "" : wt_table_text(view->table, row, (size_t)place);
+}
+
+wt_estimate view_key(const table_view *view, const table_schema *of, unsigned key)
+{
+    char name[SCHEMA_NAME_SIZE];
+    wt_estimate e;
+    assert(view->schema == of && key < of->n_keys);
+    schema_name(of->keys[key].name, view->suffix, name);
+    if (view->table == NULL || !wt_table_estimate(view->table, name, &e))
+        return (wt_estimate){(double)NAN, (double)NAN, (double)NAN, schema_unit(&of->keys[key])};
+    return e;
+}
+
+const char *view_key_text(const table_view *view, const table_schema *of, unsigned key)
+{
+    char name[SCHEMA_NAME_SIZE];
+    assert(view->schema == of && key < of->n_keys);
+    schema_name(of->keys[key].name, view->suffix, name);
+    return view->table == NULL ? NULL : wt_table_key(view->table, name);
+}

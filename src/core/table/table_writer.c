@@ -1,0 +1,172 @@
+/* Filling a table as its schema says. SPDX-License-Identifier: GPL-3.0-or-later */
+#include "core/table/table_writer.h"
+
+#include "core/base/clocale.h"
+
+static void add_columns(table_writer *w, const schema_field *columns)
+{
+    for (size_t i = 0, n = 0; w->status == WT_OK && i < w->schema->n_columns; i++) {
+        const schema_field *const c = &columns[i];
+        if (w->left_out & SCHEMA_BIT(i))
+            continue;
+        w->column[i] = n++;
+        w->status =
+            c->kind == SCHEMA_TEXT
+                ? wt_table_add_text_column(w->table, c->name, c->long_name, w->err)
+                : wt_table_add_column(w->table, c->name, schema_unit(c), c->long_name, w->err);
+    }
+}
+
+table_writer table_begin_variant(const table_schema *schema, table_variant own, wt_error *err)
+{
+    char name[SCHEMA_NAME_SIZE];
+    table_writer w = {.schema = schema,
+                      .suffix = own.suffix != NULL ? own.suffix : "",
+                      .err = err,
+                      .left_out = own.left_out};
+    schema_name(own.name != NULL ? own.name : schema->name, w.suffix, name);
+    w.table = wt_table_new(name, own.title != NULL ? own.title : schema->title);
+    if (w.table == NULL)
+        w.status = wt_fail(err, WT_E_MEMORY, "out of memory");
+    add_columns(&w, own.columns != NULL ? own.columns : schema->columns);
+    return w;
+}
+
+table_writer table_begin(const table_schema *schema, wt_error *err)
+{
+    return table_begin_variant(schema, (table_variant){0}, err);
+}
+
+table_writer table_continue(wt_table *table, const table_schema *schema, const char *suffix,
+                            wt_error *err)
+{
+    table_writer w = {.table = table,
+                      .schema = schema,
+                      .suffix = suffix,
+                      .continued = true,
+                      .err = err,
+                      .row = ~(uint64_t)0};
+    for (size_t i = 0; w.status == WT_OK && i < schema->n_columns; i++) {
+        const long found = wt_table_find(table, schema->columns[i].name);
+        w.column[i] = (size_t)found;
+        if (found < 0)
+            w.status = wt_fail(err, WT_E_ARG, "table \"%s\" has no column \"%s\"",
+                               wt_table_name(table), schema->columns[i].name);
+    }
+    return w;
+}
+
+/* A mistake of the program, not of its user. */
+static void fail_column(table_writer *w, const char *name, const char *what)
+{
+    w->status =
+        wt_fail(w->err, WT_E_INTERNAL, "table \"%s\": \"%s\" %s", w->schema->name, name, what);
+}
+
+static void check_row(table_writer *w)
+{
+    if (w->status != WT_OK || wt_table_n_rows(w->table) == 0)
+        return;
+    for (size_t i = 0; w->status == WT_OK && i < w->schema->n_columns; i++)
+        if (!((w->row | w->left_out) & SCHEMA_BIT(i)) && !w->schema->columns[i].sparse)
+            fail_column(w, w->schema->columns[i].name, "was not put in a row");
+}
+
+void table_row(table_writer *w)
+{
+    check_row(w);
+    if (w->status == WT_OK)
+        w->status = wt_table_add_row(w->table, w->err);
+    w->row = 0;
+}
+
+void table_block(table_writer *w)
+{
+    if (w->status == WT_OK)
+        w->status = wt_table_new_block(w->table, w->err);
+}
+
+wt_status table_end(table_writer *w, wt_table **table)
+{
+    check_row(w);
+    for (size_t i = 0; !w->continued && w->status == WT_OK && i < w->schema->n_keys; i++)
+        if (!(w->keys & SCHEMA_BIT(i)) && !w->schema->keys[i].optional)
+            fail_column(w, w->schema->keys[i].name, "was not set");
+    if (!w->continued && w->status != WT_OK) {
+        wt_table_free(w->table);
+        w->table = NULL;
+    }
+    if (table != NULL)
+        *table = w->table;
+    return w->status;
+}
+
+/* ---- cells and keys -------------------------------------------------------------------------- */
+
+/* Whether a cell of this column can be put. */
+static bool takes_cell(table_writer *w, const table_schema *of, unsigned column, bool text)
+{
+    if (w->status != WT_OK)
+        return false;
+    if (w->schema != of || column >= w->schema->n_columns || (w->left_out & SCHEMA_BIT(column)) ||
+        (w->schema->columns[column].kind == SCHEMA_TEXT) != text) {
+        fail_column(w, of->name, "has no such column");
+        return false;
+    }
+    if (w->row & SCHEMA_BIT(column)) {
+        fail_column(w, of->columns[column].name, "was put twice in a row");
+        return false;
+    }
+    w->row |= SCHEMA_BIT(column);
+    return true;
+}
+
+void writer_number(table_writer *w, const table_schema *of, unsigned column, double value)
+{
+    if (takes_cell(w, of, column, false))
+        wt_table_put(w->table, w->column[column], value);
+}
+
+void writer_text(table_writer *w, const table_schema *of, unsigned column, const char *text)
+{
+    if (takes_cell(w, of, column, true))
+        w->status = wt_table_put_text(w->table, w->column[column], text, w->err);
+}
+
+static bool takes_key(table_writer *w, const table_schema *of, unsigned key,
+                      char name[SCHEMA_NAME_SIZE])
+{
+    if (w->status != WT_OK)
+        return false;
+    if (w->schema != of || key >= w->schema->n_keys) {
+        fail_column(w, of->name, "has no such key");
+        return false;
+    }
+    w->keys |= SCHEMA_BIT(key);
+    schema_name(w->schema->keys[key].name, w->suffix, name);
+    return true;
+}
+
+void writer_key(table_writer *w, const table_schema *of, unsigned key, wt_estimate estimate)
+{
+    char name[SCHEMA_NAME_SIZE];
+    if (!takes_key(w, of, key, name))
+        return;
+    estimate.unit = schema_unit(&of->keys[key]);
+    w->status = wt_table_set_estimate(w->table, name, estimate, w->err);
+}
+
+void writer_key_text(table_writer *w, const table_schema *of, unsigned key, const char *text)
+{
+    char name[SCHEMA_NAME_SIZE];
+    if (takes_key(w, of, key, name))
+        w->status = wt_table_set_key(w->table, name, text, w->err);
+}
+
+void writer_key_print(table_writer *w, const table_schema *of, unsigned key, const char *format,
+                      va_list arguments)
+{
+    char text[1024];
+    (void)clocale_vprint(text, sizeof text, format, arguments);
+    writer_key_text(w, of, key, text);
+}

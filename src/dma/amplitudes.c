@@ -1,0 +1,170 @@
+/* Isotherms and temperature sweeps of several strain amplitudes: a filled rubber softens with
+ * strain, so that a master curve, and moduli against temperature, are of one.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#include "dma/sweep_input.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+/* Kelvin within which two are of one temperature, which is what two runs of one chamber agree to;
+ * relative difference within which they are of one frequency (exports of four digits differ by
+ * 5e-4); and the ratio that makes their amplitudes two, as in dma/numerics/master_notes.c. */
+static const double same_temperature = 1.5, same_frequency = 1e-3, other_amplitude = 2;
+
+/* An isotherm or a temperature sweep: its amplitude (NaN: not measured) and where it was measured.
+ */
+typedef struct part {
+    const char *source;
+    bool is_ramp, drop;
+    double amplitude, temperature[2], frequency[2];
+} part;
+
+/* Geometric mean. */
+static double mean_amplitude(const double *strain, size_t n)
+{
+    double sum = 0;
+    size_t known = 0;
+    for (size_t i = 0; i < n && strain != NULL; i++)
+        if (strain[i] > 0) {
+            sum += log(strain[i]);
+            known++;
+        }
+    return known > 0 ? exp(sum / (double)known) : (double)NAN;
+}
+
+/* Isotherms, then temperature sweeps; those without points share nothing. */
+static void list_parts(const wt_sweep *sweep, part *parts)
+{
+    for (size_t i = 0; i < sweep->n_isotherms; i++) {
+        const wt_isotherm *t = &sweep->isotherms[i];
+        *parts++ = (part){.source = t->source,
+                          .amplitude = mean_amplitude(t->strain, t->n),
+                          .temperature = {t->temperature, t->temperature},
+                          .frequency = {t->n > 0 ? t->angular_frequency[0] : (double)NAN,
+                                        t->n > 0 ? t->angular_frequency[t->n - 1] : (double)NAN}};
+    }
+    for (size_t i = 0; i < sweep->n_ramps; i++) {
+        const wt_ramp *r = &sweep->ramps[i];
+        *parts++ = (part){.source = r->source,
+                          .is_ramp = true,
+                          .amplitude = mean_amplitude(r->strain, r->n),
+                          .temperature = {r->n > 0 ? r->temperature[0] : (double)NAN,
+                                          r->n > 0 ? r->temperature[r->n - 1] : (double)NAN},
+                          .frequency = {r->angular_frequency * (1 - same_frequency),
+                                        r->angular_frequency * (1 + same_frequency)}};
+    }
+}
+
+/* Whether they share temperatures and frequencies and differ in amplitude. */
+static bool amplitudes_differ(const part *a, const part *b)
+{
+    const double ratio = a->amplitude / b->amplitude;
+    return a->temperature[0] <= b->temperature[1] + same_temperature &&
+           b->temperature[0] <= a->temperature[1] + same_temperature &&
+           a->frequency[0] < b->frequency[1] && b->frequency[0] < a->frequency[1] &&
+           (ratio > other_amplitude || ratio < 1 / other_amplitude);
+}
+
+static wt_status refuse_amplitudes(const part *a, const part *b, wt_error *err)
+{
+    const double low = 100 * fmin(a->amplitude, b->amplitude),
+                 high = 100 * fmax(a->amplitude, b->amplitude);
+    const char *const what = !a->is_ramp && !b->is_ramp ? "isotherms"
+                             : a->is_ramp && b->is_ramp ? "temperature sweeps"
+                                                        : "isotherms and temperature sweeps";
+    wt_fail(err, WT_E_AMBIGUOUS, "%s of several strain amplitudes at one temperature", what);
+    wt_error_place(err, "%s", a->source);
+    wt_error_expected(err, "those of one amplitude, for a filled rubber softens with strain");
+    wt_error_found(err, "%.3g %% and %.3g %% at %.1f degC", low, high,
+                   fmax(a->temperature[0], b->temperature[0]) - WT_ZERO_CELSIUS);
+    wt_error_advice(err, "choose one with --strain %.3g%%", low);
+    return WT_E_AMBIGUOUS;
+}
+
+static bool is_nearer(const part *a, const part *b, double wanted)
+{
+    return fabs(log2(a->amplitude / wanted)) <= fabs(log2(b->amplitude / wanted));
+}
+
+/* How far what was asked for is from what was measured. */
+static void check_wanted(const part *parts, size_t n, double wanted, wt_parselog *log)
+{
+    const part *nearest = NULL;
+    for (size_t i = 0; i < n; i++)
+        if (!isnan(parts[i].amplitude) &&
+            (nearest == NULL || !is_nearer(nearest, &parts[i], wanted)))
+            nearest = &parts[i];
+    if (n > 0 && nearest == NULL)
+        wt_parselog_add(log, WT_WARNING, parts[0].source, NULL,
+                        "sweeps of one strain are asked for, but no strain amplitude was read");
+    else if (n > 0 && (nearest->amplitude / wanted > other_amplitude ||
+                       wanted / nearest->amplitude > other_amplitude))
+        wt_parselog_add(log, WT_WARNING, nearest->source, NULL,
+                        "sweeps at a strain of %.3g %% are asked for; the nearest were measured "
+                        "at %.3g %%",
+                        100 * wanted, 100 * nearest->amplitude);
+}
+
+/* Those that are not kept go behind the others and are cleared with `dropped`. */
+static wt_status take_out(wt_sweep *sweep, const part *parts, wt_parselog *log, wt_error *err)
+{
+    wt_sweep dropped = {0};
+    const part *const ramps = parts + sweep->n_isotherms;
+    size_t isotherms = 0, kept = 0;
+    dropped.isotherms = calloc(sweep->n_isotherms + 1, sizeof *dropped.isotherms);
+    dropped.ramps = calloc(sweep->n_ramps + 1, sizeof *dropped.ramps);
+    if (dropped.isotherms == NULL || dropped.ramps == NULL) {
+        wt_sweep_clear(&dropped);
+        return wt_fail(err, WT_E_MEMORY, "out of memory");
+    }
+    for (size_t i = 0; i < sweep->n_isotherms; i++)
+        if (parts[i].drop)
+            dropped.isotherms[dropped.n_isotherms++] = sweep->isotherms[i];
+        else
+            sweep->isotherms[isotherms++] = sweep->isotherms[i];
+    for (size_t i = 0; i < sweep->n_ramps; i++)
+        if (ramps[i].drop)
+            dropped.ramps[dropped.n_ramps++] = sweep->ramps[i];
+        else
+            sweep->ramps[kept++] = sweep->ramps[i];
+    sweep->n_isotherms = isotherms;
+    sweep->n_ramps = kept;
+    if (dropped.n_isotherms > 0)
+        wt_parselog_add(log, WT_WARNING, dropped.isotherms[0].source, NULL,
+                        "%zu isotherm%s of other strain amplitudes left out", dropped.n_isotherms,
+                        dropped.n_isotherms > 1 ? "s" : "");
+    if (dropped.n_ramps > 0)
+        wt_parselog_add(log, WT_WARNING, dropped.ramps[0].source, NULL,
+                        "%zu temperature sweep%s of other strain amplitudes left out",
+                        dropped.n_ramps, dropped.n_ramps > 1 ? "s" : "");
+    wt_sweep_clear(&dropped);
+    return WT_OK;
+}
+
+wt_status flow_one_amplitude(wt_sweep *sweep, const wt_file_set *sets, size_t n_sets,
+                             wt_parselog *log, wt_error *err)
+{
+    const double wanted = n_sets > 0 ? sets[0].read.strain : (double)NAN;
+    const size_t n = sweep->n_isotherms + sweep->n_ramps;
+    part *parts = calloc(n + 1, sizeof *parts);
+    wt_status status = parts == NULL ? wt_fail(err, WT_E_MEMORY, "out of memory") : WT_OK;
+    if (status == WT_OK)
+        list_parts(sweep, parts);
+    for (size_t i = 0; i < n && status == WT_OK; i++)
+        for (size_t k = i + 1; k < n && status == WT_OK; k++) {
+            if (!amplitudes_differ(&parts[i], &parts[k]))
+                continue;
+            if (isnan(wanted))
+                status = refuse_amplitudes(&parts[i], &parts[k], err);
+            else if (is_nearer(&parts[i], &parts[k], wanted))
+                parts[k].drop = true;
+            else
+                parts[i].drop = true;
+        }
+    if (status == WT_OK && !isnan(wanted))
+        check_wanted(parts, n, wanted, log);
+    if (status == WT_OK)
+        status = take_out(sweep, parts, log, err);
+    free(parts);
+    return status;
+}

@@ -1,0 +1,49 @@
+/* What the answer says of the rubber. SPDX-License-Identifier: GPL-3.0-or-later */
+#include "case/answer/answer_context.h"
+#include "case/answer/format_number.h"
+
+#include <math.h>
+#include <string.h>
+
+struct law_text {
+    char text[256];
+};
+
+/* The law of the shift factors with its constants. */
+static struct law_text law_words(const table_view *shift)
+{
+    struct law_text words;
+    const wt_estimate c1 = shift_factors_value(shift, SHIFT_FACTORS_KEY_WLF_C1),
+                      energy = shift_factors_value(shift, SHIFT_FACTORS_KEY_ACTIVATION_ENERGY);
+    if (isnan(c1.value) && isnan(energy.value))
+        snprintf(words.text, sizeof words.text, "no law of the shift factors");
+    else if (isnan(c1.value))
+        snprintf(words.text, sizeof words.text, "Arrhenius with %s", words_of_known(energy).text);
+    else
+        snprintf(words.text, sizeof words.text, "WLF C1 = %s, C2 = %s%s", words_of_known(c1).text,
+                 words_of_known(shift_factors_value(shift, SHIFT_FACTORS_KEY_WLF_C2)).text,
+                 isnan(energy.value) ? "" : ", Arrhenius in the cold");
+    return words;
+}
+
+void answer_rubber(const answer_story *story)
+{
+    const table_view *shift = &story->shift_factors, *prony = &story->prony;
+    if (shift->table == NULL || prony->table == NULL || story->found.comparison.table != NULL ||
+        story->found.friction.table != NULL)
+        return;
+    const double reference =
+        shift_factors_value(shift, SHIFT_FACTORS_KEY_REFERENCE_TEMPERATURE).value;
+    const wt_estimate equilibrium = prony_value(prony, PRONY_KEY_EQUILIBRIUM_MODULUS),
+                      limit = prony_value(prony, PRONY_KEY_EQUILIBRIUM_LIMIT);
+    const char *verdict = shift_factors_words(shift, SHIFT_FACTORS_KEY_SUPERPOSITION);
+    const bool holds = strncmp(verdict, "holds", 5) == 0; /* else a caveat says it */
+    answer_say(story, "What is the rubber like?", "material",
+               "At %s, from %zu isotherms: %s; equilibrium modulus %s%s (%s).%s%s%s",
+               words_of_celsius(reference).text, shift->n_rows, law_words(shift).text,
+               isnan(limit.value) ? "" : "at most ",
+               words_of_known(isnan(limit.value) ? equilibrium : limit).text,
+               prony_words(prony, PRONY_KEY_DEFORMATION),
+               holds ? " Time-temperature superposition " : "", holds ? verdict : "",
+               holds ? "." : "");
+}

@@ -1,0 +1,478 @@
+/* The comparison of materials: what they have in common, their moduli there and the ratios.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#include "dma/material_comparison.h"
+#include "core/base/equivalence_margin.h"
+#include "job/inputs.h"
+
+#include "core/base/clocale.h"
+#include "core/base/range_text.h"
+#include "core/math/normal_quantile.h"
+#include "core/table/table_rows.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { Q = MATERIALS_QUANTITIES };
+/* Places where two are compared: six in the width of a relaxation time, 1.14 decades, for 50
+ * decades, and as many temperatures as a figure shows well. More find no difference that is wider.
+ */
+enum { PER_DECADE = 6, MOST_PLACES = 300, TEMPERATURES = 25 };
+
+/* A material without a shift law is that of its reference up to this far [K]: a chamber holds its
+ * temperature no better. */
+static const double same_temperature = 1;
+static const double ten_hertz = 20 * M_PI; /* [rad/s], of what is told in one number */
+
+wt_materials_job wt_materials_job_defaults(void)
+{
+    return (wt_materials_job){.temperature = (double)NAN, .frequency = (double)NAN, .margin = 0.2};
+}
+
+static const wt_param rows[] = {
+    {PARAM("at-temperature", wt_materials_job, temperature, WT_Q_TEMPERATURE, ABOVE(0)),
+     .value = "T", .unset = "the reference temperature of the first, if all were measured there",
+     .help = "of materials: where they are compared over frequency"},
+    {PARAM("at-frequency", wt_materials_job, frequency, WT_Q_ANGULAR_FREQUENCY, ABOVE(0)),
+     .value = "F", .unset = "10 Hz, if all were measured there",
+     .help = "of materials: where they are compared over temperature, such as 10Hz or 63rad/s"},
+    {PARAM("sample-error", wt_materials_job, sample_error, WT_Q_NONE, FROM_BELOW(0, 1)),
+     .value = "X",
+     .help = "relative standard error of a modulus by the dimensions of its sample, such as 0.05; "
+             "it enters the ratios of moduli, not that of tan delta"},
+    EQUIVALENCE_MARGIN(wt_materials_job),
+};
+PARAM_TABLE(wt_materials_job_params, wt_materials_job, rows, wt_materials_job_defaults, NO_PARTS)
+
+void wt_materials_tables_clear(wt_materials_tables *tables)
+{
+    if (tables == NULL)
+        return;
+    wt_table_free(tables->materials);
+    wt_table_free(tables->material_ratio);
+    *tables = (wt_materials_tables){0};
+}
+
+/* ---- what they have in common ---------------------------------------------------------------- */
+
+typedef struct range {
+    double low, high;
+} range;
+
+static range common_range(range a, range b)
+{
+    return (range){fmax(a.low, b.low), fmin(a.high, b.high)};
+}
+
+static bool range_holds(range r, double x)
+{
+    return x >= r.low && x <= r.high;
+}
+
+/* Where it was measured; a law without isotherms goes anywhere. */
+static range temperatures_of(const wt_rubber *rubber)
+{
+    const double reference = rubber->prony.reference_temperature;
+    if (rubber->law.kind == WT_LAW_NONE)
+        return (range){reference - same_temperature, reference + same_temperature};
+    if (isnan(rubber->temperature_min))
+        return (range){0, (double)INFINITY};
+    return (range){rubber->temperature_min, rubber->temperature_max};
+}
+
+/* What is not known is no limit. */
+static wt_status frequencies_of(const wt_rubber *rubber, double temperature, range *r,
+                                wt_error *err)
+{
+    wt_material *material = NULL;
+    const wt_status status =
+        wt_rubber_at(rubber, temperature, 1, WT_NO_REPLICATE, &material, NULL, err);
+    if (status != WT_OK)
+        return status;
+    *r = (range){isnan(material->frequency_min) ? 0 : material->frequency_min,
+                 isnan(material->frequency_max) ? (double)INFINITY : material->frequency_max};
+    wt_material_free(material);
+    return WT_OK;
+}
+
+static wt_status no_common_temperature(const wt_materials_job *job, wt_error *err)
+{
+    char found[256] = "";
+    for (size_t i = 0; i < job->n_materials; i++) {
+        const range r = temperatures_of(job->materials[i].rubber);
+        const size_t used = strlen(found);
+        clocale_print(found + used, sizeof found - used, "%s%s: %.1f to %.1f °C", i > 0 ? "; " : "",
+                      job->materials[i].name, r.low - WT_ZERO_CELSIUS, r.high - WT_ZERO_CELSIUS);
+    }
+    wt_fail(err, WT_E_RANGE, "the materials have no temperature in common");
+    wt_error_found(err, "%s", found);
+    wt_error_advice(err, "measure both at one temperature; isotherms at several give a shift law, "
+                         "which takes a material to the temperature of the other");
+    return WT_E_RANGE;
+}
+
+typedef struct setting {
+    range temperature;
+    double at_temperature, at_frequency; /* frequency NaN: they have none at all temperatures */
+} setting;
+
+static wt_status find_temperature(const wt_materials_job *job, setting *s, wt_error *err)
+{
+    const double reference = job->materials[0].rubber->prony.reference_temperature;
+    s->temperature = (range){0, (double)INFINITY};
+    for (size_t i = 0; i < job->n_materials; i++) {
+        const wt_compared *m = &job->materials[i];
+        if (isnan(m->rubber->prony.reference_temperature)) {
+            wt_fail(err, WT_E_MISSING, "the temperature of the material is not known");
+            wt_error_file(err, m->name);
+            wt_error_advice(err, "--temperature says it");
+            return WT_E_MISSING;
+        }
+        s->temperature = common_range(s->temperature, temperatures_of(m->rubber));
+    }
+    const range r = s->temperature;
+    if (!(r.low <= r.high))
+        return no_common_temperature(job, err);
+    s->at_temperature = !isnan(job->temperature)    ? job->temperature
+                        : range_holds(r, reference) ? reference
+                                                    : (r.low + r.high) / 2;
+    if (range_holds(r, s->at_temperature))
+        return WT_OK;
+    wt_fail(err, WT_E_RANGE, "not all materials were measured at the at-temperature");
+    wt_error_expected(err, "%.1f to %.1f °C", r.low - WT_ZERO_CELSIUS, r.high - WT_ZERO_CELSIUS);
+    wt_error_found(err, "%.1f °C", s->at_temperature - WT_ZERO_CELSIUS);
+    return WT_E_RANGE;
+}
+
+static wt_status no_common_frequency(const wt_compared pair[2], const range own[2],
+                                     double temperature, wt_error *err)
+{
+    wt_fail(err, WT_E_RANGE, "the materials have no frequency in common at %.1f °C",
+            temperature - WT_ZERO_CELSIUS);
+    wt_error_found(err, "%s: %s rad/s; %s: %s rad/s", pair[0].name,
+                   ends_of(own[0].low, own[0].high, 3).text, pair[1].name,
+                   ends_of(own[1].low, own[1].high, 3).text);
+    wt_error_advice(err, "compare them at another temperature (at-temperature), or measure at more "
+                         "temperatures");
+    return WT_E_RANGE;
+}
+
+/* Over temperature there is nothing to compare at what was asked for. */
+static wt_status no_such_frequency(const wt_compared pair[2], const range own[2], const setting *s,
+                                   wt_error *err)
+{
+    const range t = s->temperature;
+    const bool one = !(t.high - t.low > 2 * same_temperature);
+    wt_fail(err, WT_E_RANGE,
+            one ? "materials are compared over temperature where both were measured at several"
+                : "the materials were not both measured at the at-frequency");
+    wt_error_place(err, "at-frequency");
+    wt_error_found(err, "%.3g rad/s; at %.1f °C %s: %s rad/s; %s: %s rad/s", s->at_frequency,
+                   s->at_temperature - WT_ZERO_CELSIUS, pair[0].name,
+                   ends_of(own[0].low, own[0].high, 3).text, pair[1].name,
+                   ends_of(own[1].low, own[1].high, 3).text);
+    wt_error_advice(err, one ? "leave it out" : "choose one that both have at some temperature");
+    return WT_E_RANGE;
+}
+
+/* ---- places ---------------------------------------------------------------------------------- */
+
+/* PER_DECADE of a range, its ends among them; returns how many. */
+static size_t over_frequency(range r, double temperature, material_place place[MOST_PLACES])
+{
+    const double decades = log10(r.high / r.low);
+    const double wanted = ceil(decades * PER_DECADE) + 1;
+    const size_t n = wanted < 2 ? 2 : wanted > MOST_PLACES ? MOST_PLACES : (size_t)wanted;
+    for (size_t i = 0; i < n; i++)
+        place[i] =
+            (material_place){temperature, r.low * pow(10, decades * (double)i / (double)(n - 1))};
+    return n;
+}
+
+/* Those temperatures of the common range at which both have the frequency. */
+static wt_status over_temperature(const wt_compared pair[2], const setting *s, double frequency,
+                                  material_place place[TEMPERATURES], size_t *n, wt_error *err)
+{
+    const range r = s->temperature;
+    *n = 0;
+    if (!isfinite(r.low + r.high) || !(r.high - r.low > 2 * same_temperature))
+        return WT_OK;
+    for (size_t i = 0; i < TEMPERATURES; i++) {
+        const double t = r.low + (r.high - r.low) * (double)i / (TEMPERATURES - 1);
+        range own[2] = {{0, 0}, {0, 0}};
+        for (int k = 0; k < 2; k++) {
+            const wt_status status = frequencies_of(pair[k].rubber, t, &own[k], err);
+            if (status != WT_OK)
+                return status;
+        }
+        if (range_holds(common_range(own[0], own[1]), frequency))
+            place[(*n)++] = (material_place){t, frequency};
+    }
+    return WT_OK;
+}
+
+/* ---- what the draws do not hold -------------------------------------------------------------- */
+
+/* Where superposition does not hold, one spectrum is off the isotherms by its misfit, and E'' by
+ * what Kramers and Kronig demand of it. */
+static wt_status find_beside(const wt_compared *m, double sample_error, material_beside *b,
+                             wt_error *err)
+{
+    table_view view;
+    *b = (material_beside){.sample = {sample_error, sample_error, 0}};
+    if (m->shift_factors == NULL)
+        return WT_OK;
+    const wt_status status = table_bind(m->shift_factors, &shift_factors_schema, "", &view, err);
+    if (status != WT_OK)
+        return status;
+    const char *verdict = shift_factors_words(&view, SHIFT_FACTORS_KEY_SUPERPOSITION),
+               *high = shift_factors_words(&view, SHIFT_FACTORS_KEY_MISFIT_HIGH);
+    double misfit = 0;
+    if (strncmp(verdict, "holds", 5) == 0 || high == NULL ||
+        !wt_number_parse(high, strlen(high), '.', &misfit) || !isfinite(misfit))
+        return WT_OK;
+    const double factor = shift_factors_value(&view, SHIFT_FACTORS_KEY_LOSS_FACTOR).value;
+    const double loss = hypot(misfit, factor > 0 ? log(factor) : 0);
+    b->misfit[MATERIALS_E1] = misfit;
+    b->misfit[MATERIALS_E2] = b->misfit[MATERIALS_TAN] = loss;
+    return WT_OK;
+}
+
+/* ---- tables ---------------------------------------------------------------------------------- */
+
+TABLE_ROW(materials, MATERIALS, const char *material; double angular_frequency;
+          wt_interval storage, loss, factor;)
+
+TABLE_ROW(material_ratio, MATERIAL_RATIO, const char *material, *over;
+          double temperature, angular_frequency; wt_interval storage, loss, factor;)
+
+TABLE_KEYS(material_ratio, MATERIAL_RATIO, const char *differs, *settled_by, *first_material,
+           *outside;
+           double temperature, angular_frequency, margin; char includes[160], lacks[160];)
+
+static wt_interval interval_of(double ln, double error)
+{
+    return (wt_interval){exp(ln), (double)NAN, exp(ln - NORMAL_95 * error),
+                         exp(ln + NORMAL_95 * error)};
+}
+
+static wt_status add_material(const wt_compared *m, const material_beside *beside,
+                              double temperature, const wt_job *work, table_writer *t,
+                              wt_error *err)
+{
+    material_place place[MOST_PLACES];
+    material_values v = {0};
+    range own;
+    wt_status status = frequencies_of(m->rubber, temperature, &own, err);
+    if (status != WT_OK || !(own.low > 0) || !isfinite(own.high))
+        return status; /* one whose measured range is not known is seen where it is compared */
+    const size_t n = over_frequency(own, temperature, place);
+    status = material_values_make(m->rubber, beside, place, n, work, &v, err);
+    table_block(t);
+    for (size_t i = 0; status == WT_OK && i < n; i++) {
+        const double *x = v.value + i * Q, *e = v.error + i * Q;
+        TABLE_ADD(materials, t, m->name, place[i].frequency,
+                  interval_of(x[MATERIALS_E1], e[MATERIALS_E1]),
+                  interval_of(x[MATERIALS_E2], e[MATERIALS_E2]),
+                  interval_of(x[MATERIALS_TAN], e[MATERIALS_TAN]));
+    }
+    material_values_clear(&v);
+    return status;
+}
+
+static void put_ratios(table_writer *t, const char *name, const char *over,
+                       const material_place *place, const material_ratio *r, size_t first,
+                       size_t last)
+{
+    if (first < last)
+        table_block(t);
+    for (size_t i = first; i < last; i++) {
+        const double *x = r->value + i * Q, *e = r->error + i * Q;
+        TABLE_ADD(material_ratio, t, name, over, place[i].temperature, place[i].frequency,
+                  interval_of(x[MATERIALS_E1], e[MATERIALS_E1]),
+                  interval_of(x[MATERIALS_E2], e[MATERIALS_E2]),
+                  interval_of(x[MATERIALS_TAN], e[MATERIALS_TAN]));
+    }
+}
+
+/* ---- words ----------------------------------------------------------------------------------- */
+
+/* Of all pairs together. */
+typedef struct sayings {
+    char differs[1024], settled_by[640], outside[640];
+    bool known, misfit; /* some interval is; one holds a misfit */
+} sayings;
+
+#define ADD(field, ...)                                                                            \
+    do {                                                                                           \
+        const size_t used_ = strlen(field);                                                        \
+        clocale_print((field) + used_, sizeof(field) - used_, "%s", used_ > 0 ? "; " : "");        \
+        const size_t more_ = strlen(field);                                                        \
+        clocale_print((field) + more_, sizeof(field) - more_, __VA_ARGS__);                        \
+    } while (0)
+
+/* What one of them alone has, by a fifth of a decade or more. */
+static void say_outside(const wt_compared *m, range own, range shared, double temperature,
+                        sayings *s)
+{
+    const double at = temperature - WT_ZERO_CELSIUS;
+    if (own.low < shared.low / 1.6 && own.low > 0)
+        ADD(s->outside, "%s below %.2g rad/s at %.1f °C", m->name, shared.low, at);
+    if (own.high > shared.high * 1.6 && isfinite(own.high))
+        ADD(s->outside, "%s above %.2g rad/s at %.1f °C", m->name, shared.high, at);
+}
+
+static void say_temperatures(const wt_materials_job *job, const setting *set, sayings *s)
+{
+    const range r = set->temperature;
+    for (size_t i = 0; i < job->n_materials; i++) {
+        const wt_compared *m = &job->materials[i];
+        const range own = temperatures_of(m->rubber);
+        const bool law = m->rubber->law.kind != WT_LAW_NONE;
+        if (!law)
+            ADD(s->outside, "%s has no shift law: all are compared at its temperature only",
+                m->name);
+        if (law && isfinite(own.high) && own.low < r.low - same_temperature)
+            ADD(s->outside, "%s below %.1f °C", m->name, r.low - WT_ZERO_CELSIUS);
+        if (law && isfinite(own.high) && own.high > r.high + same_temperature)
+            ADD(s->outside, "%s above %.1f °C", m->name, r.high - WT_ZERO_CELSIUS);
+    }
+}
+
+/* ---- the job --------------------------------------------------------------------------------- */
+
+/* A material against the first. */
+static wt_status add_pair(const wt_materials_job *job, const wt_compared pair[2],
+                          const material_beside beside[2], const wt_job *work, setting *s,
+                          table_writer *t, sayings *words, wt_error *err)
+{
+    material_place place[MOST_PLACES + TEMPERATURES];
+    material_values values[2] = {{0}, {0}};
+    material_ratio ratio = {0};
+    range own[2] = {{0, 0}, {0, 0}};
+    size_t n_temperatures = 0;
+    wt_status status = WT_OK;
+    for (int k = 0; status == WT_OK && k < 2; k++)
+        status = frequencies_of(pair[k].rubber, s->at_temperature, &own[k], err);
+    if (status != WT_OK)
+        return status;
+    const range shared = common_range(own[0], own[1]);
+    if (!(shared.low > 0 && shared.low < shared.high && isfinite(shared.high)))
+        return no_common_frequency(pair, own, s->at_temperature, err);
+    const size_t n = over_frequency(shared, s->at_temperature, place);
+    if (isnan(s->at_frequency))
+        s->at_frequency =
+            range_holds(shared, ten_hertz) ? ten_hertz : sqrt(shared.low * shared.high);
+    status = over_temperature(pair, s, s->at_frequency, place + n, &n_temperatures, err);
+    if (status == WT_OK && n_temperatures == 0 && !isnan(job->frequency))
+        status = no_such_frequency(pair, own, s, err);
+    for (int k = 0; status == WT_OK && k < 2; k++)
+        status = material_values_make(pair[k].rubber, &beside[k], place, n + n_temperatures, work,
+                                      &values[k], err);
+    if (status == WT_OK)
+        status = material_ratio_make(&values[0], &values[1], &ratio, err);
+    if (status == WT_OK) {
+        put_ratios(t, pair[1].name, "frequency", place, &ratio, 0, n);
+        put_ratios(t, pair[1].name, "temperature", place, &ratio, n, n + n_temperatures);
+        const material_verdict v = material_judge(pair, values, beside, &ratio, job->margin);
+        ADD(words->differs, "%s", v.differs);
+        if (v.settled_by[0] != '\0')
+            ADD(words->settled_by, "%s", v.settled_by);
+        words->known = words->known || ratio.known;
+        say_outside(&pair[0], own[0], shared, s->at_temperature, words);
+        say_outside(&pair[1], own[1], shared, s->at_temperature, words);
+    }
+    material_ratio_clear(&ratio);
+    material_values_clear(&values[0]);
+    material_values_clear(&values[1]);
+    return status;
+}
+
+static void set_keys(const wt_materials_job *job, const setting *s, const sayings *words,
+                     table_writer *t)
+{
+    material_ratio_keys keys = {words->differs,
+                                words->settled_by,
+                                job->materials[0].name,
+                                words->outside,
+                                s->at_temperature,
+                                s->at_frequency,
+                                job->margin,
+                                "",
+                                ""};
+    const bool sizes = job->sample_error > 0;
+    if (words->known) {
+        clocale_print(keys.includes, sizeof keys.includes,
+                      "noise of the isotherms, shifts and their law%s%s",
+                      words->misfit ? ", misfit of superposition" : "",
+                      sizes ? ", dimensions of the samples" : "");
+        clocale_print(keys.lacks, sizeof keys.lacks, "other samples of the same materials%s",
+                      sizes ? ""
+                            : "; dimensions of these (sample-error), which do not act on "
+                              "tan delta");
+    }
+    material_ratio_set_keys(t, &keys);
+}
+
+static void warn_deformation(const wt_materials_job *job, const wt_job *work)
+{
+    const wt_compared *first = &job->materials[0];
+    for (size_t i = 1; i < job->n_materials; i++) {
+        const wt_compared *m = &job->materials[i];
+        if (m->rubber->prony.deformation != first->rubber->prony.deformation)
+            wt_parselog_add(work->log, WT_WARNING, m->name, NULL,
+                            "one of %s and %s was measured in shear and the other in tension: E = "
+                            "2 (1 + %g) G, and what that is off by the ratio of moduli is off by",
+                            first->name, m->name, m->rubber->poisson_ratio);
+    }
+}
+
+static wt_status make_tables(const wt_materials_job *job, const wt_job *work,
+                             wt_materials_tables *tables, wt_error *err)
+{
+    setting s = {.at_frequency = job->frequency};
+    sayings words = {.known = false};
+    material_beside first;
+    wt_status status = find_temperature(job, &s, err);
+    if (status == WT_OK)
+        status = find_beside(&job->materials[0], job->sample_error, &first, err);
+    if (status != WT_OK)
+        return status;
+    say_temperatures(job, &s, &words);
+    table_writer curves = table_begin(&materials_schema, err),
+                 ratios = table_begin(&material_ratio_schema, err);
+    for (size_t i = 0; status == WT_OK && i < job->n_materials; i++) {
+        const wt_compared pair[2] = {job->materials[0], job->materials[i]};
+        material_beside beside[2] = {first, first};
+        status = find_beside(&pair[1], job->sample_error, &beside[1], err);
+        words.misfit = words.misfit || beside[1].misfit[MATERIALS_E1] > 0;
+        if (status == WT_OK)
+            status = add_material(&pair[1], &beside[1], s.at_temperature, work, &curves, err);
+        if (status == WT_OK && i > 0)
+            status = add_pair(job, pair, beside, work, &s, &ratios, &words, err);
+    }
+    materials_set_value(&curves, MATERIALS_KEY_TEMPERATURE, s.at_temperature, 0, 0);
+    set_keys(job, &s, &words, &ratios);
+    const wt_status one = table_end(&curves, &tables->materials),
+                    other = table_end(&ratios, &tables->material_ratio);
+    return status != WT_OK ? status : one != WT_OK ? one : other;
+}
+
+wt_status wt_compare_materials(const wt_materials_job *job, const wt_job *work,
+                               wt_materials_tables *tables, wt_error *err)
+{
+    if (job == NULL || work == NULL || tables == NULL || job->materials == NULL ||
+        job->n_materials < 2)
+        return wt_fail(err, WT_E_ARG, "two materials or more are needed");
+    wt_materials_tables t = {0};
+    wt_status status = param_check(wt_materials_job_params(), job, err);
+    if (status == WT_OK)
+        status = make_tables(job, work, &t, err);
+    if (status == WT_OK) {
+        warn_deformation(job, work);
+        *tables = t;
+        return WT_OK;
+    }
+    wt_materials_tables_clear(&t);
+    return status;
+}

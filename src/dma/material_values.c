@@ -1,0 +1,132 @@
+/* Moduli of a material with their errors, and ratios of two. SPDX-License-Identifier:
+ * GPL-3.0-or-later */
+#include "dma/material_comparison.h"
+
+#include "core/base/array.h"
+#include "core/math/normal_quantile.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+enum { Q = MATERIALS_QUANTITIES };
+
+void material_values_clear(material_values *v)
+{
+    free(v->value);
+    free(v->draw);
+    *v = (material_values){0};
+}
+
+/* Places of one temperature follow one another: they are asked of one material. */
+static wt_status moduli_of_draw(const wt_rubber *rubber, const material_place *place, size_t n,
+                                uint64_t seed, size_t replicate, double *value, wt_error *err)
+{
+    double *omega = malloc((3 * n + 1) * sizeof *omega);
+    if (omega == NULL)
+        return wt_fail(err, WT_E_MEMORY, "out of memory");
+    double *storage = omega + n, *loss = storage + n;
+    wt_status status = WT_OK;
+    for (size_t first = 0, last; status == WT_OK && first < n; first = last) {
+        wt_material *material = NULL;
+        for (last = first; last < n && place[last].temperature == place[first].temperature; last++)
+            omega[last - first] = place[last].frequency;
+        status =
+            wt_rubber_at(rubber, place[first].temperature, seed, replicate, &material, NULL, err);
+        if (status != WT_OK)
+            break;
+        material->law->modulus(material, omega, last - first, storage, loss);
+        wt_material_free(material);
+        for (size_t i = first; i < last; i++) {
+            value[i * Q + MATERIALS_E1] = log(storage[i - first]);
+            value[i * Q + MATERIALS_E2] = log(loss[i - first]);
+            value[i * Q + MATERIALS_TAN] = log(loss[i - first] / storage[i - first]);
+        }
+    }
+    free(omega);
+    return status;
+}
+
+/* About their mean, and what they scatter by. */
+static void centre_draws(material_values *v)
+{
+    const size_t m = v->n * Q;
+    for (size_t k = 0; k < m; k++) {
+        double mean = 0, square = 0;
+        for (size_t d = 0; d < v->n_draws; d++)
+            mean += v->draw[d * m + k] / (double)v->n_draws;
+        for (size_t d = 0; d < v->n_draws; d++) {
+            v->draw[d * m + k] -= mean;
+            square += v->draw[d * m + k] * v->draw[d * m + k];
+        }
+        v->error[k] = sqrt(square / (double)(v->n_draws - 1));
+    }
+}
+
+wt_status material_values_make(const wt_rubber *rubber, const material_beside *beside,
+                               const material_place *place, size_t n, const wt_job *work,
+                               material_values *v, wt_error *err)
+{
+    const size_t m = n * Q;
+    *v = (material_values){.n = n, .n_draws = rubber->n_draws > 1 ? rubber->n_draws : 0};
+    v->value = malloc((2 * m + 1) * sizeof *v->value);
+    v->draw = malloc((v->n_draws * m + 1) * sizeof *v->draw);
+    if (v->value == NULL || v->draw == NULL)
+        return wt_fail(err, WT_E_MEMORY, "out of memory");
+    v->error = v->value + m;
+    wt_status status = moduli_of_draw(rubber, place, n, work->seed, WT_NO_REPLICATE, v->value, err);
+    for (size_t d = 0; status == WT_OK && d < v->n_draws; d++)
+        status = moduli_of_draw(rubber, place, n, work->seed, d, v->draw + d * m, err);
+    if (status != WT_OK)
+        return status;
+    if (v->n_draws > 0)
+        centre_draws(v);
+    for (size_t k = 0; k < m; k++)
+        v->error[k] = v->n_draws == 0
+                          ? (double)NAN
+                          : hypot(v->error[k], hypot(beside->misfit[k % Q], beside->sample[k % Q]));
+    return WT_OK;
+}
+
+void material_ratio_clear(material_ratio *r)
+{
+    free(r->value);
+    *r = (material_ratio){0};
+}
+
+/* The largest deviation of each pair of draws, in errors. Draws of one number were made from the
+ * same random numbers, so that those of different numbers are paired. */
+static wt_status find_critical(const material_values *a, const material_values *b,
+                               material_ratio *r, wt_error *err)
+{
+    enum { WAYS = 4 }; /* pairs of each draw with others, for draws are dear and pairs are not */
+    const size_t m = r->n * Q, n = WAYS * a->n_draws;
+    double *most = calloc(n + 1, sizeof *most);
+    if (most == NULL)
+        return wt_fail(err, WT_E_MEMORY, "out of memory");
+    for (size_t i = 0; i < n; i++) {
+        const size_t d = i % a->n_draws, way = i / a->n_draws + 1;
+        const size_t e = (d + way * b->n_draws / (WAYS + 1)) % b->n_draws;
+        for (size_t k = 0; k < m; k++)
+            most[i] = fmax(most[i], fabs(b->draw[e * m + k] - a->draw[d * m + k]) / r->error[k]);
+    }
+    numbers_sort(most, n);
+    r->critical = fmax(most[(size_t)(0.95 * (double)n)], NORMAL_95);
+    free(most);
+    return WT_OK;
+}
+
+wt_status material_ratio_make(const material_values *first, const material_values *second,
+                              material_ratio *r, wt_error *err)
+{
+    const size_t m = first->n * Q;
+    *r = (material_ratio){.n = first->n, .known = first->n_draws > 0 && second->n_draws > 0};
+    r->value = malloc((2 * m + 1) * sizeof *r->value);
+    if (r->value == NULL)
+        return wt_fail(err, WT_E_MEMORY, "out of memory");
+    r->error = r->value + m;
+    for (size_t k = 0; k < m; k++) {
+        r->value[k] = second->value[k] - first->value[k];
+        r->error[k] = hypot(first->error[k], second->error[k]);
+    }
+    return r->known ? find_critical(first, second, r, err) : WT_OK;
+}

@@ -1,0 +1,191 @@
+/* Blocks are eliminated first, each by itself: what they leave of the border is its Schur
+ * complement. SPDX-License-Identifier: GPL-3.0-or-later */
+#include "dma/numerics/bordered_matrix.h"
+
+#include "core/math/arena_gsl.h"
+#include "core/math/blocked_product.h"
+#include "core/math/cholesky_dense.h"
+
+#include <math.h>
+#include <string.h>
+
+bordered bordered_new(pool *memory, size_t m, size_t n)
+{
+    bordered b = {.m = m, .n = n};
+    b.border = pool_matrix(memory, m, m);
+    b.side = pool_matrix(memory, BLOCK_SIDE * n + TILE_ROWS - 1, m);
+    b.own = pool_numbers(memory, BLOCK_OWN * n);
+    return b;
+}
+
+static double *side_row(const bordered *b, size_t row)
+{
+    return b->side->data + row * b->side->tda;
+}
+
+static double *border_row(const bordered *b, size_t row)
+{
+    return b->border->data + row * b->border->tda;
+}
+
+void bordered_zero(bordered *b)
+{
+    for (size_t i = 0; i < b->m; i++)
+        memset(border_row(b, i), 0, b->m * sizeof(double));
+    for (size_t i = 0; i < BLOCK_SIDE * b->n; i++)
+        memset(side_row(b, i), 0, b->m * sizeof(double));
+    memset(b->own, 0, BLOCK_OWN * b->n * sizeof *b->own);
+}
+
+void bordered_copy(bordered *to, const bordered *from)
+{
+    to->m = from->m;
+    for (size_t i = 0; i < from->m; i++)
+        memcpy(border_row(to, i), border_row(from, i), from->m * sizeof(double));
+    for (size_t i = 0; i < BLOCK_SIDE * from->n; i++)
+        memcpy(side_row(to, i), side_row(from, i), from->m * sizeof(double));
+    memcpy(to->own, from->own, BLOCK_OWN * from->n * sizeof *from->own);
+}
+
+/* A block's own factor, and the rows of its side by the inverse of that. */
+static bool factor_block(bordered *b, size_t block)
+{
+    double *own = b->own + BLOCK_OWN * block;
+    double *first = side_row(b, BLOCK_SIDE * block), *second = side_row(b, BLOCK_SIDE * block + 1);
+    if (!(own[0] > 0.0))
+        return false;
+    own[0] = sqrt(own[0]);
+    own[1] /= own[0];
+    own[2] -= own[1] * own[1];
+    if (!(own[2] > 0.0))
+        return false;
+    own[2] = sqrt(own[2]);
+    for (size_t j = 0; j < b->m; j++) {
+        first[j] /= own[0];
+        second[j] = (second[j] - own[1] * first[j]) / own[2];
+    }
+    return true;
+}
+
+/* Takes the products of the sides from the upper triangle of the border. */
+WIDE_REGISTERS
+static void take_sides(bordered *b)
+{
+    const size_t all = BLOCK_SIDE * b->n, tda = b->side->tda;
+    for (size_t k = 0; k < all; k += TILE_NEAR) {
+        size_t rows = k + TILE_NEAR < all ? TILE_NEAR : all - k;
+        rows = (rows + TILE_ROWS - 1) / TILE_ROWS * TILE_ROWS; /* those behind the last are zeros */
+        const double *row = side_row(b, k);
+        for (size_t i = 0; i < b->m; i += TILE)
+            for (size_t j = i; j < b->m; j += TILE)
+                tile_add(border_row(b, i) + j, b->m - i, b->m - j, b->border->tda,
+                         (tile_rows){row + i, row + j, tda, tda, rows}, true);
+    }
+}
+
+bool bordered_factor(bordered *b)
+{
+    for (size_t i = 0; i < b->n; i++)
+        if (!factor_block(b, i))
+            return false;
+    take_sides(b);
+    gsl_matrix_view border = gsl_matrix_submatrix(b->border, 0, 0, b->m, b->m);
+    return dense_factor(&border.matrix);
+}
+
+double bordered_log_det(const bordered *factor)
+{
+    double sum = 0.0;
+    for (size_t i = 0; i < factor->n; i++)
+        sum += 2.0 * (log(factor->own[BLOCK_OWN * i]) + log(factor->own[BLOCK_OWN * i + 2]));
+    for (size_t i = 0; i < factor->m; i++)
+        sum += 2.0 * log(border_row(factor, i)[i]);
+    return sum;
+}
+
+/* L of a block has own[0], own[1], own[2]. */
+static void solve_lower(const double *own, double x[BLOCK_SIDE])
+{
+    x[0] /= own[0];
+    x[1] = (x[1] - own[1] * x[0]) / own[2];
+}
+
+static void solve_upper(const double *own, double x[BLOCK_SIDE])
+{
+    x[1] /= own[2];
+    x[0] = (x[0] - own[1] * x[1]) / own[0];
+}
+
+void bordered_solve(const bordered *factor, double *border, double *side)
+{
+    const size_t m = factor->m, all = BLOCK_SIDE * factor->n;
+    for (size_t i = 0; i < factor->n; i++)
+        solve_lower(factor->own + BLOCK_OWN * i, side + BLOCK_SIDE * i);
+    for (size_t k = 0; k < all; k++) {
+        const double *row = side_row(factor, k);
+        for (size_t j = 0; j < m; j++)
+            border[j] -= side[k] * row[j];
+    }
+    for (size_t i = 0; i < m; i++) { /* the transpose of the factor is in the rows */
+        const double *row = border_row(factor, i);
+        border[i] /= row[i];
+        for (size_t j = i + 1; j < m; j++)
+            border[j] -= border[i] * row[j];
+    }
+    for (size_t i = m; i-- > 0;) {
+        const double *row = border_row(factor, i);
+        double sum = border[i];
+        for (size_t j = i + 1; j < m; j++)
+            sum -= row[j] * border[j];
+        border[i] = sum / row[i];
+    }
+    for (size_t k = 0; k < all; k++) {
+        const double *row = side_row(factor, k);
+        for (size_t j = 0; j < m; j++)
+            side[k] -= row[j] * border[j];
+    }
+    for (size_t i = 0; i < factor->n; i++)
+        solve_upper(factor->own + BLOCK_OWN * i, side + BLOCK_SIDE * i);
+}
+
+void bordered_inverse(const bordered *factor, gsl_matrix *scratch, bordered *inverse)
+{
+    const size_t m = inverse->m = factor->m;
+    gsl_matrix_const_view root = gsl_matrix_const_submatrix(factor->border, 0, 0, m, m);
+    gsl_matrix_view space = gsl_matrix_submatrix(scratch, 0, 0, m, m),
+                    border = gsl_matrix_submatrix(inverse->border, 0, 0, m, m);
+    dense_inverse(&root.matrix, &space.matrix, &border.matrix);
+    for (size_t i = 0; i < factor->n; i++) {
+        const double *own = factor->own + BLOCK_OWN * i;
+        double *row[BLOCK_SIDE], product[BLOCK_SIDE][BLOCK_SIDE] = {{1.0, 0.0}, {0.0, 1.0}};
+        for (size_t c = 0; c < BLOCK_SIDE; c++) {
+            const double *by = side_row(factor, BLOCK_SIDE * i + c);
+            row[c] = side_row(inverse, BLOCK_SIDE * i + c);
+            memset(row[c], 0, m * sizeof *row[c]);
+            dense_add(row[c], m, by, 1, inverse->border->data, inverse->border->tda, m);
+            for (size_t d = 0; d <= c; d++) {
+                const double *with = side_row(factor, BLOCK_SIDE * i + d);
+                for (size_t j = 0; j < m; j++)
+                    product[c][d] += row[c][j] * with[j];
+            }
+        }
+        product[0][1] = product[1][0];
+        for (size_t j = 0; j < m; j++) {
+            double x[BLOCK_SIDE] = {-row[0][j], -row[1][j]};
+            solve_upper(own, x);
+            row[0][j] = x[0];
+            row[1][j] = x[1];
+        }
+        for (size_t c = 0; c < BLOCK_SIDE; c++)
+            solve_upper(own, product[c]);
+        for (size_t c = 0; c < BLOCK_SIDE; c++) { /* the other side */
+            double x[BLOCK_SIDE] = {product[0][c], product[1][c]};
+            solve_upper(own, x);
+            product[0][c] = x[0];
+            product[1][c] = x[1];
+        }
+        inverse->own[BLOCK_OWN * i] = product[0][0];
+        inverse->own[BLOCK_OWN * i + 1] = product[1][0];
+        inverse->own[BLOCK_OWN * i + 2] = product[1][1];
+    }
+}

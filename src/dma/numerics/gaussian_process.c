@@ -1,0 +1,452 @@
+/* A curve through scattered points. SPDX-License-Identifier: GPL-3.0-or-later */
+#include "dma/numerics/gaussian_process.h"
+
+#include "core/base/array.h"
+#include "core/math/arena_gsl.h"
+#include "core/math/gsl_quiet.h"
+#include "core/math/normal_quantile.h"
+#include "core/math/root.h"
+
+#include <gsl/gsl_blas.h>
+#include <gsl/gsl_cdf.h>
+#include <gsl/gsl_eigen.h>
+#include <gsl/gsl_errno.h>
+#include <gsl/gsl_linalg.h>
+#include <math.h>
+#include <string.h>
+
+enum { PARABOLA = SMOOTH_PARABOLA };
+/* Lengths over which the departure changes, of half the range: from a quarter, below which a
+ * parabola and its departure have as many bends as fifteen points, to more than all of it; its
+ * variance over that of the scatter of a point: from what is seen of ten points to exact data.
+ * Steps of a factor 1.6 and 10, of which the weights change by little from one to the next. */
+static const double lengths[] = {0.25, 0.4, 0.6, 1.0, 1.6, 2.5};
+static const double ratios[] = {1e1, 1e2, 1e3, 1e4, 1e5, 1e6, 1e7, 1e8};
+enum { WAYS = COUNT_OF(lengths) * COUNT_OF(ratios) };
+/* Halves of a standard error or some: 1e-12 of it. */
+enum { HALVINGS = 40 };
+/* What weighs less than this share of the best changes no digit that is shown: all 48 ways together
+ * are then less than a twentieth, and each by less than its distance. */
+static const double counts_for_nothing = 1e-3;
+
+/* One smoothness and size of the departure. */
+typedef struct smooth_way {
+    double length, ratio;
+    double log_weight, weight;
+    double variance;  /* of the scatter */
+    gsl_matrix *root; /* Cholesky factor of the covariance over that variance */
+    gsl_matrix *flat; /* [n][PARABOLA] covariance^-1 powers */
+    gsl_vector *pull; /* [n] covariance^-1 residual */
+    double coefficient[PARABOLA], inverse[PARABOLA][PARABOLA];
+} smooth_way;
+
+/* Powers of x, or their slopes. */
+static void parabola_powers(double x, smooth_order order, double p[PARABOLA])
+{
+    p[0] = order == SMOOTH_VALUE ? 1 : 0;
+    p[1] = order == SMOOTH_VALUE ? x : 1;
+    p[2] = order == SMOOTH_VALUE ? x * x : 2 * x;
+}
+
+/* Of the departure at x, or its slope, with that at a point. */
+static double departure_covariance(const smooth_way *w, double x, double at, smooth_order order)
+{
+    const double away = (x - at) / w->length, value = w->ratio * exp(-0.5 * away * away);
+    return order == SMOOTH_VALUE ? value : -away / w->length * value;
+}
+
+/* ---- points ---------------------------------------------------------------------------------- */
+
+static wt_status take_points(smooth *s, const double *x, const double *y, size_t n, wt_error *err)
+{
+    const size_t each = (n + SMOOTH_POINTS - 1) / SMOOTH_POINTS;
+    s->n = (n + each - 1) / each;
+    s->x = pool_numbers(&s->memory, s->n);
+    s->y = pool_numbers(&s->memory, s->n);
+    s->count = pool_numbers(&s->memory, s->n);
+    s->ways = pool_alloc(&s->memory, WAYS, sizeof *s->ways);
+    if (s->memory.failed)
+        return wt_fail(err, WT_E_MEMORY, "no memory for a curve");
+    s->centre = 0.5 * (x[0] + x[n - 1]);
+    s->half = x[n - 1] > x[0] ? 0.5 * (x[n - 1] - x[0]) : 1;
+    for (size_t i = 0; i < n; i++) {
+        const size_t k = i / each;
+        const double before = s->count[k]++;
+        s->x[k] += ((x[i] - s->centre) / s->half - s->x[k]) / (before + 1);
+        s->y[k] += (y[i] - s->y[k]) / (before + 1);
+    }
+    return WT_OK;
+}
+
+/* ---- one way --------------------------------------------------------------------------------- */
+
+/* Generalised least squares of the parabola; false if the matrices are singular. */
+static bool solve_parabola(const smooth *s, smooth_way *w, gsl_vector *powers_y, double *log_det)
+{
+    double data[PARABOLA * PARABOLA] = {0};
+    gsl_matrix_view normal = gsl_matrix_view_array(data, PARABOLA, PARABOLA);
+    gsl_vector_view coefficient = gsl_vector_view_array(w->coefficient, PARABOLA);
+    for (size_t i = 0; i < s->n; i++) {
+        double p[PARABOLA];
+        parabola_powers(s->x[i], SMOOTH_VALUE, p);
+        for (size_t a = 0; a < PARABOLA; a++)
+            for (size_t b = 0; b < PARABOLA; b++)
+                data[a * PARABOLA + b] += p[a] * gsl_matrix_get(w->flat, i, b);
+    }
+    if (gsl_linalg_cholesky_decomp1(&normal.matrix) != GSL_SUCCESS)
+        return false;
+    for (size_t a = 0; a < PARABOLA; a++)
+        *log_det += 2 * log(gsl_matrix_get(&normal.matrix, a, a));
+    gsl_linalg_cholesky_solve(&normal.matrix, powers_y, &coefficient.vector);
+    gsl_linalg_cholesky_invert(&normal.matrix);
+    memcpy(w->inverse, data, sizeof data);
+    return true;
+}
+
+/* Fills the way from its length and ratio; false if it cannot be. powers_y: [n] scratch. */
+static bool fit_way(const smooth *s, smooth_way *w, gsl_vector *powers_y)
+{
+    double log_det = 0, squares = 0;
+    gsl_vector_set_zero(powers_y);
+    for (size_t i = 0; i < s->n; i++)
+        for (size_t k = 0; k < s->n; k++)
+            gsl_matrix_set(w->root, i, k,
+                           departure_covariance(w, s->x[i], s->x[k], SMOOTH_VALUE) +
+                               (i == k ? 1 / s->count[i] : 0));
+    if (gsl_linalg_cholesky_decomp1(w->root) != GSL_SUCCESS)
+        return false;
+    for (size_t i = 0; i < s->n; i++) {
+        double p[PARABOLA];
+        parabola_powers(s->x[i], SMOOTH_VALUE, p);
+        log_det += 2 * log(gsl_matrix_get(w->root, i, i));
+        for (size_t a = 0; a < PARABOLA; a++)
+            gsl_matrix_set(w->flat, i, a, p[a]);
+    }
+    for (size_t a = 0; a < PARABOLA; a++) {
+        gsl_vector_view column = gsl_matrix_column(w->flat, a);
+        gsl_linalg_cholesky_svx(w->root, &column.vector);
+        for (size_t i = 0; i < s->n; i++)
+            *gsl_vector_ptr(powers_y, a) += gsl_vector_get(&column.vector, i) * s->y[i];
+    }
+    gsl_vector_view known = gsl_vector_subvector(powers_y, 0, PARABOLA);
+    if (!solve_parabola(s, w, &known.vector, &log_det))
+        return false;
+    for (size_t i = 0; i < s->n; i++) {
+        double p[PARABOLA], fitted = 0;
+        parabola_powers(s->x[i], SMOOTH_VALUE, p);
+        for (size_t a = 0; a < PARABOLA; a++)
+            fitted += p[a] * w->coefficient[a];
+        gsl_vector_set(w->pull, i, s->y[i] - fitted);
+    }
+    gsl_vector_memcpy(powers_y, w->pull);
+    gsl_linalg_cholesky_svx(w->root, w->pull);
+    gsl_blas_ddot(powers_y, w->pull, &squares);
+    const double freedom = (double)(s->n - PARABOLA);
+    squares = fmax(squares, 1e-300);
+    w->variance = squares / freedom;
+    w->log_weight = -0.5 * (log_det + freedom * log(squares));
+    return isfinite(w->log_weight);
+}
+
+static smooth_way *new_way(smooth *s, double length, double ratio)
+{
+    smooth_way *w = &s->ways[s->n_ways];
+    *w = (smooth_way){.length = length,
+                      .ratio = ratio,
+                      .root = pool_matrix(&s->memory, s->n, s->n),
+                      .flat = pool_matrix(&s->memory, s->n, PARABOLA),
+                      .pull = pool_vector(&s->memory, s->n)};
+    return w;
+}
+
+wt_status smooth_new(const double *x, const double *y, size_t n, bool parabola, smooth *s,
+                     wt_error *err)
+{
+    *s = (smooth){.n = 0};
+    gsl_quiet();
+    wt_status status = take_points(s, x, y, n, err);
+    gsl_vector *scratch = status == WT_OK ? pool_vector(&s->memory, s->n) : NULL;
+    double best = -HUGE_VAL, sum = 0;
+    for (size_t k = 0; status == WT_OK && k < COUNT_OF(lengths); k++)
+        for (size_t r = 0; r < COUNT_OF(ratios); r++) {
+            if (parabola && k + r > 0)
+                continue;
+            smooth_way *w = new_way(s, lengths[k], parabola ? 0 : ratios[r]);
+            if (s->memory.failed)
+                return wt_fail(err, WT_E_MEMORY, "no memory for a curve");
+            if (!fit_way(s, w, scratch))
+                continue;
+            best = fmax(best, w->log_weight);
+            s->n_ways++;
+        }
+    if (status == WT_OK && s->n_ways == 0)
+        status = wt_fail(err, WT_E_CONVERGENCE, "no curve through %zu points", n);
+    const size_t made = s->n_ways;
+    s->n_ways = 0;
+    for (size_t i = 0; i < made; i++) {
+        s->ways[i].weight = exp(s->ways[i].log_weight - best);
+        if (s->ways[i].weight < counts_for_nothing)
+            continue;
+        sum += s->ways[i].weight;
+        s->ways[s->n_ways++] = s->ways[i];
+    }
+    for (size_t i = 0; i < s->n_ways; i++)
+        s->ways[i].weight /= sum;
+    return status;
+}
+
+void smooth_free(smooth *s)
+{
+    pool_free(&s->memory);
+    *s = (smooth){.n = 0};
+}
+
+/* ---- what it says ---------------------------------------------------------------------------- */
+
+/* By one way, in units of the scaled x. */
+static double way_mean(const smooth *s, const smooth_way *w, double x, smooth_order order)
+{
+    double p[PARABOLA], mean = 0;
+    parabola_powers(x, order, p);
+    for (size_t a = 0; a < PARABOLA; a++)
+        mean += p[a] * w->coefficient[a];
+    for (size_t i = 0; i < s->n; i++)
+        mean += departure_covariance(w, x, s->x[i], order) * gsl_vector_get(w->pull, i);
+    return mean;
+}
+
+static double way_error(const smooth *s, const smooth_way *w, double x, smooth_order order)
+{
+    double p[PARABOLA], known[SMOOTH_POINTS];
+    double square = order == SMOOTH_VALUE ? w->ratio : w->ratio / (w->length * w->length);
+    gsl_vector_view column = gsl_vector_view_array(known, s->n);
+    parabola_powers(x, order, p);
+    for (size_t i = 0; i < s->n; i++) {
+        known[i] = departure_covariance(w, x, s->x[i], order);
+        for (size_t a = 0; a < PARABOLA; a++)
+            p[a] -= known[i] * gsl_matrix_get(w->flat, i, a);
+    }
+    gsl_blas_dtrsv(CblasLower, CblasNoTrans, CblasNonUnit, w->root, &column.vector);
+    for (size_t i = 0; i < s->n; i++)
+        square -= known[i] * known[i];
+    for (size_t a = 0; a < PARABOLA; a++)
+        for (size_t b = 0; b < PARABOLA; b++)
+            square += p[a] * w->inverse[a][b] * p[b];
+    return sqrt(fmax(square, 0) * w->variance);
+}
+
+/* The order counts from the scaled x to x. */
+static double scale_of(const smooth *s, smooth_order order)
+{
+    return order == SMOOTH_VALUE ? 1 : 1 / s->half;
+}
+
+double smooth_mean(const smooth *s, double x, smooth_order order)
+{
+    double mean = 0;
+    for (size_t i = 0; i < s->n_ways; i++)
+        mean += s->ways[i].weight * way_mean(s, &s->ways[i], (x - s->centre) / s->half, order);
+    return mean * scale_of(s, order);
+}
+
+/* What each way says of a place. */
+typedef struct opinions {
+    size_t n;
+    double weight[WAYS], mean[WAYS], error[WAYS], freedom;
+} opinions;
+
+static opinions opinions_at(const smooth *s, double x, smooth_order order)
+{
+    opinions o = {.n = s->n_ways, .freedom = (double)(s->n - PARABOLA)};
+    const double at = (x - s->centre) / s->half, scale = scale_of(s, order);
+    for (size_t i = 0; i < o.n; i++) {
+        o.weight[i] = s->ways[i].weight;
+        o.mean[i] = scale * way_mean(s, &s->ways[i], at, order);
+        o.error[i] = scale * way_error(s, &s->ways[i], at, order);
+    }
+    return o;
+}
+
+static double probability_below(const opinions *o, double limit)
+{
+    double probability = 0;
+    for (size_t i = 0; i < o->n; i++) {
+        const double away = limit - o->mean[i];
+        probability +=
+            o->weight[i] *
+            (o->error[i] > 0 ? gsl_cdf_tdist_P(away / o->error[i], o->freedom) : away > 0);
+    }
+    return probability;
+}
+
+double smooth_below(const smooth *s, double x, smooth_order order, double limit)
+{
+    const opinions o = opinions_at(s, x, order);
+    return probability_below(&o, limit);
+}
+
+typedef struct opinion_level {
+    const opinions *o;
+    double probability;
+} opinion_level;
+
+static bool less_probable(double x, void *user)
+{
+    const opinion_level *l = user;
+    return probability_below(l->o, x) < l->probability;
+}
+
+/* Begins at `from`, which lies on the other side of it, with steps of the size of `step`. */
+static double opinion_quantile(const opinions *o, double probability, double from, double step)
+{
+    double other = from + step;
+    while (step != 0 && (probability_below(o, other) < probability) == (step > 0) &&
+           isfinite(other))
+        other += step *= 2;
+    opinion_level l = {o, probability};
+    double low = fmin(from, other), high = fmax(from, other);
+    root_halve(less_probable, &l, &low, &high, 0, HALVINGS);
+    return 0.5 * (low + high);
+}
+
+static wt_interval interval_of(const opinions *o)
+{
+    double mean = 0, error = 0;
+    for (size_t i = 0; i < o->n; i++) {
+        mean += o->weight[i] * o->mean[i];
+        error = fmax(error, o->error[i]);
+    }
+    const double low = opinion_quantile(o, 0.025, mean, -error),
+                 high = opinion_quantile(o, 0.975, mean, error);
+    return (wt_interval){mean, (high - low) / (2 * NORMAL_95), low, high};
+}
+
+wt_interval smooth_interval(const smooth *s, double x)
+{
+    const opinions o = opinions_at(s, x, SMOOTH_VALUE);
+    return interval_of(&o);
+}
+
+/* ---- a number that slopes make ----------------------------------------------------------------
+ */
+
+/* Curves without the number may weigh so much: the share that an interval of 95 % leaves out. */
+static const double without_number = 0.05;
+
+typedef struct slopes {
+    const double *x; /* [n] */
+    size_t n;
+    double *mean, *moved;                /* [n] */
+    gsl_matrix *known, *powers;          /* [points][n], [n][PARABOLA] */
+    gsl_matrix *covariance, *directions; /* [n][n] */
+    gsl_vector *squares;                 /* [n] */
+    gsl_eigen_symmv_workspace *eigen;
+} slopes;
+
+static double slope_covariance(const smooth_way *w, double x, double y)
+{
+    const double away = (x - y) / w->length;
+    return w->ratio / (w->length * w->length) * (1 - away * away) * exp(-0.5 * away * away);
+}
+
+/* How the slopes by one way depart from their mean together: directions and their squares. */
+static bool find_directions(const smooth *s, const smooth_way *w, slopes *v)
+{
+    for (size_t k = 0; k < v->n; k++) {
+        const double at = (v->x[k] - s->centre) / s->half;
+        gsl_vector_view column = gsl_matrix_column(v->known, k);
+        double p[PARABOLA];
+        parabola_powers(at, SMOOTH_SLOPE, p);
+        for (size_t i = 0; i < s->n; i++) {
+            const double value = departure_covariance(w, at, s->x[i], SMOOTH_SLOPE);
+            gsl_vector_set(&column.vector, i, value);
+            for (size_t a = 0; a < PARABOLA; a++)
+                p[a] -= value * gsl_matrix_get(w->flat, i, a);
+        }
+        for (size_t a = 0; a < PARABOLA; a++)
+            gsl_matrix_set(v->powers, k, a, p[a]);
+        for (size_t j = 0; j < v->n; j++)
+            gsl_matrix_set(v->covariance, k, j,
+                           slope_covariance(w, at, (v->x[j] - s->centre) / s->half));
+        v->mean[k] = scale_of(s, SMOOTH_SLOPE) * way_mean(s, w, at, SMOOTH_SLOPE);
+    }
+    gsl_blas_dtrsm(CblasLeft, CblasLower, CblasNoTrans, CblasNonUnit, 1, w->root, v->known);
+    gsl_blas_dgemm(CblasTrans, CblasNoTrans, -1, v->known, v->known, 1, v->covariance);
+    for (size_t k = 0; k < v->n; k++)
+        for (size_t j = 0; j < v->n; j++)
+            for (size_t a = 0; a < PARABOLA * PARABOLA; a++)
+                *gsl_matrix_ptr(v->covariance, k, j) += gsl_matrix_get(v->powers, k, a / PARABOLA) *
+                                                        w->inverse[a / PARABOLA][a % PARABOLA] *
+                                                        gsl_matrix_get(v->powers, j, a % PARABOLA);
+    return gsl_eigen_symmv(v->covariance, v->squares, v->directions, v->eigen) == GSL_SUCCESS;
+}
+
+static double number_beside(slopes *v, size_t k, double step, smooth_number *number)
+{
+    for (size_t i = 0; i < v->n; i++)
+        v->moved[i] = v->mean[i] + step * gsl_matrix_get(v->directions, i, k);
+    return number(v->x, v->moved, v->n);
+}
+
+/* The number by one way and its error; false: it has none. */
+static bool number_of_way(const smooth *s, const smooth_way *w, slopes *v, smooth_number *number,
+                          double *mean, double *error)
+{
+    if (!find_directions(s, w, v))
+        return false;
+    double sum = 0;
+    *mean = number(v->x, v->mean, v->n);
+    for (size_t k = 0; k < v->n && isfinite(*mean); k++) {
+        const double step = scale_of(s, SMOOTH_SLOPE) *
+                            sqrt(fmax(gsl_vector_get(v->squares, k), 0) * w->variance),
+                     up = number_beside(v, k, step, number),
+                     down = number_beside(v, k, -step, number),
+                     half = isnan(up)     ? *mean - down
+                            : isnan(down) ? up - *mean
+                                          : (up - down) / 2;
+        sum += half * half;
+    }
+    *error = sqrt(sum);
+    return isfinite(*mean) && isfinite(*error);
+}
+
+static wt_status new_slopes(const smooth *s, const double *x, size_t n, pool *memory, slopes *v,
+                            wt_error *err)
+{
+    *v = (slopes){.x = x,
+                  .n = n,
+                  .mean = pool_numbers(memory, n),
+                  .moved = pool_numbers(memory, n),
+                  .known = pool_matrix(memory, s->n, n),
+                  .powers = pool_matrix(memory, n, PARABOLA),
+                  .covariance = pool_matrix(memory, n, n),
+                  .directions = pool_matrix(memory, n, n),
+                  .squares = pool_vector(memory, n)};
+    if (memory->failed || (v->eigen = gsl_eigen_symmv_alloc(n)) == NULL)
+        return wt_fail(err, WT_E_MEMORY, "no memory for the slopes of a curve");
+    return WT_OK;
+}
+
+wt_status smooth_of_slopes(const smooth *s, const double *x, size_t n, smooth_number *number,
+                           wt_interval *interval, wt_error *err)
+{
+    pool memory = {0};
+    slopes v;
+    opinions o = {.freedom = (double)(s->n - PARABOLA)};
+    double sum = 0;
+    *interval = (wt_interval){(double)NAN, (double)NAN, (double)NAN, (double)NAN};
+    const wt_status status = new_slopes(s, x, n, &memory, &v, err);
+    for (size_t i = 0; status == WT_OK && i < s->n_ways; i++) {
+        o.weight[o.n] = s->ways[i].weight;
+        if (!number_of_way(s, &s->ways[i], &v, number, &o.mean[o.n], &o.error[o.n]))
+            continue;
+        sum += o.weight[o.n++];
+    }
+    for (size_t i = 0; i < o.n; i++)
+        o.weight[i] /= sum;
+    if (sum >= 1 - without_number)
+        *interval = interval_of(&o);
+    gsl_eigen_symmv_free(v.eigen);
+    pool_free(&memory);
+    return status;
+}

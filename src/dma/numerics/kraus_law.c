@@ -1,0 +1,178 @@
+/* How a filled rubber softens with strain: what was measured, and the law of Kraus.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#include "dma/numerics/kraus_region.h"
+
+#include "core/base/array.h"
+
+#include <gsl/gsl_cdf.h>
+#include <math.h>
+#include <stdlib.h>
+
+/* Points of an end, whose mean is told; points that a fit of four constants needs, so that three
+ * degrees of freedom tell its scatter; a largest point that is one of the outer two is no maximum.
+ */
+enum { END = 3, FEWEST_FIT = 7, FROM_END = 2 };
+/* How far apart in strain the points of the start may be: half a decade. Kraus's law falls there by
+ * (start_ratio gamma / gamma_c)^(2 m), the less the smaller the first amplitude is. */
+static const double start_ratio = 3;
+/* What is told of a fall: where it begins to show, and its half. */
+static const double tenth = 0.9, half = 0.5;
+/* Intervals of 95 %; a fall that scatter makes by a chance of more than 5 % is none. */
+static const double level = 0.975, chance = 0.05;
+
+double wt_kraus_storage(const wt_kraus *law, double strain)
+{
+    const double x = pow(strain / law->strain_c, law->exponent);
+    return law->storage_inf + (law->storage_0 - law->storage_inf) / (1 + x * x);
+}
+
+double wt_kraus_loss(const wt_kraus *law, double strain)
+{
+    const double x = pow(strain / law->strain_c, law->exponent);
+    return law->loss_inf + (law->loss_m - law->loss_inf) * 2 / (x + 1 / x);
+}
+
+/* ---- as measured ----------------------------------------------------------------------------- */
+
+static double falls_below(const payne_points *p, double to)
+{
+    const double *x = p->log_strain, *y = p->storage;
+    for (size_t i = 1; i < p->n; i++)
+        if (y[i] < to && y[i - 1] >= to)
+            return exp(x[i - 1] + (x[i] - x[i - 1]) * (y[i - 1] - to) / (y[i - 1] - y[i]));
+    return (double)NAN;
+}
+
+static void measure_softening(const payne_points *p, wt_payne *payne)
+{
+    size_t first = 1, top = 0;
+    while (first < END && first < p->n &&
+           p->log_strain[first] - p->log_strain[0] <= log(start_ratio))
+        first++;
+    const size_t last = p->n < END ? p->n : END;
+    payne->storage_start = numbers_mean(p->storage, first);
+    payne->loss_start = numbers_mean(p->loss, first);
+    payne->storage_end = numbers_mean(p->storage + p->n - last, last);
+    payne->strain_tenth = falls_below(p, tenth * payne->storage_start);
+    payne->strain_half = falls_below(p, half * payne->storage_start);
+    for (size_t i = 1; i < p->n; i++)
+        if (p->loss[i] > p->loss[top])
+            top = i;
+    payne->loss_max = p->loss[top];
+    if (top >= FROM_END && top + FROM_END < p->n)
+        payne->strain_loss_max = exp(p->log_strain[top]);
+    else
+        payne->loss_note = top < FROM_END
+                               ? "largest at the smallest amplitudes: no maximum in range"
+                               : "largest at the largest amplitudes: no maximum in range";
+}
+
+/* ---- the law --------------------------------------------------------------------------------- */
+
+/* Root mean square of the residuals; *wander: neighbours are off to the same side more often than
+ * scatter would have it. */
+static double law_misfit(const payne_points *p, const double *y, const wt_kraus *law,
+                         double (*of)(const wt_kraus *, double), bool *wander)
+{
+    double squares = 0, steps = 0, before = 0;
+    for (size_t i = 0; i < p->n; i++) {
+        const double off = y[i] - of(law, exp(p->log_strain[i]));
+        squares += off * off;
+        steps += i > 0 ? (off - before) * (off - before) : 0;
+        before = off;
+    }
+    *wander = steps < (2 - 4 / sqrt((double)p->n)) * squares;
+    return sqrt(squares / (double)p->n);
+}
+
+/* What lies beyond the amplitudes measured is not told. */
+static void withhold_unmeasured(const payne_points *p, wt_payne *payne)
+{
+    const wt_interval unknown = {(double)NAN, (double)NAN, (double)NAN, (double)NAN};
+    const double at = log(payne->law.strain_c);
+    const char *why = NULL;
+    if (at > p->log_strain[p->n - 1])
+        why = "half of the fall is not reached in range";
+    else if (at < p->log_strain[0])
+        why = "more than half of the fall lies below the smallest amplitude";
+    if (why == NULL)
+        return;
+    payne->note = why;
+    payne->strain_c = payne->loss_m = payne->loss_inf = unknown;
+    *(at > p->log_strain[0] ? &payne->storage_inf : &payne->storage_0) = unknown;
+}
+
+static void fit_law(const payne_points *p, wt_payne *payne)
+{
+    double u, v;
+    bool wander, loss_wander;
+    payne_best(p, &u, &v);
+    const payne_levels s = payne_storage_at(p, u, v), l = payne_loss_at(p, u, v);
+    const double freedom = (double)(p->n - 4), flat = payne_flat(p);
+    if (!(s.rss > 0) ||
+        gsl_cdf_fdist_Q((flat - s.rss) / 3 / (s.rss / freedom), 3, freedom) > chance) {
+        payne->note = s.rss > 0 ? "no fall of the storage modulus that stands out of its scatter"
+                                : "the points have no scatter";
+        return;
+    }
+    payne->fitted = true;
+    payne->law = (wt_kraus){s.b, s.a, exp(u), exp(v), l.b, l.a};
+    payne->storage_misfit =
+        law_misfit(p, p->storage, &payne->law, wt_kraus_storage, &wander) / payne->law.storage_0;
+    payne->loss_misfit =
+        law_misfit(p, p->loss, &payne->law, wt_kraus_loss, &loss_wander) / payne->loss_max;
+    payne_intervals(p, gsl_cdf_tdist_Pinv(level, freedom), payne);
+    if (wander)
+        payne->note = "the points leave the law of Kraus one after the other to the same side: "
+                      "intervals too narrow";
+    if (loss_wander && payne->loss_note[0] == '\0')
+        payne->loss_note = "the points leave the law of Kraus one after the other to the same "
+                           "side: intervals too narrow";
+    withhold_unmeasured(p, payne);
+}
+
+wt_status wt_payne_fit(const double *strain, const double *storage, const double *loss, size_t n,
+                       wt_payne *payne, wt_error *err)
+{
+    const double nan = (double)NAN;
+    const wt_interval unknown = {nan, nan, nan, nan};
+    const bool alone = loss == NULL;
+    loss = alone ? storage : loss; /* of which nothing is told then */
+    if (strain == NULL || storage == NULL || payne == NULL || n == 0)
+        return wt_fail(err, WT_E_ARG, "no strain sweep");
+    for (size_t i = 0; i < n; i++)
+        if (!(strain[i] > 0 && storage[i] > 0 && loss[i] > 0 && isfinite(strain[i]) &&
+              isfinite(storage[i]) && isfinite(loss[i]) && (i == 0 || strain[i] >= strain[i - 1])))
+            return wt_fail(err, WT_E_ARG, "strain sweep: not rising, or not above zero");
+    double *log_strain = malloc(n * sizeof *log_strain);
+    if (log_strain == NULL)
+        return wt_fail(err, WT_E_MEMORY, "out of memory");
+    for (size_t i = 0; i < n; i++)
+        log_strain[i] = log(strain[i]);
+    const payne_points p = {n, log_strain, storage, loss};
+    *payne = (wt_payne){.strain_loss_max = nan,
+                        .law = {nan, nan, nan, nan, nan, nan},
+                        .storage_0 = unknown,
+                        .storage_inf = unknown,
+                        .strain_c = unknown,
+                        .exponent = unknown,
+                        .loss_m = unknown,
+                        .loss_inf = unknown,
+                        .storage_misfit = nan,
+                        .loss_misfit = nan,
+                        .note = "",
+                        .loss_note = ""};
+    measure_softening(&p, payne);
+    if (n < FEWEST_FIT)
+        payne->note = "too few points for the law of Kraus";
+    else
+        fit_law(&p, payne);
+    if (alone) {
+        payne->loss_start = payne->loss_max = payne->strain_loss_max = nan;
+        payne->law.loss_m = payne->law.loss_inf = payne->loss_misfit = nan;
+        payne->loss_m = payne->loss_inf = unknown;
+        payne->loss_note = "no loss modulus was measured";
+    }
+    free(log_strain);
+    return WT_OK;
+}

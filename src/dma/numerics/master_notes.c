@@ -1,0 +1,204 @@
+/* What is odd about isotherms, in words. SPDX-License-Identifier: GPL-3.0-or-later */
+#include "dma/numerics/master_fit.h"
+
+#include "core/base/clocale.h"
+
+#include <math.h>
+#include <stdarg.h>
+#include <string.h>
+
+/* Words only, no number changes. An isotherm with so many times the noise of the others is named
+ * (by chance ten points of both moduli have a third more in one of forty), and a vertical shift so
+ * far from the physical one [decade]: 26 %, which no change of density with temperature makes. */
+static const double noisy = 3.0, odd_vertical = 0.1;
+/* Strain amplitudes that differ by more than this factor are different points of the Payne curve,
+ * which falls by a fifth of its height from one to the other where it is steepest (Kraus 1984, with
+ * m = 0.6). A word only. */
+static const double odd_strain = 2.0;
+/* Runs at one temperature are so close [K], which a chamber holds, and differ by so many standard
+ * errors: by chance one pair in 16,000. */
+static const double one_temperature = 0.5, odd_difference = 4.0;
+
+void master_note(wt_master_shift *shift, const char *format, ...)
+{
+    const size_t size = sizeof shift->note;
+    size_t length = strlen(shift->note);
+    if (length > 0 && length + 3 < size) {
+        memcpy(shift->note + length, "; ", 3);
+        length += 2;
+    }
+    va_list arguments;
+    va_start(arguments, format);
+    const int needed = clocale_vprint(shift->note + length, size - length, format, arguments);
+    va_end(arguments);
+    if (needed >= 0 && (size_t)needed >= size - length)
+        memcpy(shift->note + size - 4, "...", 4);
+}
+
+static void note_shift(const master_work *work, size_t i, wt_master_shift *shift)
+{
+    const wt_posterior *p = work->posterior;
+    if (work->set.curves[i].n_left_out > 0)
+        master_note(shift, "%zu point%s without positive modulus left out",
+                    work->set.curves[i].n_left_out, work->set.curves[i].n_left_out > 1 ? "s" : "");
+    if (shift->n_outliers > 0)
+        master_note(shift, "%zu value%s off the curve left out", shift->n_outliers,
+                    shift->n_outliers > 1 ? "s" : "");
+    if (shift->noise_factor > noisy)
+        master_note(shift, "%.1f times the noise of the others", shift->noise_factor);
+    if (!shift->determined)
+        return;
+    if (work->set.curves[i].given && work->route == WT_SHIFTS_OF_SPECTRUM)
+        master_note(shift, "as given");
+    if (work->options.vertical != WT_VERTICAL_NONE && isfinite(shift->log_b.value) &&
+        fabs(shift->log_b.value - shift->log_b_physical) > odd_vertical)
+        master_note(shift, "log bT %+.3f where rho T gives %+.3f", shift->log_b.value,
+                    shift->log_b_physical);
+    if (p->shape.kind != WT_LAW_NONE && p->shape.odd == (long)work->curve[i]) {
+        const double off = posterior_constant(p, law_odd_index(&p->shape)).value;
+        master_note(shift, "off the law by %+.2f decade, as if %+.1f K from its temperature", off,
+                    off / p->slope[work->curve[i]]);
+    }
+}
+
+/* Two runs at one temperature should get one shift. */
+static void note_runs(wt_master *m)
+{
+    for (size_t i = 1; i < m->n_shifts; i++) {
+        wt_master_shift *shift = &m->shifts[i];
+        const wt_master_shift *before = &m->shifts[i - 1];
+        if (!shift->determined || !before->determined ||
+            shift->temperature - before->temperature > one_temperature)
+            continue;
+        const double difference = shift->log_a.value - before->log_a.value;
+        if (fabs(difference) >
+            odd_difference * hypot(shift->log_a.standard_error, before->log_a.standard_error))
+            master_note(shift, "log aT differs by %+.3f from the other run at this temperature",
+                        difference);
+    }
+}
+
+/* Largest and smallest mean strain amplitude of the isotherms. */
+static void note_strain(const wt_sweep *sweep, wt_parselog *log)
+{
+    double low = HUGE_VAL, high = 0.0;
+    for (size_t i = 0; i < sweep->n_isotherms; i++) {
+        const wt_isotherm *isotherm = &sweep->isotherms[i];
+        double sum = 0.0;
+        size_t n = 0;
+        for (size_t k = 0; isotherm->strain != NULL && k < isotherm->n; k++)
+            if (isotherm->strain[k] > 0.0) {
+                sum += log10(isotherm->strain[k]);
+                n++;
+            }
+        if (n > 0) {
+            low = fmin(low, pow(10.0, sum / (double)n));
+            high = fmax(high, pow(10.0, sum / (double)n));
+        }
+    }
+    if (high > odd_strain * low)
+        wt_parselog_add(log, WT_WARNING, NULL, NULL,
+                        "isotherms were measured at strain amplitudes from %.2g to %.2g: a filled "
+                        "rubber softens with strain, so their shifts mix temperature and strain",
+                        low, high);
+}
+
+/* What one quantity leaves open. */
+static void note_quantity(const master_work *work, wt_parselog *log)
+{
+    static const char *const open[] = {
+        [WT_BY_STORAGE] = "fitted to the storage modulus alone: the loss modulus is what its slope "
+                          "demands (Kramers-Kronig), and superposition is not tested",
+        [WT_BY_LOSS] = "fitted to the loss modulus alone: no equilibrium modulus, so no storage "
+                       "modulus and no series, and superposition is not tested",
+        [WT_BY_LOSS_FACTOR] =
+            "fitted to the loss factor alone: shifts and their law, but no level of "
+            "the moduli, no vertical shift and no series, and superposition is not "
+            "tested"};
+    if (work->set.loading != WT_OSCILLATION)
+        wt_parselog_add(log, WT_WARNING, NULL, NULL,
+                        "fitted to %s: storage and loss modulus are those of the spectrum, and "
+                        "superposition is not tested",
+                        work->set.loading == WT_CREEP ? "creep compliances" : "relaxation moduli");
+    if (work->flows)
+        wt_parselog_add(log, WT_WARNING, NULL, NULL,
+                        "creep of a liquid is fitted with an equilibrium modulus, which stands for "
+                        "what flows: shifts, law and moduli at the measured times are those of the "
+                        "liquid, and it is too stiff at longer ones");
+    else if (work->set.loading == WT_OSCILLATION && work->set.by != WT_BY_MODULI)
+        wt_parselog_add(log, WT_WARNING, NULL, NULL, "%s", open[work->set.by]);
+}
+
+/* The way the shifts were found, where it is not one spectrum. */
+static void note_route(const master_work *work, wt_parselog *log)
+{
+    size_t measured = 0, left = 0;
+    for (size_t i = 0; i < work->set.n; i++)
+        if (work->set.curves[i].n_together > 0) {
+            measured += work->set.curves[i].n_together;
+            left += work->set.curves[i].n;
+        }
+    if (measured > 0)
+        wt_parselog_add(log, WT_NOTE, NULL, NULL,
+                        "%zu points of dense isotherms are fitted as %zu means, each over a tenth "
+                        "of a decade at most",
+                        measured, left);
+    if (work->part)
+        wt_parselog_add(log, WT_WARNING, NULL, NULL,
+                        "spectrum, law and series are those of the isotherms from %.1f to %.1f °C, "
+                        "which one spectrum describes; shifts of the others are by the overlap of "
+                        "their storage modulus with their neighbours'",
+                        work->set.curves[work->first].temperature - WT_ZERO_CELSIUS,
+                        work->set.curves[work->last].temperature - WT_ZERO_CELSIUS);
+    else if (work->route == WT_SHIFTS_OF_OVERLAP)
+        wt_parselog_add(log, WT_WARNING, NULL, NULL,
+                        "shifts are by the overlap of the storage modulus alone, from neighbour to "
+                        "neighbour and %s: their errors hold what the places of an overlap "
+                        "disagree by, and by how much the overlap of E'' and %s would move them; "
+                        "E'' of the spectrum is off by what superposition fails by",
+                        work->options.vertical == WT_VERTICAL_PHYSICAL
+                            ? "with the vertical shift of rubber elasticity"
+                            : "without a vertical shift",
+                        work->options.vertical == WT_VERTICAL_PHYSICAL
+                            ? "no vertical shift"
+                            : "the vertical shift of rubber elasticity");
+}
+
+void master_notes(const master_work *work, const wt_sweep *sweep, wt_master *m, wt_parselog *log)
+{
+    note_quantity(work, log);
+    note_route(work, log);
+    for (size_t i = 0; i < m->n_shifts; i++)
+        note_shift(work, i, &m->shifts[i]);
+    note_runs(m);
+    note_strain(sweep, log);
+    for (size_t i = 0; i < m->n_shifts; i++)
+        if (m->shifts[i].note[0] != '\0')
+            wt_parselog_add(log, m->shifts[i].determined ? WT_NOTE : WT_WARNING, NULL, NULL,
+                            "isotherm of %.2f °C: %s", m->shifts[i].temperature - WT_ZERO_CELSIUS,
+                            m->shifts[i].note);
+    if (work->lines)
+        wt_parselog_add(log, WT_WARNING, NULL, NULL,
+                        "the spectrum is one of few sharp processes: between their lines nothing "
+                        "is measured, and the errors of E'', of the series and of what is worked "
+                        "out with it are up to twice as large as stated");
+    if (m->n_shifts > 1 && (m->reference_temperature < m->shifts[0].temperature ||
+                            m->reference_temperature > m->shifts[m->n_shifts - 1].temperature))
+        wt_parselog_add(log, WT_WARNING, NULL, NULL,
+                        "the reference temperature is outside the isotherms: the law is "
+                        "extrapolated");
+    if (m->n_shifts > 1 && work->set.by == WT_BY_MODULI &&
+        m->superposition != WT_SUPERPOSITION_HOLDS)
+        wt_parselog_add(log, WT_WARNING, NULL, NULL, "time-temperature superposition %s%s%s",
+                        m->superposition == WT_SUPERPOSITION_FAILS ? "fails" : "cannot be judged",
+                        isnan(m->holds_from) ? ": " : " ", m->because);
+    if (m->law.kind != WT_LAW_NONE && m->law_rms > master_largest_sigma)
+        wt_parselog_add(
+            log, WT_WARNING, NULL, NULL,
+            "the law of the shift factors is %.2g decade off them (rms): it is none of "
+            "this material, and what is worked out at other temperatures with it is off "
+            "by as much",
+            m->law_rms);
+    if (m->law.kind == WT_LAW_NONE && m->n_shifts > 1)
+        wt_parselog_add(log, WT_WARNING, NULL, NULL, "no law of the shift factors: %s", m->no_law);
+}

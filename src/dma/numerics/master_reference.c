@@ -1,0 +1,140 @@
+/* Which temperature is the reference: the one asked for, one that others can be shifted onto, or
+ * the glass transition. SPDX-License-Identifier: GPL-3.0-or-later */
+#include "dma/numerics/master_fit.h"
+
+#include "core/base/clocale.h"
+#include "core/math/root.h"
+
+#include <math.h>
+
+/* Steps in which the peak of tan delta is looked for [decade], before a parabola through three: no
+ * peak of E'' is narrower than that of one relaxation time, 1.14 decades at half its height. */
+static const double step = 0.05;
+/* How far beyond the isotherms its temperature may be [K]; farther a law is not told by what was
+ * measured. Chosen; beyond it the reference has to be given. */
+static const double beyond = 20.0;
+/* [K], far below what a thermometer knows */
+static const double close = 1e-6;
+
+static double factor_at(const wt_posterior *p, double log_frequency)
+{
+    wt_interval modulus[WITH_LOSS_FACTOR];
+    posterior_moduli(p, log_frequency * M_LN10, false, modulus);
+    return modulus[LOSS_FACTOR].value;
+}
+
+/* log10 of the reduced angular frequency at which tan delta has its largest peak; NaN: it has none
+ * within what was measured. */
+static double find_peak(const wt_master *m)
+{
+    const size_t n = (size_t)floor((m->log_frequency[m->n - 1] - m->log_frequency[0]) / step);
+    double y[3] = {0, 0, 0}, most = -HUGE_VAL, at = (double)NAN;
+    for (size_t k = 0; k <= n; k++) {
+        const double x = m->log_frequency[0] + step * (double)k;
+        y[0] = y[1];
+        y[1] = y[2];
+        y[2] = factor_at(m->posterior, x);
+        if (k < 2 || !(y[1] > y[0] && y[1] >= y[2] && y[1] > most))
+            continue;
+        most = y[1];
+        at = x - step + 0.5 * step * (y[0] - y[2]) / (y[0] - 2.0 * y[1] + y[2]);
+    }
+    return at;
+}
+
+typedef struct reference_search {
+    const wt_shift_law *law;
+    double peak;
+} reference_search;
+
+/* Also below the pole of the law, where it has no value. */
+static bool before_peak(double temperature, void *user)
+{
+    const reference_search *s = user;
+    return !(log10(2.0 * M_PI) + wt_shift_law_log_a(s->law, temperature) < s->peak);
+}
+
+/* Where the law brings 1 Hz to the peak. */
+static wt_status find_transition(const wt_master *m, double *temperature, wt_error *err)
+{
+    const double peak =
+        m->n > 0 && wt_master_shifted_by(m) != WT_BY_LOSS ? find_peak(m) : (double)NAN;
+    double low = m->shifts[0].temperature - beyond,
+           high = m->shifts[m->n_shifts - 1].temperature + beyond;
+    const bool law = m->law.kind != WT_LAW_NONE;
+    const double first = law ? log10(2.0 * M_PI) + wt_shift_law_log_a(&m->law, low) : 0.0,
+                 last = law ? log10(2.0 * M_PI) + wt_shift_law_log_a(&m->law, high) : 0.0;
+    if (!law || isnan(peak) || first < peak || !(last < peak)) { /* first: NaN below the pole */
+        char where[64];
+        clocale_print(where, sizeof where,
+                      "at 1 Hz tan delta peaks more than %g K %s the isotherms", beyond,
+                      first < peak ? "below" : "above");
+        wt_fail(err, WT_E_RANGE, "no glass transition for a reference: %s",
+                !law          ? "the shifts have no law"
+                : isnan(peak) ? "tan delta has no peak that was measured"
+                              : where);
+        wt_error_advice(err, "give a reference temperature");
+        return WT_E_RANGE;
+    }
+    reference_search search = {&m->law, peak};
+    root_halve(before_peak, &search, &low, &high, 0, (int)ceil(log2((high - low) / close)));
+    *temperature = high;
+    return WT_OK;
+}
+
+static void hand_on(const wt_parselog *from, wt_parselog *to)
+{
+    for (size_t i = 0; i < wt_parselog_count(from); i++) {
+        const wt_log_entry e = wt_parselog_get(from, i);
+        for (size_t k = 0; k < e.count; k++)
+            wt_parselog_add(to, e.severity, e.file, e.place, "%s", e.text);
+    }
+}
+
+/* Where the isotherm in the middle is one of a glass, flat, the one that changes most is the
+ * reference, unless one is asked for. */
+static wt_status fit_somewhere(const wt_sweep *sweep, wt_master_options options, wt_parselog *log,
+                               wt_master *master, wt_error *err)
+{
+    double better;
+    wt_error flat = WT_ERROR_INIT;
+    wt_parselog *words = wt_parselog_new(); /* a second fit has the same to say */
+    if (words == NULL)
+        return wt_fail(err, WT_E_MEMORY, "no memory for the remarks of a fit");
+    const wt_status status = master_fit_once(sweep, &options, words, master, &better, &flat);
+    const bool only = isnan(better) || !isnan(options.reference_temperature);
+    if (only)
+        hand_on(words, log);
+    wt_parselog_free(words);
+    if (only) {
+        if (status != WT_OK && err != NULL)
+            *err = flat;
+        return status;
+    }
+    wt_parselog_add(log, WT_WARNING, NULL, NULL,
+                    "the isotherm in the middle is too flat to shift others onto it: the reference "
+                    "is %.2f °C, where the modulus changes most with frequency",
+                    better - WT_ZERO_CELSIUS);
+    options.reference_temperature = better;
+    return master_fit_once(sweep, &options, log, master, &better, err);
+}
+
+wt_status wt_master_fit(const wt_sweep *sweep, const wt_master_options *options, wt_parselog *log,
+                        wt_master *master, wt_error *err)
+{
+    wt_master_options own = options != NULL ? *options : wt_master_options_defaults();
+    if (own.reference_at != WT_REFERENCE_TAN_DELTA_PEAK)
+        return fit_somewhere(sweep, own, log, master, err);
+    if (!isnan(own.reference_temperature)) {
+        wt_fail(err, WT_E_ARG, "two references: a temperature and the peak of tan delta");
+        wt_error_place(err, "reference-at");
+        wt_error_advice(err, "give one of them");
+        return WT_E_ARG;
+    }
+    wt_master first = {0};
+    wt_status status = fit_somewhere(sweep, own, NULL, &first, err);
+    if (status == WT_OK)
+        status = find_transition(&first, &own.reference_temperature, err);
+    wt_master_clear(&first);
+    return status == WT_OK ? fit_somewhere(sweep, own, log, master, err) : status;
+}

@@ -1,0 +1,517 @@
+/* A fitted sweep as it is handed out: shifts with notes, curve, law, series, verdict; and what can
+ * be asked of it later. SPDX-License-Identifier: GPL-3.0-or-later */
+#include "dma/numerics/master_fit.h"
+
+#include "core/math/normal_quantile.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* An equilibrium modulus whose interval goes below this share of the lowest storage modulus is a
+ * limit only: most of the modulus there is then left to relax, and how the spectrum goes on beyond
+ * the measured frequencies decides it. */
+static const double known_equilibrium = 0.5;
+/* Quantile for a one-sided limit of 95 %, squared. */
+static const double one_sided = 2.705543454095404;
+
+void wt_master_clear(wt_master *master)
+{
+    if (master == NULL)
+        return;
+    free(master->shifts);
+    free(master->log_frequency);
+    free(master->isotherm);
+    free(master->left_out);
+    free(master->fitted_storage);
+    wt_prony_clear(&master->prony);
+    posterior_free(master->posterior);
+    *master = (wt_master){0};
+}
+
+static const wt_interval unknown_interval = {(double)NAN, (double)NAN, (double)NAN, (double)NAN};
+
+static wt_interval interval_of(wt_interval x, double (*f)(double))
+{
+    wt_interval y = {f(x.value), 0.0, f(x.low), f(x.high)};
+    y.standard_error = 0.5 * (y.high - y.low) / NORMAL_95;
+    return y;
+}
+
+static wt_interval interval_times(wt_interval x, double factor)
+{
+    return (wt_interval){x.value * factor, x.standard_error * factor, x.low * factor,
+                         x.high * factor};
+}
+
+static wt_interval interval_plus(wt_interval x, double by)
+{
+    x.value += by;
+    x.low += by;
+    x.high += by;
+    return x;
+}
+
+static wt_interval interval_between(wt_interval a, wt_interval b, double share)
+{
+    return (wt_interval){a.value + share * (b.value - a.value),
+                         a.standard_error + share * (b.standard_error - a.standard_error),
+                         a.low + share * (b.low - a.low), a.high + share * (b.high - a.high)};
+}
+
+/* Whether the level of the moduli is told. */
+static bool has_level(wt_shift_by by)
+{
+    return by == WT_BY_MODULI || by == WT_BY_STORAGE;
+}
+
+/* ---- law ------------------------------------------------------------------------------------- */
+
+static wt_interval of_pole(const wt_posterior *p, double sign)
+{
+    const double lead = p->shape.reference - p->shape.coldest;
+    const wt_interval c2 =
+        interval_plus(interval_of(posterior_constant(p, law_pole_index(&p->shape)), exp), lead);
+    if (sign > 0.0)
+        return c2;
+    return (wt_interval){p->shape.reference - c2.value, c2.standard_error,
+                         p->shape.reference - c2.high, p->shape.reference - c2.low};
+}
+
+/* Of C1 and C2 over the mixture, C2 by its derivative. */
+static double correlation_of_constants(const wt_posterior *p)
+{
+    const size_t pole = law_pole_index(&p->shape);
+    double mean[LAW_MOST], sum[3] = {0.0, 0.0, 0.0};
+    posterior_mean_law(p, mean);
+    for (size_t i = 0; i < p->n_parts; i++) {
+        const law_fit *f = &p->parts[i].law;
+        const double d1 = f->unknown[1] - mean[1], d2 = f->unknown[pole] - mean[pole];
+        sum[0] += p->parts[i].weight * (f->covariance[1][1] + d1 * d1);
+        sum[1] += p->parts[i].weight * (f->covariance[1][pole] + d1 * d2);
+        sum[2] += p->parts[i].weight * (f->covariance[pole][pole] + d2 * d2);
+    }
+    return sum[1] / sqrt(sum[0] * sum[2]);
+}
+
+/* Few isotherms do not tell one law from another: between them any goes, beyond them none. */
+static wt_interval law_of(const wt_posterior *p, double temperature)
+{
+    const size_t n = p->frame.n_curves;
+    const bool inside = temperature >= p->temperature[0] && temperature <= p->temperature[n - 1];
+    return n >= LAW_LEAST_TOLD || inside ? posterior_law(p, temperature) : unknown_interval;
+}
+
+static void fill_law(const wt_posterior *p, wt_master *m)
+{
+    double mean[LAW_MOST];
+    m->offset = (wt_interval){0};
+    m->c1 = m->c2 = m->activation_energy = m->slope = m->pole = unknown_interval;
+    m->law = (wt_shift_law){.kind = WT_LAW_NONE,
+                            .wlf = {m->reference_temperature, (double)NAN, (double)NAN}};
+    m->law_rms = m->temperature_spread = m->c_correlation = (double)NAN;
+    if (p->shape.kind == WT_LAW_NONE) {
+        snprintf(m->no_law, sizeof m->no_law, "%s", p->no_law);
+        return;
+    }
+    posterior_mean_law(p, mean);
+    m->law = law_constants(&p->shape, mean);
+    m->offset = posterior_constant(p, 0);
+    if (p->shape.kind != WT_LAW_ARRHENIUS) {
+        m->c1 = posterior_constant(p, 1);
+        m->c2 = of_pole(p, 1.0);
+        m->pole = of_pole(p, -1.0);
+    }
+    if (p->shape.kind != WT_LAW_ARRHENIUS)
+        m->c_correlation = correlation_of_constants(p);
+    for (size_t i = 0; i < m->n_shifts; i++)
+        if (!isnan(wt_shift_law_log_a(&m->law, m->shifts[i].temperature)))
+            m->shifts[i].law = law_of(p, m->shifts[i].temperature);
+    if (p->shape.kind != WT_LAW_WLF)
+        m->activation_energy = posterior_constant(p, p->shape.kind == WT_LAW_JOINED ? 2 : 1);
+    m->slope = posterior_slope(p, m->reference_temperature);
+    m->temperature_spread = 0.0;
+    for (size_t i = 0; i < p->n_parts; i++)
+        m->temperature_spread += p->parts[i].weight * p->parts[i].spread;
+}
+
+/* A law of shifts that are all given has no error of its own. */
+static void forget_errors(const spectrum *s, wt_master *m)
+{
+    wt_interval *const of_law[] = {&m->c1, &m->c2, &m->pole, &m->activation_energy, &m->slope};
+    const double unknown = (double)NAN;
+    bool given = s->n_curves > 1;
+    for (size_t i = 0; i < s->n_curves; i++)
+        given = given && s->given[i];
+    given = given && m->shift_route != WT_SHIFTS_OF_OVERLAP; /* those have errors */
+    for (size_t i = 0; given && i < sizeof of_law / sizeof *of_law; i++)
+        *of_law[i] = (wt_interval){of_law[i]->value, unknown, unknown, unknown};
+    if (given)
+        m->c_correlation = unknown;
+    for (size_t i = 0; given && i < m->n_shifts; i++)
+        m->shifts[i].law = (wt_interval){m->shifts[i].law.value, unknown, unknown, unknown};
+}
+
+static void set_rms(wt_master *m)
+{
+    double sum = 0.0;
+    size_t n = 0;
+    for (size_t i = 0; i < m->n_shifts; i++) {
+        const double off = m->shifts[i].log_a.value - m->offset.value -
+                           wt_shift_law_log_a(&m->law, m->shifts[i].temperature);
+        if (!m->shifts[i].determined || !isfinite(off))
+            continue;
+        sum += off * off;
+        n++;
+    }
+    m->law_rms = n > 0 ? sqrt(sum / (double)n) : (double)NAN;
+}
+
+/* ---- curve ----------------------------------------------------------------------------------- */
+
+struct order {
+    double x;
+    size_t point;
+};
+
+static int by_x(const void *left, const void *right)
+{
+    const struct order *a = left, *b = right;
+    if (a->x != b->x)
+        return a->x > b->x ? 1 : -1;
+    return (a->point > b->point) - (a->point < b->point);
+}
+
+/* What the spectrum says at the points (of_step: of what was measured, after a step): on a grid,
+ * and between its points by lines, for nothing turns within a tenth of a decade. */
+static void fill_fitted(const wt_posterior *p, bool of_step, wt_master *m)
+{
+    const double step = 0.1;
+    wt_interval low[WITH_LOSS_FACTOR], high[WITH_LOSS_FACTOR];
+    double at = -HUGE_VAL;
+    for (size_t j = 0; j < m->n; j++) {
+        const double x = m->log_frequency[j], from = step * floor(x / step);
+        if (from > at) {
+            if (from == at + step)
+                memcpy(low, high, sizeof low);
+            else
+                posterior_moduli(p, from * M_LN10, of_step, low);
+            posterior_moduli(p, (from + step) * M_LN10, of_step, high);
+            at = from;
+        }
+        const double share = (x - from) / step;
+        const bool told[] = {has_level(p->by), p->by != WT_BY_LOSS_FACTOR && !of_step,
+                             p->by != WT_BY_LOSS && !of_step};
+        wt_interval *const fitted[] = {of_step ? m->fitted_step : m->fitted_storage, m->fitted_loss,
+                                       m->fitted_loss_factor};
+        for (int q = 0; q < WITH_LOSS_FACTOR; q++)
+            if (told[q])
+                fitted[q][j] =
+                    interval_times(interval_between(low[q], high[q], share), 1.0 / M_LN10);
+    }
+}
+
+/* tan delta as measured at a point of the spectrum. */
+static double factor_of_point(const spectrum *s, size_t k)
+{
+    if (s->ratio)
+        return exp(s->y[LOSS][k]);
+    return s->used[STORAGE] && s->used[LOSS] ? exp(s->y[LOSS][k] - s->y[STORAGE][k]) : (double)NAN;
+}
+
+/* Points of the determined isotherms, by reduced frequency. */
+static wt_status fill_curve(const master_work *work, wt_master *m, wt_error *err)
+{
+    const spectrum *s = work->s;
+    const bool of_step = s->loading != WT_OSCILLATION;
+    wt_posterior *p = work->posterior;
+    p->measured_factor = pool_numbers(&p->memory, s->n);
+    struct order *order = malloc((s->n + 1) * sizeof *order);
+    m->log_frequency = malloc(4 * (s->n + 1) * sizeof *m->log_frequency);
+    m->isotherm = malloc((s->n + 1) * sizeof *m->isotherm);
+    m->left_out = malloc((s->n + 1) * sizeof *m->left_out);
+    m->fitted_storage = malloc(4 * (s->n + 1) * sizeof *m->fitted_storage);
+    if (order == NULL || m->log_frequency == NULL || m->isotherm == NULL || m->left_out == NULL ||
+        m->fitted_storage == NULL || p->memory.failed) {
+        free(order);
+        return wt_fail(err, WT_E_MEMORY, "no memory for the master curve");
+    }
+    m->log_storage = m->log_frequency + s->n;
+    m->log_loss = m->log_storage + s->n;
+    m->fitted_loss = m->fitted_storage + s->n;
+    m->fitted_loss_factor = m->fitted_loss + s->n;
+    m->fitted_step = m->fitted_loss_factor + s->n;
+    m->log_step = m->log_loss + s->n;
+    for (size_t i = 0; i < m->n_shifts; i++) {
+        if (!m->shifts[i].determined)
+            continue; /* may not be among the curves of the spectrum */
+        const double a = m->shifts[i].log_a.value - m->offset.value;
+        for (size_t k = s->first[work->curve[i]]; k < s->first[work->curve[i] + 1]; k++)
+            order[m->n++] = (struct order){s->x[k] / M_LN10 + a, k};
+    }
+    qsort(order, m->n, sizeof *order, by_x);
+    for (size_t j = 0; j < m->n; j++) {
+        const size_t k = order[j].point;
+        size_t i = 0;
+        while (!m->shifts[i].determined || k < s->first[work->curve[i]] ||
+               k >= s->first[work->curve[i] + 1])
+            i++;
+        m->isotherm[j] = i;
+        m->log_frequency[j] = order[j].x;
+        const double b = m->shifts[i].log_b.value, unknown = (double)NAN;
+        const double storage = s->used[STORAGE] ? s->y[STORAGE][k] / M_LN10 + b : unknown;
+        m->log_storage[j] = of_step ? unknown : storage;
+        m->log_step[j] = of_step ? storage : unknown;
+        m->log_loss[j] = s->used[LOSS] && !s->ratio ? s->y[LOSS][k] / M_LN10 + b : unknown;
+        p->measured_factor[j] = factor_of_point(s, k);
+        m->left_out[j] = (s->used[STORAGE] && s->weight[STORAGE][k] == 0.0) ||
+                         (s->used[LOSS] && s->weight[LOSS][k] == 0.0);
+    }
+    for (size_t j = 0; j < m->n; j++)
+        m->fitted_storage[j] = m->fitted_loss[j] = m->fitted_loss_factor[j] = m->fitted_step[j] =
+            unknown_interval;
+    if (!work->options.series_only)
+        fill_fitted(work->posterior, false, m);
+    if (!work->options.series_only && of_step)
+        fill_fitted(work->posterior, true, m);
+    free(order);
+    return WT_OK;
+}
+
+/* The series of unknowns of the spectrum, at the reference temperature; reached: [n_terms] how
+ * probable it is that the spectrum reaches a term, what it does not is left at long times. */
+static wt_status prony_of_terms(const wt_posterior *p, const double *value, double offset,
+                                double (*reached)(const spectrum *s, size_t term, size_t place),
+                                size_t place, wt_prony *prony, wt_error *err)
+{
+    const spectrum *s = &p->frame;
+    wt_status status = wt_prony_alloc(prony, s->n_terms, err);
+    if (status != WT_OK)
+        return status;
+    prony->equilibrium_modulus = s->liquid ? 0.0 : exp(value[s->n_terms]);
+    for (size_t j = 0; j < s->n_terms; j++) {
+        const double share = s->liquid ? 1.0 : reached(s, j, place);
+        prony->relaxation_time[j] = exp(s->log_tau + (double)j * s->step + offset * M_LN10);
+        prony->modulus[j] = share * exp(value[j]);
+        prony->equilibrium_modulus += (1.0 - share) * exp(value[j]);
+    }
+    return WT_OK;
+}
+
+static double reached_by(const spectrum *s, size_t term, size_t place)
+{
+    return term < spectrum_end(s, place) ? 1.0 : 0.0;
+}
+
+static double reached_in_mean(const spectrum *s, size_t term, size_t unused)
+{
+    double sum = 0.0;
+    (void)unused;
+    for (size_t place = 0; place < SPECTRUM_ENDS; place++)
+        sum += reached_by(s, term, place) / SPECTRUM_ENDS;
+    return sum;
+}
+
+/* One-sided limit of 95 % of the equilibrium modulus [ln], if the data give no more, by the rise of
+ * the objective above what it is without one to speak of; the spectrum is moved. */
+static wt_status limit_equilibrium(master_work *work, double *limit, wt_error *err)
+{
+    spectrum *s = work->s;
+    const double narrow = 1e-3, mean = s->equilibrium_mean, spread = s->equilibrium_spread;
+    double low = s->value[s->n_terms], high = mean + 1.5;
+    wt_status status = WT_OK;
+    s->equilibrium_spread = narrow;
+    s->equilibrium_mean = low;
+    status = spectrum_fit(s, SPECTRUM_HELD, err);
+    const double least = s->objective;
+    while (status == WT_OK && high - low > 0.02) {
+        s->equilibrium_mean = 0.5 * (low + high);
+        s->value[s->n_terms] = s->equilibrium_mean;
+        status = spectrum_fit(s, SPECTRUM_HELD, err);
+        if (s->objective - least < one_sided)
+            low = s->equilibrium_mean;
+        else
+            high = s->equilibrium_mean;
+    }
+    s->equilibrium_mean = mean;
+    s->equilibrium_spread = spread;
+    *limit = high;
+    return status;
+}
+
+static wt_status fill_series(master_work *work, wt_master *m, wt_error *err)
+{
+    const wt_posterior *p = work->posterior;
+    double *value = malloc(p->frame.n_unknowns * sizeof *value);
+    if (value == NULL)
+        return wt_fail(err, WT_E_MEMORY, "no memory for the series");
+    double unknown[LAW_MOST];
+    posterior_mean(p, value);
+    posterior_mean_law(p, unknown);
+    wt_status status =
+        has_level(p->by) ? prony_of_terms(p, value, unknown[0], reached_in_mean, 0, &m->prony, err)
+                         : WT_OK;
+    free(value);
+    if (status != WT_OK)
+        return status;
+    m->prony.deformation = m->deformation;
+    m->prony.reference_temperature = m->reference_temperature;
+    if (m->n > 0) {
+        m->prony.frequency_min = pow(10.0, m->log_frequency[0]);
+        m->prony.frequency_max = pow(10.0, m->log_frequency[m->n - 1]);
+    }
+    m->equilibrium = has_level(p->by) ? (wt_interval){0} : unknown_interval;
+    if (p->frame.liquid || !has_level(p->by))
+        return WT_OK;
+    const wt_interval e = posterior_equilibrium(p);
+    m->equilibrium = interval_of(e, exp);
+    double lowest = HUGE_VAL;
+    for (size_t i = 0; i < m->n; i++)
+        lowest = fmin(lowest, m->loading == WT_OSCILLATION ? m->log_storage[i] : m->log_step[i]);
+    m->equilibrium_limit = !(e.low >= log(known_equilibrium) + lowest * M_LN10);
+    if (!m->equilibrium_limit)
+        return WT_OK;
+    double limit;
+    status = limit_equilibrium(work, &limit, err);
+    m->equilibrium.low = 0.0;
+    m->equilibrium.high = fmax(exp(limit), m->equilibrium.high);
+    m->equilibrium.standard_error = (double)NAN;
+    return status;
+}
+
+/* ---- the whole ------------------------------------------------------------------------------- */
+
+wt_status master_report(master_work *work, const wt_sweep *sweep, wt_parselog *log,
+                        wt_master *master, wt_error *err)
+{
+    wt_master m = {.deformation = sweep->deformation,
+                   .loading = sweep->loading,
+                   .reference_temperature = work->reference,
+                   .vertical = work->options.vertical,
+                   .shift_route = work->route,
+                   .terms_per_decade = work->terms_per_decade,
+                   .noise_storage = work->s->used[STORAGE] ? work->s->noise[STORAGE] : (double)NAN,
+                   .noise_loss = work->s->used[LOSS] ? work->s->noise[LOSS] : (double)NAN,
+                   .correlation = work->s->rho,
+                   .evaluations = work->s->evaluations,
+                   .step_allowed = sqrt(SPECTRUM_LEAST_GAIN),
+                   .step_left = work->posterior->step_left};
+    work->posterior->by = work->set.by;
+    m.settled = true;
+    for (size_t i = 0; i < work->posterior->n_parts; i++)
+        m.settled = m.settled && work->posterior->parts[i].cell->settled;
+    wt_status status = master_fill_shifts(work, &m, err);
+    if (status == WT_OK) {
+        fill_law(work->posterior, &m);
+        forget_errors(work->s, &m);
+        status = master_check_reference(work, &m, err);
+    }
+    if (status == WT_OK)
+        status = master_check_shifts(work, &m, err);
+    if (status == WT_OK) {
+        work->posterior->anchor_a = m.shifts[work->anchor].log_a.value;
+        if (!work->measured_reference) /* the shifts are to the reference itself */
+            m.offset = (wt_interval){0};
+        set_rms(&m);
+    }
+    if (status == WT_OK)
+        status = fill_curve(work, &m, err);
+    if (status == WT_OK)
+        status = fill_series(work, &m, err);
+    if (status != WT_OK) {
+        wt_master_clear(&m);
+        return status;
+    }
+    m.superposition = WT_SUPERPOSITION_CANNOT_SAY;
+    m.holds_from = m.holds_to = (double)NAN;
+    m.lack_of_fit_p = (double)NAN;
+    if (!work->options.series_only)
+        master_judge(work, &m);
+    master_notes(work, sweep, &m, log);
+    work->s->prior = NULL; /* of the work */
+    m.posterior = work->posterior;
+    work->posterior = NULL;
+    *master = m;
+    return WT_OK;
+}
+
+/* ---- asked later ----------------------------------------------------------------------------- */
+
+wt_interval wt_master_law(const wt_master *master, double temperature)
+{
+    if (master->law.kind == WT_LAW_NONE || isnan(wt_shift_law_log_a(&master->law, temperature)))
+        return unknown_interval;
+    return law_of(master->posterior, temperature);
+}
+
+double wt_master_closed_form(const wt_master *master, size_t isotherm)
+{
+    return master->posterior->closed_form[isotherm] + master->posterior->anchor_a;
+}
+
+void wt_master_moduli(const wt_master *master, double angular_frequency, wt_interval *log_storage,
+                      wt_interval *log_loss)
+{
+    wt_interval modulus[WITH_LOSS_FACTOR];
+    const wt_shift_by by = master->posterior->by;
+    posterior_moduli(master->posterior, log(angular_frequency), false, modulus);
+    *log_storage =
+        has_level(by) ? interval_times(modulus[STORAGE], 1.0 / M_LN10) : unknown_interval;
+    *log_loss =
+        by != WT_BY_LOSS_FACTOR ? interval_times(modulus[LOSS], 1.0 / M_LN10) : unknown_interval;
+}
+
+wt_shift_by wt_master_shifted_by(const wt_master *master)
+{
+    return master->posterior->by;
+}
+
+double wt_master_loss_factor(const wt_master *master, size_t i)
+{
+    return master->posterior->measured_factor[i];
+}
+
+void wt_master_spectrum(const wt_master *master, size_t term, wt_interval *log_density)
+{
+    const wt_prony *p = &master->prony;
+    const double step = master->posterior->frame.step;
+    *log_density = unknown_interval;
+    if (term >= p->n || !(p->relaxation_time[term] * p->frequency_max >= 1.0) ||
+        !(p->relaxation_time[term] * p->frequency_min <= 1.0))
+        return;
+    const size_t before = term > 0 ? term - 1 : 0, after = term + 1 < p->n ? term + 1 : term;
+    const double slope =
+        log(p->modulus[after] / p->modulus[before]) / (step * (double)(after - before));
+    *log_density = interval_times(
+        interval_plus(posterior_term(master->posterior, term, slope), -log(step)), 1.0 / M_LN10);
+}
+
+wt_status wt_master_draw(const wt_master *master, uint64_t seed, size_t index, wt_prony *prony,
+                         wt_shift_law *law, double *log_b, wt_error *err)
+{
+    const wt_posterior *p = master->posterior;
+    const size_t n = p->frame.n_curves;
+    double unknown[LAW_MOST];
+    double *value = malloc((p->frame.n_unknowns + n) * sizeof *value);
+    if (value == NULL)
+        return wt_fail(err, WT_E_MEMORY, "no memory for a draw");
+    double *b = value + p->frame.n_unknowns;
+    wt_status status = posterior_draw(p, seed, index, value, unknown, b, err);
+    if (status == WT_OK)
+        status = prony_of_terms(p, value, unknown[0], reached_by, posterior_place(seed, index),
+                                prony, err);
+    if (status == WT_OK) {
+        prony->deformation = master->deformation;
+        prony->reference_temperature = master->reference_temperature;
+        prony->frequency_min = master->prony.frequency_min;
+        prony->frequency_max = master->prony.frequency_max;
+        *law = master->law;
+        if (master->law.kind != WT_LAW_NONE)
+            *law = law_constants(&p->shape, unknown);
+        for (size_t i = 0; log_b != NULL && i < master->n_shifts; i++)
+            log_b[i] = master->shifts[i].determined ? b[p->curve[i]] : (double)NAN;
+    }
+    free(value);
+    return status;
+}

@@ -1,0 +1,207 @@
+/* The shifts of a fitted sweep with their notes, and whether there is one at all.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#include "dma/numerics/master_fit.h"
+
+#include "core/math/normal_quantile.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+/* What a vertical shift that nothing ties is off by through geometry and clamping [decade], 5 %:
+ * the cross section to 2 %, and the free length between the clamps. */
+static const double clamping = 0.02;
+
+static size_t count_outliers(const spectrum *s, size_t curve)
+{
+    size_t n = 0;
+    for (size_t k = s->first[curve]; k < s->first[curve + 1]; k++)
+        for (int q = 0; q < MODULI; q++)
+            n += s->used[q] && s->weight[q][k] == 0.0 ? 1 : 0;
+    return n;
+}
+
+/* Why it is not determined, else nothing. */
+static bool is_undetermined(const master_work *work, size_t i, const wt_interval *a,
+                            wt_master_shift *shift)
+{
+    /* one that may be open because superposition may fail, or E'' is off and a little more with it,
+     * is told, with an error that says so */
+    const bool fails = work->posterior->doubt != NULL && master_misfit_is_real(&work->lack) &&
+                       !master_loss_is_off(&work->lack);
+    const double own = fails || !work->placed[i]
+                           ? a->standard_error
+                           : posterior_fit_error(work->posterior, work->curve[i]);
+    if (work->set.curves[i].n < SHIFT_MIN_POINTS)
+        master_note(shift, "not determined: only %zu points", work->set.curves[i].n);
+    else if (!work->placed[i])
+        master_note(shift, work->route == WT_SHIFTS_OF_OVERLAP
+                               ? "not determined: shares too little of E' with its neighbours"
+                               : "not determined: no overlap with the others");
+    else if (work->route == WT_SHIFTS_OF_OVERLAP)
+        return false; /* each step is */
+    else if (fails && !(a->standard_error <= master_largest_sigma) &&
+             work->posterior->doubt[work->curve[i]] > master_largest_sigma)
+        master_note(shift, "not determined: superposition fails, overlaps leave open %.2g decade",
+                    a->standard_error);
+    else if (!(own <= master_largest_sigma))
+        master_note(shift, "not determined: no slope decides, error of log aT %.2g decade", own);
+    else if (work->options.vertical == WT_VERTICAL_FREE &&
+             fabs(posterior_tie(work->posterior, work->curve[i])) * clamping > master_largest_sigma)
+        master_note(shift,
+                    "not determined: no slope decides, %.2g decade of log bT is %.2g of log "
+                    "aT",
+                    clamping, master_largest_sigma);
+    return shift->note[0] != '\0';
+}
+
+/* An isotherm beside the part that one spectrum describes is not in the curve, but it has a shift.
+ */
+static bool fill_beside(const master_work *work, size_t i, wt_master_shift *shift)
+{
+    double a, error;
+    if (!master_beside_part(work, i, &a, &error))
+        return false;
+    if (!work->measured_reference)
+        a += posterior_a_to_reference(work->posterior, work->curve[work->anchor]).value;
+    shift->log_a = (wt_interval){a, error, a - NORMAL_95 * error, a + NORMAL_95 * error};
+    master_note(shift, "by the overlap of E' with its neighbour, not in the curve");
+    return true;
+}
+
+static void fill_shift(const master_work *work, size_t i, const double *log_b_material,
+                       wt_master_shift *shift)
+{
+    const wt_interval unknown = {(double)NAN, (double)NAN, (double)NAN, (double)NAN};
+    const size_t curve = work->curve[i];
+    *shift = (wt_master_shift){.temperature = work->set.curves[i].temperature,
+                               .log_a = unknown,
+                               .log_b = unknown,
+                               .log_b_physical = work->physical[i],
+                               .log_b_material = (double)NAN,
+                               .law = unknown,
+                               .overlap = work->overlap[i],
+                               .noise_factor = (double)NAN};
+    wt_interval a = unknown;
+    if (work->placed[i]) {
+        shift->noise_factor = work->s->kappa[curve];
+        shift->n_outliers = count_outliers(work->s, curve);
+        a = posterior_a(work->posterior, curve);
+    }
+    if (fill_beside(work, i, shift) || is_undetermined(work, i, &a, shift))
+        return;
+    shift->determined = true;
+    shift->log_a = work->measured_reference ? a : posterior_a_to_reference(work->posterior, curve);
+    if (work->set.by == WT_BY_LOSS_FACTOR)
+        return;
+    shift->log_b = posterior_b(work->posterior, curve);
+    shift->log_b_material = log_b_material[curve];
+}
+
+wt_status master_fill_shifts(const master_work *work, wt_master *m, wt_error *err)
+{
+    const wt_posterior *p = work->posterior;
+    const size_t n = work->s->n_curves;
+    double *log_b = calloc(2 * n, sizeof *log_b);
+    m->shifts = calloc(work->set.n, sizeof *m->shifts);
+    if (log_b == NULL || m->shifts == NULL) {
+        free(log_b);
+        return wt_fail(err, WT_E_MEMORY, "no memory for the shifts");
+    }
+    double *one = log_b + n;
+    for (size_t c = 0; c < p->n_parts; c++) {
+        posterior_smooth_b(p, p->parts[c].cell, p->parts[c].cell->value, one);
+        for (size_t i = 0; i < n; i++)
+            log_b[i] += p->parts[c].weight * one[i];
+    }
+    for (size_t i = 0; i < work->set.n; i++)
+        fill_shift(work, i, log_b, &m->shifts[i]);
+    m->n_shifts = work->set.n;
+    for (size_t i = 0; i < m->n_shifts; i++)
+        m->n_outliers += m->shifts[i].n_outliers;
+    free(log_b);
+    return WT_OK;
+}
+
+/* ---- whether they do ------------------------------------------------------------------------- */
+
+/* Another isotherm that changes by so many times more shows that not all are flat: its shift has
+ * half the error of that of this one. */
+static const double much_steeper = 2.0;
+
+/* No slope decides. */
+static wt_status flat_isotherms(const master_work *work, wt_error *err)
+{
+    const shift_curve *at = &work->set.curves[work->anchor];
+    size_t steepest = work->anchor;
+    for (size_t i = 0; i < work->set.n; i++)
+        if (shift_change(&work->set, i) > shift_change(&work->set, steepest))
+            steepest = i;
+    const bool elsewhere =
+        shift_change(&work->set, steepest) > much_steeper * shift_change(&work->set, work->anchor);
+    wt_fail(err, WT_E_NO_OVERLAP,
+            elsewhere ? "no shift is determined: the isotherm of the reference is flat"
+                      : "no shift is determined: the isotherms are flat");
+    wt_error_expected(err,
+                      "moduli that change along an isotherm by more than noise and clamping do");
+    wt_error_found(err, "a change of %.2g %% along that of the reference, %.2f °C",
+                   100.0 * expm1(shift_change(&work->set, work->anchor) * M_LN10),
+                   at->temperature - WT_ZERO_CELSIUS);
+    if (elsewhere)
+        wt_error_advice(err,
+                        "choose a reference temperature in the transition: %.2f °C, where it "
+                        "changes by %.2g %%, or --reference-at tan-delta-peak",
+                        work->set.curves[steepest].temperature - WT_ZERO_CELSIUS,
+                        100.0 * expm1(shift_change(&work->set, steepest) * M_LN10));
+    else
+        wt_error_advice(err,
+                        "measure into the transition, or choose a reference temperature there");
+    return WT_E_NO_OVERLAP;
+}
+
+/* An isotherm is shifted onto the reference, or there is nothing to hand out. */
+wt_status master_check_shifts(const master_work *work, const wt_master *m, wt_error *err)
+{
+    size_t n = 0, placed = 0, doubted = 0;
+    for (size_t i = 0; i < m->n_shifts; i++) {
+        n += m->shifts[i].determined;
+        placed += work->placed[i];
+        doubted += work->placed[i] && i != work->anchor &&
+                   posterior_fit_error(work->posterior, work->curve[i]) <= master_largest_sigma;
+    }
+    if (n > 1 || m->n_shifts == 1)
+        return WT_OK;
+    if (placed <= 1) {
+        wt_fail(err, WT_E_NO_OVERLAP,
+                "no shift is determined: once shifted, the isotherms share too "
+                "few frequencies with that of the reference");
+        wt_error_expected(err, "0.3 decade shared by neighbours");
+        wt_error_advice(err, "measure at smaller steps of temperature or over more frequencies");
+        return WT_E_NO_OVERLAP;
+    }
+    if (work->posterior->doubt != NULL && doubted > 0) {
+        wt_fail(err, WT_E_NO_OVERLAP,
+                "no shift is determined: one spectrum misses the isotherms, and the overlaps of "
+                "neighbours leave every shift open by more than %.1f decade",
+                master_largest_sigma);
+        wt_error_advice(err, "leave out isotherms or points that one process does not describe, "
+                             "shift by the storage modulus alone, or give a law of the shifts");
+        return WT_E_NO_OVERLAP;
+    }
+    return flat_isotherms(work, err);
+}
+
+wt_status master_check_reference(const master_work *work, const wt_master *m, wt_error *err)
+{
+    const double coldest = m->shifts[0].temperature,
+                 warmest = m->shifts[m->n_shifts - 1].temperature;
+    const bool inside = m->reference_temperature > coldest && m->reference_temperature < warmest;
+    if (work->measured_reference || (inside && m->law.kind != WT_LAW_NONE) ||
+        (m->law.kind != WT_LAW_NONE && m->offset.standard_error <= master_largest_sigma))
+        return WT_OK;
+    wt_fail(err, WT_E_RANGE, "no shift can be given for the reference temperature %.2f °C",
+            m->reference_temperature - WT_ZERO_CELSIUS);
+    wt_error_expected(err, "a temperature that the law of the shifts reaches within %.1f decade",
+                      master_largest_sigma);
+    wt_error_advice(err, "choose one of the measured temperatures");
+    return WT_E_RANGE;
+}

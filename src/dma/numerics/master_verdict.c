@@ -1,0 +1,177 @@
+/* The verdict on superposition, and what would settle it.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#include "dma/numerics/master_fit.h"
+
+#include "core/base/clocale.h"
+#include "core/base/number.h"
+
+#include <math.h>
+#include <string.h>
+
+/* Lack of fit is real below this probability, with what is not known of the noise. The customary
+ * level, one wrong "fails" in a hundred sweeps at most, of the two counts of superposition.c
+ * together. A smaller one misses second processes (unit_fit_master); at 0.05 one sound sweep of
+ * twenty would fail. */
+static const double significant = 0.01;
+/* Superposition is not said to hold below this one, with the noise as estimated: its factors and
+ * their place on the isotherms make small probabilities a few times too small. The same level. */
+static const double doubtful = 0.01;
+/* A misfit certainly above the first fails; possibly above the second leaves it open (relative).
+ * Measured isotherms of polyisoprene, the example of a simple rubber, miss one spectrum by what a
+ * rheometer does, 0.3 to 0.4 %: a lower limit would blame the rubber for it. One per cent of a
+ * modulus is what half a per cent in each side of the cross section makes of it: less than that
+ * harms nothing that is made of a modulus so measured. */
+static const double matters = 0.004, may_matter = 0.01;
+/* Narrower windows hide a second process [decade]: the E'' of a single relaxation time is 1.14
+ * decades wide at half its height, and a window must hold more than one to tell two apart. */
+static const double least_window = 1.5;
+/* E'' that a spectrum makes of E' and that which was measured differ by at least so much (as for
+ * the misfit), and by chance in one sweep of a thousand: it stands beside the other tests, which
+ * have the false alarms that are allowed. */
+static const double loss_matters = 0.01, loss_significant = 0.001;
+/* By fewer shared frequencies an isotherm tests nothing: the smoothness of the spectrum alone
+ * places it [decade]. One step between its terms. */
+static const double least_overlap = 0.3;
+/* Two isotherms are always placed on one another. */
+enum { LEAST_ISOTHERMS = 3 };
+
+static double widest_of_half(const master_work *work)
+{
+    double widest = 0.0; /* the widest window: one that is wide shows a second process */
+    for (size_t i = 0; i < work->set.n; i++) {
+        const shift_curve *c = &work->set.curves[i];
+        if (work->placed[i])
+            widest = fmax(widest, c->x[c->n - 1] - c->x[0]);
+    }
+    return widest;
+}
+
+bool master_misfit_is_real(const lack_of_fit *lack)
+{
+    return lack->p_sure < significant && lack->misfit_low > matters;
+}
+
+bool master_misfit_is_likely(const lack_of_fit *lack)
+{
+    return lack->p < doubtful;
+}
+
+bool master_is_factor(const lack_of_fit *lack)
+{
+    return master_loss_is_off(lack) && !(lack->p_beyond < significant);
+}
+
+bool master_loss_is_off(const lack_of_fit *lack)
+{
+    return lack->kk < loss_significant &&
+           fabs(lack->factor) - 2.0 * lack->factor_error > loss_matters;
+}
+
+/* A bound in per cent, which rounding does not make smaller. */
+static double at_most(double share)
+{
+    return fmax(0.1, 0.1 * ceil(1e3 * share));
+}
+
+/* Of which temperatures, and by how much one spectrum of all misses them. */
+static void because_gross(const master_work *work, wt_master *m)
+{
+    const shift_curve *c = work->set.curves;
+    char where[128] = "", *at = where;
+    const double zero = WT_ZERO_CELSIUS;
+    const double *missed = work->part ? work->missed_whole : work->missed;
+    if (work->part) {
+        const bool cold = work->first > 0, warm = work->last + 1 < work->set.n;
+        m->holds_from = c[work->first].temperature;
+        m->holds_to = c[work->last].temperature;
+        if (cold)
+            at += clocale_print(at, 32, "up to %.1f °C%s", c[work->first - 1].temperature - zero,
+                                warm ? " and " : "");
+        if (warm)
+            at += clocale_print(at, 32, "from %.1f °C on", c[work->last + 1].temperature - zero);
+        clocale_print(at, 64, ", holds from %.1f to %.1f °C: ", m->holds_from - zero,
+                      m->holds_to - zero);
+    }
+    clocale_print(
+        m->because, sizeof m->because,
+        "%sone spectrum of all misses E' by %.1f %% and E'' by %.1f %% beyond their noise: "
+        "other processes, as in a glass, or a change of the material",
+        where, 100.0 * missed[STORAGE], 100.0 * missed[LOSS]);
+}
+
+void master_judge(const master_work *work, wt_master *m)
+{
+    size_t determined = 0;
+    const bool failed = work->posterior->doubt != NULL; /* why shifts are withheld */
+    for (size_t i = 0; i < m->n_shifts; i++)
+        determined += (m->shifts[i].determined || (failed && work->placed[i])) &&
+                      work->overlap[i] >= least_overlap;
+    const size_t undetermined = m->n_shifts - determined;
+    const lack_of_fit *lack = work->part ? &work->whole : &work->lack;
+    const double window = widest_of_half(work);
+    const bool both = work->set.by == WT_BY_MODULI, tested = both && work->tested;
+    m->lack_of_fit_p = tested ? lack->p : (double)NAN;
+    m->misfit_low = tested ? lack->misfit_low : (double)NAN;
+    m->misfit_high = tested ? lack->misfit_high : (double)NAN;
+    m->kramers_kronig_p = tested ? lack->kk : (double)NAN;
+    m->loss_factor = tested ? lack->factor : (double)NAN;
+    m->loss_factor_error = tested ? lack->factor_error : (double)NAN;
+    m->superposition = WT_SUPERPOSITION_CANNOT_SAY;
+    m->holds_from = m->holds_to = (double)NAN;
+    if (!both) {
+        clocale_print(m->because, sizeof m->because,
+                      "%s alone does not tell; storage and loss modulus together would",
+                      work->set.by == WT_BY_LOSS_FACTOR ? "the loss factor" : "one modulus");
+    } else if (work->no_spectrum[0] != '\0') {
+        clocale_print(m->because, sizeof m->because, "one spectrum of all was not found (%s)",
+                      work->no_spectrum);
+    } else if (work->part || work->route == WT_SHIFTS_OF_OVERLAP) {
+        m->superposition = WT_SUPERPOSITION_FAILS;
+        because_gross(work, m);
+    } else if (determined >= 2 && master_loss_is_off(lack)) {
+        m->superposition = WT_SUPERPOSITION_FAILS;
+        clocale_print(m->because, sizeof m->because,
+                      "E'' is %+.1f %% off what E' demands (Kramers-Kronig, p %s): check the "
+                      "instrument, the columns, and whether the material changed meanwhile",
+                      100.0 * expm1(lack->factor), number_chance(lack->kk).text);
+    } else if (determined >= LEAST_ISOTHERMS && master_misfit_is_real(lack)) {
+        m->superposition = WT_SUPERPOSITION_FAILS;
+        char low[16], high[16];
+        clocale_print(low, sizeof low, "%.1f", 100.0 * lack->misfit_low);
+        clocale_print(high, sizeof high, "%.1f", 100.0 * lack->misfit_high);
+        const bool one = strcmp(low, high) == 0;
+        clocale_print(m->because, sizeof m->because,
+                      "one spectrum misses the isotherms by %s%s%s %% (p %s): a second process "
+                      "or a change of the material; treat the temperatures apart",
+                      one ? "about " : low, one ? "" : " to ", high,
+                      number_chance(lack->p_sure).text);
+    } else if (determined < LEAST_ISOTHERMS) {
+        clocale_print(m->because, sizeof m->because,
+                      "%zu isotherm%s that overlap%s; three or more would tell", determined,
+                      determined == 1 ? "" : "s", determined == 1 ? "s" : "");
+    } else if (3 * undetermined > m->n_shifts) {
+        clocale_print(
+            m->because, sizeof m->because,
+            "%zu of %zu shifts not determined; smaller steps of temperature or a wider range of "
+            "frequencies would tell",
+            undetermined, m->n_shifts);
+    } else if (lack->misfit_high > may_matter) {
+        clocale_print(
+            m->because, sizeof m->because,
+            "a misfit of up to %.1f %% would not be seen; less noise than %.1f %%, or more "
+            "points, would tell",
+            at_most(lack->misfit_high), 100.0 * fmax(m->noise_storage, m->noise_loss));
+    } else if (master_misfit_is_likely(lack)) {
+        clocale_print(m->because, sizeof m->because, "a misfit is likely (p %s) but below %.1f %%",
+                      number_chance(lack->p).text, at_most(lack->misfit_high));
+    } else if (window < least_window) {
+        clocale_print(
+            m->because, sizeof m->because,
+            "windows of %.1f decades hide a second process; 1.5 decades or more would tell",
+            window);
+    } else {
+        m->superposition = WT_SUPERPOSITION_HOLDS;
+        clocale_print(m->because, sizeof m->because, "misfit below %.1f %% (lack of fit p %s)",
+                      at_most(lack->misfit_high), number_chance(lack->p).text);
+    }
+}

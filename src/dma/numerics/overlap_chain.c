@@ -1,0 +1,245 @@
+/* Shifts by the overlap of neighbours. A step begins with the closed form and ends with the least
+ * squares of the gaps, where points far off count little; what the places of an overlap disagree by
+ * is its error. What the loss modulus by itself, or another vertical shift, would make of it is
+ * kept beside it. SPDX-License-Identifier: GPL-3.0-or-later */
+#include "dma/numerics/overlap_chain.h"
+
+#include "dma/numerics/closed_form.h"
+
+#include <gsl/gsl_sort.h>
+#include <gsl/gsl_statistics_double.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* A step with a larger error is none [decade]: as for the shifts of the fit (master_links.c). */
+static const double largest_sigma = 0.2;
+/* Slopes are those of lines over so much to either side [decade]. */
+static const double slope_reach = 0.3;
+/* Gaps of more than so many standard deviations count little (Cauchy weights, which take 5 % of the
+ * efficiency where noise is normal). */
+static const double far_off = 2.385;
+static const double settled = 1e-5; /* [decade] */
+/* A correlation of noise is off 0 by less than so many standard errors. */
+static const double chance = 2.0;
+enum { NEIGHBOURS = 2, MOST_STEPS = 50, LEAST_GAPS = 4 };
+
+/* A gap between two curves, and by how much it closes with the shift. */
+struct gap {
+    double off, slope, weight;
+};
+
+struct overlap {
+    const shift_curve *p, *s;
+    const double *slope_p, *slope_s; /* of their points */
+    int q;                           /* the modulus */
+    double b;
+    struct gap *gap;
+    double *scratch; /* as many */
+    size_t n, n_first;
+};
+
+/* Slope of a modulus at each point. */
+static void find_slopes(const shift_curve *c, int q, double *slope)
+{
+    size_t from = 0, to = 0;
+    for (size_t k = 0; k < c->n; k++) {
+        double sum[4] = {0.0, 0.0, 0.0, 0.0}; /* x, y, xx, xy about the point */
+        while (from + 1 < k && c->x[from] < c->x[k] - slope_reach)
+            from++;
+        while (to < c->n && (to < k + 2 || c->x[to] <= c->x[k] + slope_reach))
+            to++;
+        for (size_t i = from; i < to; i++) {
+            const double x = c->x[i] - c->x[k], y = c->y[q][i] - c->y[q][k];
+            sum[0] += x;
+            sum[1] += y;
+            sum[2] += x * x;
+            sum[3] += x * y;
+        }
+        const double n = (double)(to - from), spread = sum[2] - sum[0] * sum[0] / n;
+        slope[k] = spread > 0.0 ? (sum[3] - sum[0] * sum[1] / n) / spread : 0.0;
+    }
+}
+
+/* Points of `from` moved by a onto `onto`; sign: 1 where `from` is the curve that is shifted. */
+static void add_gaps(struct overlap *o, const shift_curve *onto, const shift_curve *from,
+                     const double *slope, double a, double sign)
+{
+    size_t k = 0;
+    for (size_t i = 0; i < from->n; i++) {
+        const double x = from->x[i] + a;
+        if (x < onto->x[0] || x > onto->x[onto->n - 1])
+            continue;
+        while (k + 2 < onto->n && onto->x[k + 1] < x)
+            k++;
+        const double width = onto->x[k + 1] - onto->x[k];
+        const double share = width > 0.0 ? (x - onto->x[k]) / width : 0.5;
+        const double y = onto->y[o->q][k] + share * (onto->y[o->q][k + 1] - onto->y[o->q][k]);
+        o->gap[o->n++] = (struct gap){sign * (y - from->y[o->q][i]) - o->b,
+                                      slope[k] + share * (slope[k + 1] - slope[k]), 1.0};
+    }
+}
+
+static void find_gaps(struct overlap *o, double a)
+{
+    o->n = 0;
+    add_gaps(o, o->p, o->s, o->slope_p, a, 1.0);
+    o->n_first = o->n;
+    add_gaps(o, o->s, o->p, o->slope_s, -a, -1.0);
+    for (size_t i = 0; i < o->n; i++)
+        o->scratch[i] = fabs(o->gap[i].off);
+    gsl_sort(o->scratch, 1, o->n);
+    const double spread =
+        o->n > 0 ? far_off * 1.4826 * gsl_stats_median_from_sorted_data(o->scratch, 1, o->n) : 0.0;
+    for (size_t i = 0; spread > 0.0 && i < o->n; i++) {
+        const double far = o->gap[i].off / spread;
+        o->gap[i].weight = 1.0 / (1.0 + far * far);
+    }
+}
+
+/* What the shift lacks by the gaps, and the squares of both. */
+static double gaps_by_slope(const struct overlap *o, double *gaps, double *slope_squares)
+{
+    double cross = 0.0;
+    *gaps = *slope_squares = 0.0;
+    for (size_t i = 0; i < o->n; i++) {
+        const struct gap *g = &o->gap[i];
+        cross += g->weight * g->off * g->slope;
+        *gaps += g->weight * g->off * g->off;
+        *slope_squares += g->weight * g->slope * g->slope;
+    }
+    return *slope_squares > 0.0 ? -cross / *slope_squares : (double)NAN;
+}
+
+/* By how much gaps beside each other go together, as they do where the curves differ in form. */
+static double gap_correlation(const struct overlap *o)
+{
+    double product = 0.0, square = 0.0;
+    for (size_t i = 0; i < o->n; i++) {
+        const double r = o->gap[i].off * sqrt(o->gap[i].weight);
+        square += r * r;
+        if (i > 0 && i != o->n_first)
+            product += r * o->gap[i - 1].off * sqrt(o->gap[i - 1].weight);
+    }
+    return square > 0.0 ? fmax(product / square, 0.0) : 0.0;
+}
+
+/* From the closed form to the least squares; the error has what both disagree by. */
+static bool find_step(struct overlap *o, double start, double *a, double *error, double *spread)
+{
+    double gaps = 0.0, slope_squares = 0.0;
+    *a = start;
+    for (int i = 0; i < MOST_STEPS; i++) {
+        find_gaps(o, *a);
+        const double move =
+            o->n >= LEAST_GAPS ? gaps_by_slope(o, &gaps, &slope_squares) : (double)NAN;
+        if (!isfinite(move))
+            return false;
+        *a += fmax(-largest_sigma, fmin(largest_sigma, move));
+        if (fabs(move) < settled)
+            break;
+    }
+    find_gaps(o, *a);
+    if (o->n < LEAST_GAPS || !isfinite(gaps_by_slope(o, &gaps, &slope_squares)))
+        return false;
+    /* so many stand for themselves; both directions have the same points */
+    const double rho = gap_correlation(o), all = sqrt(gaps / slope_squares);
+    const double independent = fmax(0.5 * (double)o->n * (1.0 - rho) / (1.0 + rho), 1.0);
+    *error = hypot(all / sqrt(independent), 0.5 * (*a - start));
+    /* what is no chance of noise */
+    *spread = fmax(rho - chance / sqrt((double)o->n), 0.0) * all;
+    return *error <= largest_sigma;
+}
+
+struct chain {
+    const shift_set *set;
+    const double *b, *other_b;
+    double *slope[MODULI]; /* [points of the set] */
+    size_t *first;         /* [n] of a curve there */
+    struct overlap overlap;
+};
+
+static void overlap_of(struct chain *c, size_t onto, size_t from, int q, const double *b)
+{
+    struct overlap *o = &c->overlap;
+    o->p = &c->set->curves[onto];
+    o->s = &c->set->curves[from];
+    o->q = q;
+    o->slope_p = c->slope[q] + c->first[onto];
+    o->slope_s = c->slope[q] + c->first[from];
+    o->b = b[from] - b[onto];
+}
+
+/* What another way makes of a step; nothing where it tells none. */
+static double moved_by(struct chain *c, double start, double a)
+{
+    double other, error, spread;
+    return find_step(&c->overlap, start, &other, &error, &spread) ? other - a : 0.0;
+}
+
+static bool link_to(struct chain *c, overlap_link *link, size_t onto, size_t from)
+{
+    double a, error, spread;
+    if (!link[onto].placed)
+        return false;
+    overlap_of(c, onto, from, STORAGE, c->b);
+    const double start = closed_form_step(c->set, onto, from, c->overlap.b);
+    if (isnan(start) || !find_step(&c->overlap, start, &a, &error, &spread))
+        return false;
+    link[from] = (overlap_link){.placed = true,
+                                .onto = onto,
+                                .a = link[onto].a + a,
+                                .step = error,
+                                .error = link[onto].error + error,
+                                .spread = link[onto].spread + spread,
+                                .by_loss = link[onto].by_loss,
+                                .by_vertical = link[onto].by_vertical};
+    if (c->set->used[LOSS]) {
+        overlap_of(c, onto, from, LOSS, c->b);
+        link[from].by_loss += moved_by(c, a, a);
+    }
+    if (c->other_b != NULL) {
+        overlap_of(c, onto, from, STORAGE, c->other_b);
+        link[from].by_vertical += moved_by(c, a, a);
+    }
+    return true;
+}
+
+wt_status overlap_chain(const shift_set *set, size_t anchor, const double *b, const double *other_b,
+                        overlap_link *link, wt_error *err)
+{
+    const size_t n = set->n;
+    size_t longest = 0;
+    for (size_t i = 0; i < n; i++) {
+        link[i] = (overlap_link){.onto = anchor, .a = (double)NAN};
+        longest = set->curves[i].n > longest ? set->curves[i].n : longest;
+    }
+    link[anchor] = (overlap_link){.placed = true, .onto = anchor};
+    if (!set->used[STORAGE])
+        return WT_OK;
+    pool memory = {0};
+    struct chain c = {.set = set, .b = b, .other_b = other_b};
+    for (int q = 0; q < MODULI; q++)
+        c.slope[q] = pool_numbers(&memory, set->n_points);
+    c.first = pool_alloc(&memory, n, sizeof *c.first);
+    c.overlap.gap = pool_alloc(&memory, 2 * longest, sizeof *c.overlap.gap);
+    c.overlap.scratch = pool_numbers(&memory, 2 * longest);
+    if (memory.failed) {
+        pool_free(&memory);
+        return wt_fail(err, WT_E_MEMORY, "no memory for the overlaps");
+    }
+    for (size_t i = 0, k = 0; i < n; k += set->curves[i++].n) {
+        c.first[i] = k;
+        for (int q = 0; q < MODULI; q++)
+            if (set->used[q])
+                find_slopes(&set->curves[i], q, c.slope[q] + k);
+    }
+    for (size_t i = anchor + 1; i < n; i++)
+        for (size_t k = 1; k <= NEIGHBOURS && anchor + k <= i && !link[i].placed; k++)
+            (void)link_to(&c, link, i - k, i);
+    for (size_t i = anchor; i-- > 0;)
+        for (size_t k = 1; k <= NEIGHBOURS && i + k <= anchor && !link[i].placed; k++)
+            (void)link_to(&c, link, i + k, i);
+    pool_free(&memory);
+    return WT_OK;
+}

@@ -1,0 +1,274 @@
+/* Where a curve has its peak, and what it is between its points.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#include "dma/numerics/gaussian_process.h"
+
+#include "core/math/normal_quantile.h"
+#include "core/math/root.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+/* A peak is looked at down to this share of its height: a Gaussian is there one standard deviation
+ * from its top, where it bends the other way, which no parabola follows. */
+static const double share = 0.6;
+/* And over at least so many points, three times the constants of a parabola. A largest point that
+ * is one of the outer two may be a rise that goes on. */
+enum { LEAST = 9, FROM_END = 2 };
+/* What lies between two maxima is a valley if the values rise from it by so much on both sides:
+ * ten times what a careful sweep scatters, and a shoulder that rises less is no peak. */
+static const double out_of_valley = 1.1;
+/* Values between points come from so many neighbours: chosen, for half of them tell their scatter
+ * to 35 %, and twice as many cover twice the bend. */
+enum { NEIGHBOURS = 15 };
+/* Places where the sign of the slope is looked for, far more than a curve of so few points has
+ * maxima; halves of one such step end at its 1e-12. */
+enum { GRID = 100, HALVINGS = 40 };
+
+static void tell_no_peak(wt_peak *peak, const char *why)
+{
+    *peak = (wt_peak){.at = {(double)NAN, (double)NAN, (double)NAN, (double)NAN},
+                      .height = {(double)NAN, (double)NAN, (double)NAN, (double)NAN},
+                      .misfit = (double)NAN,
+                      .why_not = why};
+}
+
+/* First and one past the last point of the peak about the largest one; false: it leaves the range.
+ */
+static bool choose_points(const double *y, size_t n, size_t top, size_t asked, size_t *first,
+                          size_t *last)
+{
+    *first = top;
+    *last = top + 1;
+    if (asked > 0) {
+        *first = top - (asked - 1) / 2;
+        *last = *first + asked;
+        return top >= (asked - 1) / 2 && *last <= n;
+    }
+    while (*first > 0 && y[*first - 1] > share * y[top])
+        --*first;
+    while (*last < n && y[*last] > share * y[top])
+        ++*last;
+    while (*last - *first < LEAST && *last - *first < n) {
+        if (*first > 0 && (*last == n || y[*first - 1] >= y[*last]))
+            --*first;
+        else
+            ++*last;
+    }
+    return true;
+}
+
+/* ---- the place of a maximum ------------------------------------------------------------------ */
+
+static double falling_probability(const smooth *s, double x)
+{
+    return smooth_below(s, x, SMOOTH_SLOPE, 0);
+}
+
+typedef struct slope_level {
+    const smooth *s;
+    double level;
+} slope_level;
+
+static bool falls_less(double x, void *user)
+{
+    const slope_level *l = user;
+    return falling_probability(l->s, x) < l->level;
+}
+
+/* Where it becomes as probable that the curve falls as `level`, between two places. */
+static double slope_crossing(const smooth *s, double low, double high, double level)
+{
+    slope_level l = {s, level};
+    root_halve(falls_less, &l, &low, &high, 0, HALVINGS);
+    return 0.5 * (low + high);
+}
+
+/* The maximum nearest to the largest point, with the places where it is 97.5 % sure to rise and to
+ * fall; NaN where the points do not tell. */
+static wt_interval find_top(const smooth *s, double from, double to, double largest)
+{
+    const double step = (to - from) / GRID;
+    double probable[GRID + 1];
+    wt_interval top = {(double)NAN, (double)NAN, (double)NAN, (double)NAN};
+    long at = -1;
+    for (int i = 0; i <= GRID; i++)
+        probable[i] = falling_probability(s, from + i * step);
+    for (long i = 0; i < GRID; i++)
+        if (probable[i] < 0.5 && probable[i + 1] >= 0.5 &&
+            (at < 0 ||
+             fabs(from + (double)i * step - largest) < fabs(from + (double)at * step - largest)))
+            at = i;
+    if (at < 0)
+        return top;
+    top.value = slope_crossing(s, from + (double)at * step, from + (double)(at + 1) * step, 0.5);
+    long low = at, high = at + 1;
+    while (low >= 0 && probable[low] > 0.025)
+        low--;
+    while (high <= GRID && probable[high] < 0.975)
+        high++;
+    if (low >= 0)
+        top.low =
+            slope_crossing(s, from + (double)low * step, from + (double)(low + 1) * step, 0.025);
+    if (high <= GRID)
+        top.high =
+            slope_crossing(s, from + (double)(high - 1) * step, from + (double)high * step, 0.975);
+    top.standard_error = (top.high - top.low) / (2 * NORMAL_95);
+    return top;
+}
+
+/* ---- peak ------------------------------------------------------------------------------------ */
+
+static double relative_misfit(const smooth *s, const double *x, const double *z, size_t n)
+{
+    double squares = 0;
+    for (size_t i = 0; i < n; i++) {
+        const double off = z[i] - smooth_mean(s, x[i], SMOOTH_VALUE);
+        squares += off * off;
+    }
+    return sqrt(squares / (double)n);
+}
+
+/* Of n points about the largest; z: what is fitted, the logarithm or with `parabola` the value over
+ * that of the largest. */
+static wt_status place_peak(const double *x, const double *z, size_t n, double largest_x,
+                            double largest_y, bool parabola, wt_peak *peak, wt_error *err)
+{
+    smooth s;
+    wt_status status = smooth_new(x, z, n, parabola, &s, err);
+    if (status == WT_OK) {
+        peak->at = find_top(&s, x[0], x[n - 1], largest_x);
+        peak->n = n;
+    }
+    const bool closed = !isnan(peak->at.low) && !isnan(peak->at.high);
+    peak->found = status == WT_OK && !isnan(peak->at.value) && (closed || parabola);
+    if (status == WT_OK && !peak->found) {
+        tell_no_peak(peak, "no peak that stands out of the scatter of the points");
+    } else if (status == WT_OK) {
+        const wt_interval height = smooth_interval(&s, peak->at.value);
+        peak->misfit = relative_misfit(&s, x, z, n);
+        if (parabola)
+            peak->misfit /= height.value;
+        peak->height.value = largest_y * (parabola ? height.value : exp(height.value));
+        peak->height.low = largest_y * (parabola ? height.low : exp(height.low));
+        peak->height.high = largest_y * (parabola ? height.high : exp(height.high));
+        peak->height.standard_error =
+            largest_y * height.standard_error * (parabola ? 1 : exp(height.value));
+        peak->why_not = closed ? "" : "so few points do not bound it";
+    }
+    smooth_free(&s);
+    return status;
+}
+
+wt_status wt_peak_find(const double *x, const double *y, size_t n, size_t points, wt_peak *peak,
+                       wt_error *err)
+{
+    size_t top = 0, first, last;
+    tell_no_peak(peak, "fewer than 5 points");
+    if (n < SMOOTH_LEAST)
+        return WT_OK;
+    for (size_t i = 1; i < n; i++)
+        top = y[i] > y[top] ? i : top;
+    if (top < FROM_END || top + FROM_END >= n) {
+        tell_no_peak(peak, top < FROM_END
+                               ? "no peak in range: largest at the lowest temperatures"
+                               : "no peak in range: largest at the highest temperatures");
+        return WT_OK;
+    }
+    if (!choose_points(y, n, top, points, &first, &last)) {
+        tell_no_peak(peak, "no peak in range: too few points on one side of the largest");
+        return WT_OK;
+    }
+    double *z = malloc((last - first) * sizeof *z);
+    if (z == NULL)
+        return wt_fail(err, WT_E_MEMORY, "no memory for a peak");
+    for (size_t i = first; i < last; i++)
+        z[i - first] = points > 0 ? y[i] / y[top] : log(y[i] / y[top]);
+    const wt_status status =
+        place_peak(x + first, z, last - first, x[top], y[top], points > 0, peak, err);
+    free(z);
+    return status;
+}
+
+/* ---- other peaks ----------------------------------------------------------------------------- */
+
+typedef struct peak_list {
+    const double *x, *y;
+    size_t main; /* the largest of all points */
+    wt_peak *peaks;
+    size_t n, most;
+} peak_list;
+
+/* The lowest point on the way from `from` to `to`, if the values rise from it again; else `from`.
+ */
+static size_t find_valley(const double *y, size_t from, size_t to)
+{
+    size_t lowest = from;
+    for (size_t i = from; i != to; i += to > from ? 1 : (size_t)-1) {
+        lowest = y[i] < y[lowest] ? i : lowest;
+        if (lowest != from && y[i] >= out_of_valley * y[lowest])
+            return lowest;
+    }
+    return from;
+}
+
+/* The peaks among the points from `first` to `last`, one past it: that about the largest, unless it
+ * is the main one, and what valleys part from it. */
+static wt_status add_peaks(peak_list *list, size_t first, size_t last, wt_error *err)
+{
+    const double *y = list->y;
+    if (last - first < LEAST)
+        return WT_OK;
+    size_t top = first;
+    for (size_t i = first; i < last; i++)
+        top = y[i] > y[top] ? i : top;
+    const size_t cold = find_valley(y, top, first), warm = find_valley(y, top, last - 1);
+    wt_status status = cold != top ? add_peaks(list, first, cold + 1, err) : WT_OK;
+    if (status == WT_OK && top != list->main && list->n < list->most) {
+        const size_t from = cold != top ? cold : first, to = warm != top ? warm + 1 : last;
+        wt_peak *peak = &list->peaks[list->n];
+        status = to - from >= LEAST
+                     ? wt_peak_find(list->x + from, y + from, to - from, 0, peak, err)
+                     : WT_OK;
+        list->n += status == WT_OK && to - from >= LEAST && peak->found;
+    }
+    return status == WT_OK && warm != top ? add_peaks(list, warm, last, err) : status;
+}
+
+wt_status wt_peaks_beside(const double *x, const double *y, size_t n, size_t most, wt_peak *peaks,
+                          size_t *n_peaks, wt_error *err)
+{
+    peak_list list = {.x = x, .y = y, .peaks = peaks, .most = most};
+    for (size_t i = 1; i < n; i++)
+        list.main = y[i] > y[list.main] ? i : list.main;
+    const wt_status status = add_peaks(&list, 0, n, err);
+    *n_peaks = status == WT_OK ? list.n : 0;
+    return status;
+}
+
+/* ---- between points -------------------------------------------------------------------------- */
+
+wt_status wt_value_between(const double *x, const double *y, size_t n, double at,
+                           wt_interval *value, wt_error *err)
+{
+    *value = (wt_interval){(double)NAN, (double)NAN, (double)NAN, (double)NAN};
+    if (n < SMOOTH_LEAST || at < x[0] || at > x[n - 1])
+        return WT_OK;
+    const size_t most = n < NEIGHBOURS ? n : NEIGHBOURS;
+    size_t first = 0;
+    while (first + most < n && at - x[first] > x[first + most] - at)
+        first++;
+    double z[NEIGHBOURS];
+    for (size_t i = 0; i < most; i++)
+        z[i] = log(y[first + i]);
+    smooth s;
+    const wt_status status = smooth_new(x + first, z, most, false, &s, err);
+    if (status == WT_OK) {
+        const wt_interval log_value = smooth_interval(&s, at);
+        value->value = exp(log_value.value);
+        value->low = exp(log_value.low);
+        value->high = exp(log_value.high);
+        value->standard_error = value->value * log_value.standard_error;
+    }
+    smooth_free(&s);
+    return status;
+}

@@ -1,0 +1,303 @@
+/* The mixture over widths of the vertical shift and spreads of the temperatures, with the law fed
+ * back to spectrum and shifts. SPDX-License-Identifier: GPL-3.0-or-later */
+#include "dma/numerics/posterior.h"
+
+#include "core/math/arena_gsl.h"
+#include "core/math/cholesky_dense.h"
+
+#include <gsl/gsl_blas.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* Parts of the mixture with less than this share are left out: one that
+ * lies outside of an interval with all of it moves a tail of 2.5 % to 2.6 %. */
+static const double least_share = 1e-3;
+
+/* ---- making ---------------------------------------------------------------------------------- */
+
+wt_posterior *posterior_new(void)
+{
+    return calloc(1, sizeof(wt_posterior));
+}
+
+void posterior_free(wt_posterior *p)
+{
+    if (p == NULL)
+        return;
+    spectrum_free(&p->frame);
+    pool_free(&p->memory);
+    free(p);
+}
+
+/* Its covariance, and the factor of the inverse of that. */
+static wt_status fill_cell(const wt_posterior *p, posterior_cell *c, wt_error *err)
+{
+    const spectrum *s = &p->frame;
+    const size_t n = s->n_unknowns;
+    gsl_matrix *scratch = gsl_matrix_alloc(n, n);
+    if (scratch == NULL)
+        return wt_fail(err, WT_E_MEMORY, "no memory for the fits");
+    spectrum_precision(s, c->root);
+    for (size_t u = 0; u < n; u++)
+        *gsl_matrix_ptr(c->root, u, u) *= 1.0 + s->rounding;
+    const bool good = dense_factor(c->root);
+    if (good)
+        dense_inverse(c->root, scratch, c->covariance);
+    gsl_matrix_free(scratch);
+    return good ? WT_OK
+                : wt_fail(err, WT_E_CONVERGENCE, "the isotherms do not determine a spectrum");
+}
+
+wt_status posterior_keep(wt_posterior *p, wt_vertical_shift kind, const vertical *v,
+                         double log_weight, wt_error *err)
+{
+    const spectrum *s = &p->frame;
+    const size_t n = s->n_unknowns, n_curves = s->n_curves;
+    posterior_cell *c = &p->cells[p->n_cells++];
+    *c = (posterior_cell){.value = pool_numbers(&p->memory, n),
+                          .noise = {s->noise[STORAGE], s->noise[LOSS]},
+                          .smoothness = s->smooth,
+                          .geometry = v->geometry,
+                          .departure = v->departure,
+                          .log_weight = log_weight,
+                          .settled = s->settled};
+    const bool counts = log_weight > posterior_best(p)->log_weight + 2.0 * log(least_share);
+    if (counts) {
+        c->covariance = pool_matrix(&p->memory, n, n);
+        c->root = pool_matrix(&p->memory, n, n);
+    }
+    if (counts && kind == WT_VERTICAL_TIED)
+        c->smooth = pool_numbers(&p->memory, n_curves * n_curves);
+    if (p->memory.failed)
+        return wt_fail(err, WT_E_MEMORY, "no memory for the fits");
+    p->step_left = fmax(p->step_left, spectrum_step_left(s));
+    memcpy(c->value, s->value, n * sizeof *c->value);
+    if (c->smooth != NULL)
+        vertical_smooth_part(s->prior, n_curves, c->smooth);
+    return counts ? fill_cell(p, c, err) : WT_OK;
+}
+
+const posterior_cell *posterior_best(const wt_posterior *p)
+{
+    const posterior_cell *best = &p->cells[0];
+    for (size_t c = 1; c < p->n_cells; c++)
+        if (p->cells[c].log_weight > best->log_weight)
+            best = &p->cells[c];
+    return best;
+}
+
+void posterior_restore(wt_posterior *p, const posterior_cell *cell)
+{
+    spectrum *s = &p->frame;
+    memcpy(s->value, cell->value, s->n_unknowns * sizeof *cell->value);
+    for (int q = 0; q < MODULI; q++)
+        s->noise[q] = cell->noise[q];
+    s->smooth = cell->smoothness;
+}
+
+static void weigh_cells(wt_posterior *p)
+{
+    const double most = posterior_best(p)->log_weight;
+    double sum = 0.0;
+    for (size_t i = 0; i < p->n_cells; i++) {
+        const double weight = exp(p->cells[i].log_weight - most);
+        /* no law brings back what is less than that */
+        p->cells[i].weight = weight > least_share * least_share ? weight : 0.0;
+        sum += p->cells[i].weight;
+    }
+    for (size_t i = 0; i < p->n_cells; i++)
+        p->cells[i].weight /= sum;
+}
+
+/* ---- the law ----------------------------------------------------------------------------------
+ */
+
+bool posterior_column(const wt_posterior *p, size_t curve, size_t *column)
+{
+    const long c = p->frame.column_a[curve];
+    *column = c < 0 ? 0 : (size_t)c;
+    return c >= 0;
+}
+
+/* Shifts of a cell and their covariance, in decades. */
+static void shifts_of(const wt_posterior *p, const posterior_cell *cell)
+{
+    gsl_matrix *covariance = p->data.covariance;
+    gsl_matrix_set_zero(covariance);
+    for (size_t i = 0; i < p->frame.n_curves; i++) {
+        size_t at, with;
+        p->data.log_a[i] =
+            (posterior_column(p, i, &at) ? cell->value[at] : p->frame.given_a[i]) / M_LN10;
+        for (size_t k = 0; k < p->frame.n_curves; k++)
+            if (posterior_column(p, i, &at) && posterior_column(p, k, &with))
+                gsl_matrix_set(covariance, i, k,
+                               gsl_matrix_get(cell->covariance, at, with) / (M_LN10 * M_LN10));
+    }
+    if (p->doubts != NULL)
+        gsl_matrix_add(covariance, p->doubts);
+}
+
+static void part_alloc(wt_posterior *p, posterior_part *part)
+{
+    const size_t n = p->frame.n_curves;
+    part->pull = pool_vector(&p->memory, n);
+    part->inner = pool_matrix(&p->memory, n, n);
+    part->outer = pool_matrix(&p->memory, n, LAW_MOST);
+    part->inverse = pool_matrix(&p->memory, n, n);
+}
+
+/* What the law does to spectrum and shifts. */
+static wt_status part_fill(wt_posterior *p, posterior_part *part, wt_error *err)
+{
+    const law_data *data = &p->data;
+    const size_t n = data->n, k = part->law.n_unknowns;
+    gsl_matrix *x = pool_matrix(&p->memory, n, k), *mx = pool_matrix(&p->memory, n, k);
+    gsl_vector *gap = pool_vector(&p->memory, n);
+    part_alloc(p, part);
+    if (p->memory.failed)
+        return wt_fail(err, WT_E_MEMORY, "no memory for the law");
+    gsl_matrix *root = pool_matrix(&p->memory, n, n);
+    const wt_status status = root == NULL || root->data == NULL
+                                 ? wt_fail(err, WT_E_MEMORY, "no memory for the law")
+                                 : law_gls_covariance(data, part->spread, root, err);
+    if (status != WT_OK)
+        return status;
+    dense_inverse(root, part->inner, part->inverse);
+    law_design(data, &p->shape, part->law.unknown, x);
+    for (size_t i = 0; i < n; i++)
+        gsl_vector_set(gap, i,
+                       law_of_isotherm(data, &p->shape, part->law.unknown, i) - data->log_a[i]);
+    gsl_matrix_view outer = gsl_matrix_submatrix(part->outer, 0, 0, n, k);
+    gsl_matrix_view of_law =
+        gsl_matrix_view_array_with_tda(&part->law.covariance[0][0], k, k, LAW_MOST);
+    gsl_blas_dgemv(CblasNoTrans, 1.0, part->inverse, gap, 0.0, part->pull);
+    gsl_blas_dgemm(CblasNoTrans, CblasNoTrans, 1.0, part->inverse, x, 0.0, mx);
+    gsl_blas_dgemm(CblasNoTrans, CblasNoTrans, 1.0, mx, &of_law.matrix, 0.0, &outer.matrix);
+    gsl_matrix_memcpy(part->inner, part->inverse);
+    gsl_blas_dgemm(CblasNoTrans, CblasTrans, -1.0, &outer.matrix, mx, 1.0, part->inner);
+    return WT_OK;
+}
+
+/* All cells and spreads with their weights. */
+static wt_status fit_parts(wt_posterior *p, posterior_part *part, size_t *n, gsl_matrix *root,
+                           wt_error *err)
+{
+    double most = -HUGE_VAL, sum = 0.0;
+    for (size_t c = 0; c < p->n_cells; c++) {
+        if (!(p->cells[c].weight > 0.0))
+            continue;
+        shifts_of(p, &p->cells[c]);
+        for (size_t i = 0; i < LAW_SPREADS; i++, (*n)++) {
+            posterior_part *one = &part[*n];
+            *one = (posterior_part){.cell = &p->cells[c], .spread = law_spread(i)};
+            wt_status status = law_gls_covariance(&p->data, one->spread, root, err);
+            if (status == WT_OK)
+                status = law_fit_with(&p->data, &p->shape, root, &one->law, err);
+            if (status != WT_OK)
+                return status;
+            one->weight = p->cells[c].log_weight - 0.5 * law_reml(&one->law) +
+                          log(law_spread_prior(&p->data, one->spread));
+            most = fmax(most, one->weight);
+        }
+    }
+    if (!(most > -HUGE_VAL))
+        return wt_fail(err, WT_E_RANGE, "the pole of the law is not determined");
+    for (size_t i = 0; i < *n; i++)
+        sum += part[i].weight = exp(part[i].weight - most);
+    for (size_t i = 0; i < *n; i++)
+        part[i].weight /= sum;
+    return WT_OK;
+}
+
+/* Keeps those that count. */
+static wt_status weigh_parts(wt_posterior *p, gsl_matrix *root, wt_error *err)
+{
+    size_t n = 0;
+    double sum = 0.0;
+    p->parts = pool_alloc(&p->memory, p->n_cells * LAW_SPREADS, sizeof *p->parts);
+    if (p->parts == NULL)
+        return wt_fail(err, WT_E_MEMORY, "no memory for the mixture");
+    wt_status status = fit_parts(p, p->parts, &n, root, err);
+    for (size_t i = 0; status == WT_OK && i < n; i++)
+        if (p->parts[i].weight >= least_share) {
+            posterior_part *kept = &p->parts[p->n_parts++];
+            *kept = p->parts[i];
+            sum += kept->weight;
+            shifts_of(p, kept->cell);
+            status = part_fill(p, kept, err);
+        }
+    for (size_t i = 0; i < p->n_parts; i++)
+        p->parts[i].weight /= sum;
+    return status;
+}
+
+/* Without a law the cells are the parts. */
+static wt_status parts_without_law(wt_posterior *p, wt_error *err)
+{
+    p->parts = pool_alloc(&p->memory, p->n_cells, sizeof *p->parts);
+    for (size_t i = 0; p->parts != NULL && i < p->n_cells; i++) {
+        posterior_part *part = &p->parts[p->n_parts];
+        *part = (posterior_part){.cell = &p->cells[i], .weight = p->cells[i].weight};
+        if (!(part->weight > 0.0))
+            continue;
+        part_alloc(p, part);
+        p->n_parts++;
+    }
+    p->shape = (law_shape){.kind = WT_LAW_NONE, .odd = -1};
+    return p->memory.failed ? wt_fail(err, WT_E_MEMORY, "no memory for the mixture") : WT_OK;
+}
+
+/* Factor of the covariance of the doubts; of what has none, as the reference, it is 0. */
+static wt_status factor_doubts(wt_posterior *p, wt_error *err)
+{
+    const size_t n = p->frame.n_curves;
+    if (p->doubts == NULL)
+        return WT_OK;
+    gsl_matrix *root = p->doubts_root = pool_matrix(&p->memory, n, n);
+    if (p->memory.failed)
+        return wt_fail(err, WT_E_MEMORY, "no memory for the law");
+    for (size_t i = 0; i < n; i++)
+        for (size_t k = 0; k <= i; k++) {
+            double sum = gsl_matrix_get(p->doubts, i, k);
+            for (size_t j = 0; j < k; j++)
+                sum -= gsl_matrix_get(root, i, j) * gsl_matrix_get(root, k, j);
+            const double pivot = gsl_matrix_get(root, k, k);
+            gsl_matrix_set(root, i, k,
+                           i == k        ? sqrt(fmax(sum, 0.0))
+                           : pivot > 0.0 ? sum / pivot
+                                         : 0.0);
+        }
+    return WT_OK;
+}
+
+wt_status posterior_close(wt_posterior *p, double reference, wt_error *err)
+{
+    const size_t n = p->frame.n_curves;
+    gsl_matrix *root = pool_matrix(&p->memory, n, n);
+    wt_error failure = WT_ERROR_INIT;
+    p->data = (law_data){.n = n,
+                         .temperature = p->temperature,
+                         .log_a = pool_numbers(&p->memory, n),
+                         .covariance = pool_matrix(&p->memory, n, n),
+                         .slope = p->slope,
+                         .scratch = pool_numbers(&p->memory, n * (LAW_MOST + 2))};
+    if (p->memory.failed)
+        return wt_fail(err, WT_E_MEMORY, "no memory for the law");
+    const wt_status doubts = factor_doubts(p, err);
+    if (doubts != WT_OK)
+        return doubts;
+    weigh_cells(p);
+    shifts_of(p, posterior_best(p));
+    wt_status status = n < 2 ? wt_fail(&failure, WT_E_RANGE, "one isotherm has no shift")
+                             : law_choose(&p->data, reference, root, &p->shape, &failure);
+    if (status == WT_OK)
+        status = weigh_parts(p, root, &failure);
+    if (status == WT_E_RANGE || status == WT_E_CONVERGENCE) {
+        snprintf(p->no_law, sizeof p->no_law, "%s", failure.message);
+        return parts_without_law(p, err);
+    }
+    if (status != WT_OK && err != NULL)
+        *err = failure;
+    return status;
+}

@@ -1,0 +1,453 @@
+/* What a mixture says: intervals and draws. SPDX-License-Identifier: GPL-3.0-or-later */
+#include "dma/numerics/mixture.h"
+#include "dma/numerics/posterior.h"
+
+#include "core/math/arena_gsl.h"
+#include "core/math/cholesky_dense.h"
+#include "core/math/normal_quantile.h"
+#include "core/math/splitmix64.h"
+
+#include <gsl/gsl_blas.h>
+#include <gsl/gsl_cdf.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* ---- intervals ------------------------------------------------------------------------------- */
+
+enum { MOST_PARTS = POSTERIOR_CELLS * LAW_SPREADS };
+
+/* Variance of a shift beside that of the fit. */
+static double doubt_of(const wt_posterior *p, size_t curve)
+{
+    return p->doubt != NULL ? p->doubt[curve] * p->doubt[curve] : 0.0;
+}
+
+static wt_interval of_column(const wt_posterior *p, long column, double held, double variance)
+{
+    mixture_part part[MOST_PARTS] = {{1.0, held, sqrt(variance)}};
+    if (column < 0 && variance > 0.0)
+        return mixture_interval(part, 1);
+    if (column < 0)
+        return (wt_interval){held, 0.0, held, held};
+    const size_t c = (size_t)column;
+    size_t n = 0;
+    for (size_t i = 0; i < p->n_cells; i++)
+        if (p->cells[i].weight > 0.0)
+            part[n++] = (mixture_part){
+                p->cells[i].weight, p->cells[i].value[c] / M_LN10,
+                sqrt(gsl_matrix_get(p->cells[i].covariance, c, c) / (M_LN10 * M_LN10) + variance)};
+    return mixture_interval(part, n);
+}
+
+wt_interval posterior_a(const wt_posterior *p, size_t curve)
+{
+    return of_column(p, p->frame.column_a[curve], p->frame.given_a[curve] / M_LN10,
+                     doubt_of(p, curve));
+}
+
+double posterior_fit_error(const wt_posterior *p, size_t curve)
+{
+    return of_column(p, p->frame.column_a[curve], p->frame.given_a[curve] / M_LN10, 0.0)
+        .standard_error;
+}
+
+/* ln b of a curve whose b is no unknown. */
+static double held_b(const wt_posterior *p, size_t curve)
+{
+    const double given = p->frame.given_b[curve];
+    return isnan(given) ? p->mean_b[curve] : given;
+}
+
+wt_interval posterior_b(const wt_posterior *p, size_t curve)
+{
+    return of_column(p, p->frame.column_b[curve], held_b(p, curve) / M_LN10, 0.0);
+}
+
+double posterior_tie(const wt_posterior *p, size_t curve)
+{
+    const long a = p->frame.column_a[curve], b = p->frame.column_b[curve];
+    const gsl_matrix *v = posterior_best(p)->covariance;
+    return a < 0 || b < 0
+               ? 0.0
+               : gsl_matrix_get(v, (size_t)a, (size_t)b) / gsl_matrix_get(v, (size_t)b, (size_t)b);
+}
+
+/* Something that hangs on the unknowns of spectrum and law: its value at those of a part before the
+ * law has pulled, and its derivatives. */
+struct quantity {
+    double value;
+    const double *by_unknown; /* [n_unknowns], or NULL: on the law alone */
+    double by_law[LAW_MOST];
+};
+
+/* What a quantity has with all unknowns of a cell [n_unknowns], and its variance. */
+static double spread_in_cell(const wt_posterior *p, const posterior_cell *cell, const double *by,
+                             double *with_all)
+{
+    const size_t n = p->frame.n_unknowns;
+    double variance = 0.0;
+    memset(with_all, 0, n * sizeof *with_all);
+    for (size_t i = 0; i < n; i++)
+        if (by[i] != 0.0)
+            dense_add(with_all, n, by + i, 1, gsl_matrix_const_ptr(cell->covariance, i, 0), n, 1);
+    for (size_t i = 0; i < n; i++)
+        variance += by[i] * with_all[i];
+    return variance;
+}
+
+/* Mean and variance of a quantity in a part; with: [n_curves] its covariance with log a. */
+static mixture_part of_part(const wt_posterior *p, const posterior_part *part,
+                            const struct quantity *x, double *with)
+{
+    const size_t n_curves = p->frame.n_curves;
+    double *with_all = p->with_all, *pulled = with_all + p->frame.n_unknowns;
+    double variance = 0.0, mean = x->value;
+    if (x->by_unknown != NULL) {
+        variance = spread_in_cell(p, part->cell, x->by_unknown, with_all);
+        memset(pulled, 0, n_curves * sizeof *pulled);
+    }
+    for (size_t k = 0; x->by_unknown != NULL && k < n_curves; k++) {
+        size_t column;
+        with[k] = posterior_column(p, k, &column) ? with_all[column] / M_LN10 : 0.0;
+        dense_add(pulled, n_curves, with + k, 1, gsl_matrix_const_ptr(part->inner, k, 0), n_curves,
+                  1);
+    }
+    for (size_t k = 0; x->by_unknown != NULL && k < n_curves; k++) {
+        mean += with[k] * gsl_vector_get(part->pull, k);
+        variance -= with[k] * pulled[k];
+        for (size_t u = 0; u < part->law.n_unknowns; u++)
+            variance += 2.0 * with[k] * gsl_matrix_get(part->outer, k, u) * x->by_law[u];
+    }
+    for (size_t u = 0; u < part->law.n_unknowns; u++)
+        for (size_t w = 0; w < part->law.n_unknowns; w++)
+            variance += x->by_law[u] * x->by_law[w] * part->law.covariance[u][w];
+    return (mixture_part){part->weight, mean, sqrt(fmax(variance, 0.0))};
+}
+
+wt_interval posterior_law(const wt_posterior *p, double temperature)
+{
+    mixture_part part[MOST_PARTS];
+    for (size_t i = 0; i < p->n_parts; i++) {
+        struct quantity x = {0};
+        x.value = law_at(&p->shape, p->parts[i].law.unknown, temperature, x.by_law);
+        part[i] = of_part(p, &p->parts[i], &x, NULL);
+    }
+    return mixture_interval(part, p->n_parts);
+}
+
+wt_interval posterior_slope(const wt_posterior *p, double temperature)
+{
+    const double step = 0.01; /* K */
+    mixture_part part[MOST_PARTS];
+    for (size_t i = 0; i < p->n_parts; i++) {
+        const double *unknown = p->parts[i].law.unknown;
+        struct quantity x = {0}, before = {0};
+        x.value = law_at(&p->shape, unknown, temperature + step, x.by_law);
+        before.value = law_at(&p->shape, unknown, temperature - step, before.by_law);
+        x.value = (x.value - before.value) / (2.0 * step);
+        for (size_t u = 0; u < LAW_MOST; u++)
+            x.by_law[u] = (x.by_law[u] - before.by_law[u]) / (2.0 * step);
+        part[i] = of_part(p, &p->parts[i], &x, NULL);
+    }
+    return mixture_interval(part, p->n_parts);
+}
+
+wt_interval posterior_constant(const wt_posterior *p, size_t unknown)
+{
+    mixture_part part[MOST_PARTS];
+    for (size_t i = 0; i < p->n_parts; i++) {
+        struct quantity x = {.value = p->parts[i].law.unknown[unknown]};
+        x.by_law[unknown] = 1.0;
+        part[i] = of_part(p, &p->parts[i], &x, NULL);
+    }
+    return mixture_interval(part, p->n_parts);
+}
+
+/* scratch: with log a, terms, and by the unknowns for both moduli and the loss factor. */
+void posterior_moduli(const wt_posterior *p, double x, bool measured,
+                      wt_interval modulus[WITH_LOSS_FACTOR])
+{
+    const size_t n = p->frame.n_unknowns;
+    mixture_part part[WITH_LOSS_FACTOR][MOST_PARTS];
+    double *term = p->scratch + p->frame.n_curves, *const by_storage = term + p->frame.n_linear;
+    double *const gradient[WITH_LOSS_FACTOR] = {by_storage, by_storage + n, by_storage + 2 * n};
+    double value[WITH_LOSS_FACTOR], slope[WITH_LOSS_FACTOR], mean[LAW_MOST];
+    const posterior_cell *last = NULL;
+    posterior_mean_law(p, mean);
+    memset(by_storage, 0, WITH_LOSS_FACTOR * n * sizeof *by_storage);
+    for (size_t i = 0; i < p->n_parts; i++) {
+        if (p->parts[i].cell != last) {
+            last = p->parts[i].cell;
+            spectrum_terms(&p->frame, last->value, term);
+            (measured ? spectrum_measured_at : spectrum_at)(&p->frame, term, x + mean[0] * M_LN10,
+                                                            value, slope, gradient);
+            value[LOSS_FACTOR] = value[LOSS] - value[STORAGE];
+            slope[LOSS_FACTOR] = slope[LOSS] - slope[STORAGE];
+            for (size_t u = 0; u < n; u++)
+                gradient[LOSS_FACTOR][u] = gradient[LOSS][u] - gradient[STORAGE][u];
+        }
+        for (int q = 0; q < WITH_LOSS_FACTOR; q++) {
+            const double off = p->parts[i].law.unknown[0] - mean[0];
+            const struct quantity e = {
+                value[q] + slope[q] * M_LN10 * off, gradient[q], {slope[q] * M_LN10}};
+            part[q][i] = of_part(p, &p->parts[i], &e, p->scratch);
+        }
+    }
+    for (int q = 0; q < WITH_LOSS_FACTOR; q++)
+        modulus[q] = mixture_interval(part[q], p->n_parts);
+}
+
+/* One unknown of the spectrum, or what is given in its place with a variance of its own, times
+ * `scale`, less the offset of the law times `offset`. */
+static wt_interval of_unknown(const wt_posterior *p, long column, double given, double variance,
+                              double scale, double offset)
+{
+    mixture_part part[MOST_PARTS];
+    double *by_unknown = p->scratch + p->frame.n_curves;
+    memset(by_unknown, 0, p->frame.n_unknowns * sizeof *by_unknown);
+    if (column >= 0)
+        by_unknown[column] = scale;
+    for (size_t i = 0; i < p->n_parts; i++) {
+        struct quantity x = {-offset * p->parts[i].law.unknown[0], by_unknown, {-offset}};
+        x.value += scale * (column >= 0 ? p->parts[i].cell->value[column] : given);
+        part[i] = of_part(p, &p->parts[i], &x, p->scratch);
+        part[i].deviation = sqrt(part[i].deviation * part[i].deviation + variance);
+    }
+    return mixture_interval(part, p->n_parts);
+}
+
+wt_interval posterior_a_to_reference(const wt_posterior *p, size_t curve)
+{
+    return of_unknown(p, p->frame.column_a[curve], p->frame.given_a[curve], doubt_of(p, curve),
+                      1.0 / M_LN10, 1.0);
+}
+
+/* Sums of terms from one to another, and derivatives of ln of it times `sign` [n_unknowns]. */
+static double sum_terms(const double *value, size_t from, size_t end, double sign,
+                        double *by_unknown)
+{
+    double sum = 0.0;
+    for (size_t j = from; j < end; j++)
+        sum += exp(value[j]);
+    for (size_t j = from; j < end; j++)
+        by_unknown[j] = sign * exp(value[j]) / sum;
+    return sum;
+}
+
+/* The modulus at the end of the measured times is measured, and the share of it that relaxes later
+ * is not: where terms are not measured their logarithms are normal, and so is that of what they sum
+ * up to over what is left. */
+wt_interval posterior_equilibrium(const wt_posterior *p)
+{
+    mixture_part share[SPECTRUM_ENDS * MOST_PARTS], measured[MOST_PARTS];
+    const spectrum *s = &p->frame;
+    double *by_unknown = p->scratch + s->n_curves;
+    double left = 0.0;
+    size_t n = 0;
+    memset(by_unknown, 0, s->n_unknowns * sizeof *by_unknown);
+    for (size_t i = 0; i < p->n_parts; i++) {
+        const double *value = p->parts[i].cell->value;
+        const double all = sum_terms(value, s->n_measured, s->n_terms + 1, 1.0, by_unknown);
+        const struct quantity modulus = {.value = log(all), .by_unknown = by_unknown};
+        measured[i] = of_part(p, &p->parts[i], &modulus, p->scratch);
+        for (size_t place = 0; place < SPECTRUM_ENDS; place++) {
+            const size_t end = spectrum_end(s, place);
+            const double later = sum_terms(value, s->n_measured, end, 1.0, by_unknown);
+            const double rest = sum_terms(value, end, s->n_terms + 1, -1.0, by_unknown);
+            const struct quantity x = {.value = log(later / rest), .by_unknown = by_unknown};
+            share[n] = of_part(p, &p->parts[i], &x, p->scratch);
+            share[n].weight /= SPECTRUM_ENDS;
+            left -= share[n].weight * log1p(exp(share[n].mean));
+            n++;
+        }
+    }
+    const wt_interval of_share = mixture_interval(share, n),
+                      at_end = mixture_interval(measured, p->n_parts);
+    wt_interval e = {.value = at_end.value + left};
+    e.low = e.value - hypot(left + log1p(exp(of_share.high)), at_end.value - at_end.low);
+    e.high = e.value + hypot(left + log1p(exp(of_share.low)), at_end.high - at_end.value);
+    e.standard_error = (e.high - e.low) / (2.0 * NORMAL_95);
+    return e;
+}
+
+wt_interval posterior_term(const wt_posterior *p, size_t term, double slope)
+{
+    double mean[LAW_MOST];
+    posterior_mean_law(p, mean);
+    wt_interval x = of_unknown(p, (long)term, 0.0, 0.0, 1.0, slope * M_LN10);
+    const double by = slope * M_LN10 * mean[0];
+    x.value += by;
+    x.low += by;
+    x.high += by;
+    return x;
+}
+
+/* ---- means and draws ------------------------------------------------------------------------- */
+
+/* Adds to all unknowns what a gap between law and shifts (times S^-1) pulls them by. */
+static void add_pull(const wt_posterior *p, const posterior_part *part, const gsl_vector *pull,
+                     double scale, double *value)
+{
+    for (size_t k = 0; k < p->frame.n_curves; k++) {
+        size_t column;
+        if (!posterior_column(p, k, &column))
+            continue;
+        const double *c = gsl_matrix_const_ptr(part->cell->covariance, column, 0);
+        const double by = scale * gsl_vector_get(pull, k) / M_LN10;
+        for (size_t u = 0; u < p->frame.n_unknowns; u++)
+            value[u] += by * c[u];
+    }
+}
+
+void posterior_mean(const wt_posterior *p, double *value)
+{
+    memset(value, 0, p->frame.n_unknowns * sizeof *value);
+    for (size_t i = 0; i < p->n_parts; i++) {
+        for (size_t u = 0; u < p->frame.n_unknowns; u++)
+            value[u] += p->parts[i].weight * p->parts[i].cell->value[u];
+        add_pull(p, &p->parts[i], p->parts[i].pull, p->parts[i].weight, value);
+    }
+}
+
+void posterior_mean_law(const wt_posterior *p, double unknown[LAW_MOST])
+{
+    memset(unknown, 0, LAW_MOST * sizeof *unknown);
+    for (size_t i = 0; i < p->n_parts; i++)
+        for (size_t u = 0; u < LAW_MOST; u++)
+            unknown[u] += p->parts[i].weight * p->parts[i].law.unknown[u];
+}
+
+static double b_of(const wt_posterior *p, const double *value, size_t curve)
+{
+    const long column = p->frame.column_b[curve];
+    return column < 0 ? held_b(p, curve) : value[column];
+}
+
+void posterior_smooth_b(const wt_posterior *p, const posterior_cell *cell, const double *value,
+                        double *log_b)
+{
+    const size_t n = p->frame.n_curves;
+    for (size_t i = 0; i < n; i++) {
+        double sum = cell->smooth != NULL ? p->mean_b[i] : b_of(p, value, i);
+        for (size_t k = 0; cell->smooth != NULL && k < n; k++)
+            sum += cell->smooth[i * n + k] * (b_of(p, value, k) - p->mean_b[k]);
+        log_b[i] = (isnan(p->frame.given_b[i]) ? sum : p->frame.given_b[i]) / M_LN10;
+    }
+}
+
+struct stream {
+    uint64_t state;
+};
+
+static double draw_uniform(struct stream *s)
+{
+    s->state = mix64(s->state);
+    return ((double)(s->state >> 11) + 0.5) * 0x1p-53;
+}
+
+static double draw_normal(struct stream *s)
+{
+    const double radius = sqrt(-2.0 * log(draw_uniform(s)));
+    return radius * cos(2.0 * M_PI * draw_uniform(s));
+}
+
+/* Neighbouring draws go through the mixture evenly: steps of the golden section. */
+static const posterior_part *part_of_draw(const wt_posterior *p, uint64_t seed, size_t index)
+{
+    struct stream start = {mix64(seed)};
+    double at = fmod(draw_uniform(&start) + (double)index * 0.6180339887498949, 1.0);
+    for (size_t i = 0; i + 1 < p->n_parts; i++) {
+        if (at < p->parts[i].weight)
+            return &p->parts[i];
+        at -= p->parts[i].weight;
+    }
+    return &p->parts[p->n_parts - 1];
+}
+
+/* Where the spectrum of a draw ends, evenly, too: of one part the draws have all places. */
+size_t posterior_place(uint64_t seed, size_t index)
+{
+    struct stream start = {mix64(mix64(seed))};
+    const double at =
+        fmod(draw_uniform(&start) + (double)index * 0.7548776662466927, 1.0); /* plastic number */
+    return (size_t)(at * SPECTRUM_ENDS);
+}
+
+/* Unknowns of the law from their distribution. */
+static void draw_law(const posterior_part *part, struct stream *s, double unknown[LAW_MOST])
+{
+    double root[LAW_MOST][LAW_MOST] = {{0}}, e[LAW_MOST];
+    for (size_t u = 0; u < part->law.n_unknowns; u++) {
+        e[u] = draw_normal(s);
+        unknown[u] = part->law.unknown[u];
+        for (size_t v = 0; v <= u; v++) {
+            double sum = part->law.covariance[u][v];
+            for (size_t w = 0; w < v; w++)
+                sum -= root[u][w] * root[v][w];
+            root[u][v] = u == v ? sqrt(fmax(sum, 0.0)) : root[v][v] > 0.0 ? sum / root[v][v] : 0.0;
+            unknown[u] += root[u][v] * e[v];
+        }
+    }
+}
+
+/* What is normal is the response of the moduli, and that is linear in ln g about the best fit.
+ * Where nothing measures a term its ln spreads over tens, and e to that would be a term that the
+ * isotherms deny: above one the draw goes on along the tangent. */
+static void keep_linear(const wt_posterior *p, const posterior_part *part, double *value)
+{
+    for (size_t j = 0; j < p->frame.n_linear; j++) {
+        const double rise = value[j] - part->cell->value[j];
+        if (rise > 1.0)
+            value[j] = part->cell->value[j] + 1.0 + log(rise);
+    }
+}
+
+/* Takes from the gap what the shifts may err by beside the fit; e: [n_curves] scratch. */
+static void draw_doubts(const wt_posterior *p, struct stream *s, double *e, gsl_vector *gap)
+{
+    for (size_t k = 0; k < p->frame.n_curves; k++) {
+        e[k] = draw_normal(s);
+        for (size_t i = 0; i <= k; i++)
+            *gsl_vector_ptr(gap, k) -= gsl_matrix_get(p->doubts_root, k, i) * e[i];
+    }
+}
+
+/* Spectrum and shifts drawn without the law, then pulled to what the drawn law foretells. */
+wt_status posterior_draw(const wt_posterior *p, uint64_t seed, size_t index, double *value,
+                         double unknown[LAW_MOST], double *log_b, wt_error *err)
+{
+    const size_t n = p->frame.n_unknowns, n_curves = p->frame.n_curves;
+    const posterior_part *part = part_of_draw(p, seed, index);
+    struct stream s = {mix64(mix64(seed) ^ (uint64_t)index)};
+    pool memory = {0};
+    gsl_vector *e = pool_vector(&memory, n), *gap = pool_vector(&memory, n_curves),
+               *pull = pool_vector(&memory, n_curves);
+    if (memory.failed) {
+        pool_free(&memory);
+        return wt_fail(err, WT_E_MEMORY, "no memory for a draw");
+    }
+    for (size_t u = 0; u < n; u++)
+        gsl_vector_set(e, u, draw_normal(&s));
+    gsl_blas_dtrsv(CblasLower, CblasTrans, CblasNonUnit, part->cell->root, e);
+    for (size_t u = 0; u < n; u++)
+        value[u] = part->cell->value[u] + gsl_vector_get(e, u);
+    memset(unknown, 0, LAW_MOST * sizeof *unknown);
+    if (part->law.n_unknowns > 0) {
+        draw_law(part, &s, unknown);
+        for (size_t k = 0; k < n_curves; k++) {
+            size_t column;
+            const double law = law_of_isotherm(&p->data, &p->shape, unknown, k),
+                         a = posterior_column(p, k, &column) ? value[column] : p->frame.given_a[k];
+            gsl_vector_set(gap, k, law - a / M_LN10 - part->spread * p->slope[k] * draw_normal(&s));
+        }
+        if (p->doubts_root != NULL)
+            draw_doubts(p, &s, e->data, gap);
+        gsl_blas_dgemv(CblasNoTrans, 1.0, part->inverse, gap, 0.0, pull);
+        add_pull(p, part, pull, 1.0, value);
+    }
+    keep_linear(p, part, value);
+    posterior_smooth_b(p, part->cell, value, log_b);
+    pool_free(&memory);
+    return WT_OK;
+}

@@ -1,0 +1,468 @@
+/* A series with few terms in place of the spectrum of a fit: over the measured frequencies it stays
+ * as close to both moduli as is asked for. Times and moduli of the terms are both moved, in
+ * logarithms, so that all are positive; from least squares on, points are weighed by what they are
+ * off (Lawson), which evens the largest deviations out.
+ *
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#include "core/math/gsl_quiet.h"
+
+#include "core/base/array.h"
+#include "core/base/param.h"
+#include "core/math/arena_gsl.h"
+#include "dma/law/prony_law.h"
+#include "weartrack/fit.h"
+
+#include <gsl/gsl_errno.h>
+#include <gsl/gsl_linalg.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { STORAGE, LOSS, MODULI };
+/* Points a decade to fit and to judge: five and thirteen in every term of the densest series. */
+enum { POINTS = 16, JUDGED = 40 };
+/* Steps of a fit, rounds of weights and steps in each, dampings of one step: bounds of time, for
+ * the best that was met is kept. Twice as many make series hardly better; half as many, a term
+ * longer. */
+enum { STEPS = 60, ROUNDS = 16, ROUND_STEPS = 3, DAMPINGS = 10 };
+/* More terms a decade tell nothing more of two moduli: they ripple by 1e-5 of E''
+ * (dma/numerics/master_fit.c). */
+static const double most_density = 3;
+/* How far outside the measured range a relaxation time may lie [ln]: a term that is faster by two
+ * decades has 1e-4 of its modulus in E' and is a dashpot; one that is slower by eight lacks 1e-16
+ * of it, and stands for a long-term modulus where that is given as less than there is. */
+static const double faster = 2 * M_LN10, slower = 8 * M_LN10;
+/* Between the points a deviation may be larger by this share: of a curve whose points are 1/16 of
+ * its period apart the top is missed by cos(pi/16), 2 %. */
+static const double between = 0.05;
+/* A term with a lesser share of any modulus is none: no digit of a modulus that is told has it. */
+static const double none = 1e-9;
+/* Of the sum of squares, relative: half of it of what is told as the deviation. */
+static const double least_gain = 1e-3;
+
+wt_reduction wt_reduction_defaults(void)
+{
+    return (wt_reduction){.error = 0.02, .long_term = (double)NAN};
+}
+
+static const wt_param rows[] = {
+    {PARAM("prony-terms", wt_reduction, terms, WT_Q_NONE, FROM_TO(0, 200)), .value = "N",
+     .help = "of the reduced Prony series; 0 is as few as --prony-error needs"},
+    {PARAM("prony-error", wt_reduction, error, WT_Q_NONE, FROM_TO(1e-4, 1)), .value = "X",
+     .help = "largest relative deviation of storage and loss modulus of the reduced Prony series "
+             "from the spectrum, over the measured frequencies"},
+    {PARAM("prony-long-term", wt_reduction, long_term, WT_Q_MODULUS, AT_LEAST(0)), .value = "E",
+     .help = "long-term modulus of the reduced Prony series, 0Pa for a liquid",
+     .unset = "fitted with the terms"},
+};
+PARAM_TABLE(wt_reduction_params, wt_reduction, rows, wt_reduction_defaults, NO_PARTS)
+
+typedef struct reducer {
+    pool memory;
+    const wt_prony *from;
+    size_t n;               /* points */
+    double *x;              /* [n] ln w */
+    double *y[MODULI];      /* [n] ln of the moduli of the spectrum */
+    double *weight[MODULI]; /* [n] */
+    double *off[MODULI];    /* [n] ln of the ratio */
+    double low, high;       /* of the relaxation times [ln] */
+    bool fitted;            /* the long-term modulus is */
+    double long_term;       /* else */
+    size_t most, likely;    /* terms, where their number is looked for */
+    size_t terms;           /* now: unknown[2 i] is ln tau, [2 i + 1] ln E; last ln E_inf */
+    double *unknown, *trial, *best;
+    double *row[MODULI];
+    double objective;
+    gsl_matrix *normal, *factor;
+    gsl_vector *gradient, *move;
+} reducer;
+
+/* ---- moduli ---------------------------------------------------------------------------------- */
+
+static size_t n_unknowns(const reducer *r)
+{
+    return 2 * r->terms + r->fitted;
+}
+
+/* Moduli of the terms at x and, if there are rows, the derivatives of their logarithms. */
+static void terms_at(const reducer *r, const double *unknown, double x, double modulus[MODULI],
+                     double *const row[MODULI])
+{
+    const size_t n = 2 * r->terms;
+    const double rest = r->fitted ? exp(unknown[n]) : r->long_term;
+    modulus[STORAGE] = rest;
+    modulus[LOSS] = 0;
+    for (size_t i = 0; i < n; i += 2) {
+        const double u = x + unknown[i], e = exp(unknown[i + 1]), t = tanh(u),
+                     bell = 1 / cosh(u); /* z/(1 + z^2) = bell/2, z^2/(1 + z^2) = (1 + t)/2 */
+        modulus[STORAGE] += 0.5 * e * (1 + t);
+        modulus[LOSS] += 0.5 * e * bell;
+        if (row != NULL) {
+            row[STORAGE][i] = 0.5 * e * bell * bell;
+            row[STORAGE][i + 1] = 0.5 * e * (1 + t);
+            row[LOSS][i] = -0.5 * e * bell * t;
+            row[LOSS][i + 1] = 0.5 * e * bell;
+        }
+    }
+    if (row == NULL)
+        return;
+    if (r->fitted) {
+        row[STORAGE][n] = rest;
+        row[LOSS][n] = 0;
+    }
+    for (int q = 0; q < MODULI; q++)
+        for (size_t i = 0; i < n_unknowns(r); i++)
+            row[q][i] /= modulus[q];
+}
+
+/* Sum of squares; with them the normal equations. */
+static double residual_squares(reducer *r, const double *unknown, bool with_normal)
+{
+    const size_t n = n_unknowns(r);
+    double sum = 0;
+    if (with_normal) {
+        gsl_matrix_set_zero(r->normal);
+        gsl_vector_set_zero(r->gradient);
+    }
+    for (size_t k = 0; k < r->n; k++) {
+        double modulus[MODULI];
+        terms_at(r, unknown, r->x[k], modulus, with_normal ? r->row : NULL);
+        for (int q = 0; q < MODULI; q++) {
+            const double off = log(modulus[q]) - r->y[q][k], w = r->weight[q][k];
+            r->off[q][k] = off;
+            sum += w * off * off;
+            for (size_t i = 0; with_normal && i < n; i++) {
+                const double by = w * r->row[q][i];
+                double *to = gsl_matrix_ptr(r->normal, i, 0);
+                for (size_t j = 0; j <= i; j++)
+                    to[j] += by * r->row[q][j];
+                *gsl_vector_ptr(r->gradient, i) -= by * off;
+            }
+        }
+    }
+    return sum;
+}
+
+/* ---- the fit of so many terms ---------------------------------------------------------------- */
+
+static bool solve_normal(reducer *r, double damping)
+{
+    const size_t n = n_unknowns(r);
+    gsl_matrix_view factor = gsl_matrix_submatrix(r->factor, 0, 0, n, n);
+    gsl_vector_view gradient = gsl_vector_subvector(r->gradient, 0, n),
+                    move = gsl_vector_subvector(r->move, 0, n);
+    double most = 0;
+    for (size_t i = 0; i < n; i++)
+        most = fmax(most, gsl_matrix_get(r->normal, i, i));
+    for (size_t i = 0; i < n; i++)
+        for (size_t j = 0; j <= i; j++)
+            gsl_matrix_set(r->factor, i, j, gsl_matrix_get(r->normal, i, j));
+    /* a term that the points do not see stays where it is */
+    for (size_t i = 0; i < n; i++)
+        *gsl_matrix_ptr(r->factor, i, i) +=
+            damping * gsl_matrix_get(r->normal, i, i) + 1e-10 * most;
+    return gsl_linalg_cholesky_decomp1(&factor.matrix) == GSL_SUCCESS &&
+           gsl_linalg_cholesky_solve(&factor.matrix, &gradient.vector, &move.vector) == GSL_SUCCESS;
+}
+
+static void clamp_times(const reducer *r, double *unknown)
+{
+    for (size_t i = 0; i < 2 * r->terms; i += 2)
+        unknown[i] = fmin(fmax(unknown[i], r->low), r->high);
+}
+
+/* Levenberg-Marquardt for the present weights. */
+static void fit_unknowns(reducer *r, int steps)
+{
+    const size_t n = n_unknowns(r);
+    double damping = 1e-3;
+    for (int i = 0; i < steps; i++) {
+        const double before = residual_squares(r, r->unknown, true);
+        double after = before;
+        for (int k = 0; k < DAMPINGS; k++) {
+            after = HUGE_VAL;
+            if (solve_normal(r, damping)) {
+                for (size_t u = 0; u < n; u++)
+                    r->trial[u] = r->unknown[u] + gsl_vector_get(r->move, u);
+                clamp_times(r, r->trial);
+                after = residual_squares(r, r->trial, false);
+            }
+            if (after < before)
+                break;
+            damping = fmax(10 * damping, 1e-6);
+        }
+        if (!(after < before))
+            break;
+        memcpy(r->unknown, r->trial, n * sizeof *r->trial);
+        damping /= 10;
+        if (before - after < least_gain * before)
+            break;
+    }
+    r->objective = residual_squares(r, r->unknown, false);
+}
+
+static double largest_deviation(const reducer *r)
+{
+    double most = 0;
+    for (int q = 0; q < MODULI; q++)
+        for (size_t k = 0; k < r->n; k++)
+            most = fmax(most, fabs(expm1(r->off[q][k])));
+    return most;
+}
+
+static void weigh_alike(reducer *r)
+{
+    for (int q = 0; q < MODULI; q++)
+        for (size_t k = 0; k < r->n; k++)
+            r->weight[q][k] = 1;
+}
+
+/* From where the unknowns are; `best` gets those with the least largest deviation, which is
+ * returned. Weights only where they can help to what is asked for. */
+static double fit_terms(reducer *r, double enough)
+{
+    const size_t n = n_unknowns(r);
+    weigh_alike(r);
+    fit_unknowns(r, STEPS);
+    double best = largest_deviation(r);
+    memcpy(r->best, r->unknown, n * sizeof *r->best);
+    for (int i = 0; i < ROUNDS && best > enough && (best < 4 * enough || enough == 0); i++) {
+        double sum = 0;
+        for (int q = 0; q < MODULI; q++)
+            for (size_t k = 0; k < r->n; k++)
+                sum += r->weight[q][k] *= fabs(r->off[q][k]) + 0.01 * best;
+        for (int q = 0; q < MODULI; q++)
+            for (size_t k = 0; k < r->n; k++)
+                r->weight[q][k] *= 2 * (double)r->n / sum;
+        fit_unknowns(r, ROUND_STEPS);
+        const double now = largest_deviation(r);
+        if (now < best) {
+            best = now;
+            memcpy(r->best, r->unknown, n * sizeof *r->best);
+        }
+    }
+    return best;
+}
+
+/* Times evenly over the measured range, moduli as the spectrum has them about each. */
+static void spread_terms(reducer *r, size_t terms)
+{
+    const double from = -r->x[r->n - 1], step = (r->x[r->n - 1] - r->x[0]) / (double)terms;
+    double modulus[MODULI];
+    r->terms = terms;
+    for (size_t i = 0; i < terms; i++) {
+        r->unknown[2 * i] = from + ((double)i + 0.5) * step;
+        r->unknown[2 * i + 1] = 0;
+        for (size_t k = 0; k < r->from->n; k++) {
+            const double at = floor((log(r->from->relaxation_time[k]) - from) / step);
+            if (fmin(fmax(at, 0), (double)(terms - 1)) == (double)i)
+                r->unknown[2 * i + 1] += r->from->modulus[k];
+        }
+        const double w = exp(-r->unknown[2 * i]);
+        prony_moduli(r->from, w, &modulus[STORAGE], &modulus[LOSS]);
+        /* none of the spectrum is nothing to start from */
+        r->unknown[2 * i + 1] = log(fmax(r->unknown[2 * i + 1], 0.1 * modulus[LOSS]));
+    }
+    if (r->fitted) {
+        prony_moduli(r->from, exp(r->x[0]), &modulus[STORAGE], &modulus[LOSS]);
+        r->unknown[2 * terms] = log(fmax(r->from->equilibrium_modulus, 1e-3 * modulus[STORAGE]));
+    } else if (terms > 1 && r->from->equilibrium_modulus > r->long_term) {
+        r->unknown[2 * terms - 2] = r->high;
+        r->unknown[2 * terms - 1] = log(r->from->equilibrium_modulus - r->long_term);
+    }
+}
+
+/* ---- how many -------------------------------------------------------------------------------- */
+
+/* The largest share that a term has in a modulus. */
+static double largest_share(const reducer *r, size_t i)
+{
+    double most = 0;
+    for (size_t k = 0; k < r->n; k++) {
+        const double u = r->x[k] + r->unknown[2 * i], e = exp(r->unknown[2 * i + 1]);
+        most = fmax(
+            most,
+            0.5 * e * fmax((1 + tanh(u)) * exp(-r->y[STORAGE][k]), exp(-r->y[LOSS][k]) / cosh(u)));
+    }
+    return most;
+}
+
+static void leave_out(reducer *r, size_t i)
+{
+    memmove(r->unknown + 2 * i, r->unknown + 2 * i + 2,
+            (n_unknowns(r) - 2 * i - 2) * sizeof *r->unknown);
+    r->terms--;
+}
+
+/* One term less: the least if it hardly counts, else the two closest to each other become one. */
+static void merge_terms(reducer *r, double little)
+{
+    for (size_t i = 0; i < r->terms; i++)
+        if (largest_share(r, i) < little) {
+            leave_out(r, i);
+            return;
+        }
+    size_t at = 0;
+    for (size_t i = 1; i + 1 < r->terms; i++)
+        if (r->unknown[2 * i + 2] - r->unknown[2 * i] < r->unknown[2 * at + 2] - r->unknown[2 * at])
+            at = i;
+    double *first = r->unknown + 2 * at;
+    const double e1 = exp(first[1]), e2 = exp(first[3]), share = e2 / (e1 + e2);
+    first[0] += share * (first[2] - first[0]);
+    first[1] = log(e1 + e2);
+    leave_out(r, at + 1);
+}
+
+/* The best of so many terms, into `kept`; what they are off. */
+static double fit_best_terms(reducer *r, double *kept, double off)
+{
+    memcpy(r->unknown, r->best, n_unknowns(r) * sizeof *r->best);
+    for (size_t i = r->terms; i-- > 0;)
+        if (largest_share(r, i) < none)
+            leave_out(r, i);
+    memcpy(kept, r->unknown, n_unknowns(r) * sizeof *kept);
+    qsort(kept, r->terms, 2 * sizeof *kept, numbers_compare);
+    return off;
+}
+
+/* The fewest: from evenly spread starts, half as many again until they are enough, then by halves,
+ * then by merging for as long as that goes on. */
+static size_t fewest_terms(reducer *r, double enough, double *kept)
+{
+    size_t low = 0, high = 0, n = r->likely;
+    double off = HUGE_VAL;
+    while (high == 0 || high > low + 1) {
+        spread_terms(r, n);
+        const double now = fit_terms(r, enough);
+        if (now <= enough || n == r->most) {
+            off = fit_best_terms(r, kept, now);
+            high = r->terms;
+        } else {
+            low = n;
+        }
+        if (off > enough && n == r->most)
+            return high;
+        n = high > 0 ? low + (high - low) / 2
+                     : (size_t)fmin((double)(n + n / 2 + 1), (double)r->most);
+    }
+    for (r->terms = high; r->terms > 1;) {
+        n = r->terms;
+        memcpy(r->unknown, kept, n_unknowns(r) * sizeof *kept);
+        merge_terms(r, 0.1 * enough);
+        if (fit_terms(r, enough) > enough)
+            return n;
+        fit_best_terms(r, kept, off);
+    }
+    return r->terms;
+}
+
+/* ---- the whole ------------------------------------------------------------------------------- */
+
+static wt_status prepare_reduction(reducer *r, const wt_reduction *options, wt_error *err)
+{
+    const wt_prony *from = r->from;
+    const double first = log(from->frequency_min), last = log(from->frequency_max);
+    const double decades = (last - first) / M_LN10;
+    if (!(decades >= 0) || !isfinite(decades) || from->n == 0)
+        return wt_fail(err, WT_E_MISSING,
+                       "a series without terms or without a measured range of "
+                       "frequencies cannot be reduced");
+    r->n = (size_t)(POINTS * decades) + 8;
+    r->most = options->terms > 0 ? options->terms : (size_t)(most_density * decades) + 3;
+    r->likely = (size_t)decades + 1;
+    r->low = -last - faster;
+    r->high = -first + slower;
+    r->long_term = isnan(options->long_term) ? 0 : options->long_term;
+    r->fitted = isnan(options->long_term) && from->equilibrium_modulus > 0;
+    const size_t n = 2 * r->most + 1;
+    r->x = pool_numbers(&r->memory, r->n);
+    for (int q = 0; q < MODULI; q++) {
+        r->y[q] = pool_numbers(&r->memory, r->n);
+        r->weight[q] = pool_numbers(&r->memory, r->n);
+        r->off[q] = pool_numbers(&r->memory, r->n);
+        r->row[q] = pool_numbers(&r->memory, n);
+    }
+    r->unknown = pool_numbers(&r->memory, n);
+    r->trial = pool_numbers(&r->memory, n);
+    r->best = pool_numbers(&r->memory, n);
+    r->normal = pool_matrix(&r->memory, n, n);
+    r->factor = pool_matrix(&r->memory, n, n);
+    r->gradient = pool_vector(&r->memory, n);
+    r->move = pool_vector(&r->memory, n);
+    if (r->memory.failed)
+        return wt_fail(err, WT_E_MEMORY, "no memory to reduce the series");
+    for (size_t k = 0; k < r->n; k++) {
+        double modulus[MODULI];
+        r->x[k] = first + (last - first) * (double)k / (double)(r->n - 1);
+        prony_moduli(from, exp(r->x[k]), &modulus[STORAGE], &modulus[LOSS]);
+        for (int q = 0; q < MODULI; q++)
+            r->y[q][k] = log(modulus[q]);
+        if (!isfinite(r->y[STORAGE][k]) || !isfinite(r->y[LOSS][k]))
+            return wt_fail(err, WT_E_RANGE, "a modulus of the series is not positive");
+    }
+    return WT_OK;
+}
+
+void wt_prony_deviation(const wt_prony *from, const wt_prony *to, double deviation[2])
+{
+    const double first = log(from->frequency_min), last = log(from->frequency_max);
+    const size_t n = (size_t)(JUDGED * (last - first) / M_LN10) + 2;
+    deviation[0] = deviation[1] = 0;
+    for (size_t k = 0; k < n; k++) {
+        double is[MODULI], was[MODULI];
+        const double w = exp(first + (last - first) * (double)k / (double)(n - 1));
+        prony_moduli(to, w, &is[STORAGE], &is[LOSS]);
+        prony_moduli(from, w, &was[STORAGE], &was[LOSS]);
+        for (int q = 0; q < MODULI; q++)
+            deviation[q] = fmax(deviation[q], fabs(is[q] / was[q] - 1));
+    }
+}
+
+static wt_status hand_out(const reducer *r, const double *kept, size_t terms, wt_prony *to,
+                          wt_error *err)
+{
+    wt_prony made = {0};
+    const wt_status status = wt_prony_alloc(&made, terms, err);
+    if (status != WT_OK)
+        return status;
+    for (size_t i = 0; i < terms; i++) {
+        made.relaxation_time[i] = exp(kept[2 * i]);
+        made.modulus[i] = exp(kept[2 * i + 1]);
+    }
+    made.equilibrium_modulus = r->fitted ? exp(kept[2 * terms]) : r->long_term;
+    made.deformation = r->from->deformation;
+    made.reference_temperature = r->from->reference_temperature;
+    made.frequency_min = r->from->frequency_min;
+    made.frequency_max = r->from->frequency_max;
+    *to = made;
+    return WT_OK;
+}
+
+wt_status wt_prony_reduce(const wt_prony *from, const wt_reduction *options, wt_prony *to,
+                          wt_error *err)
+{
+    if (from == NULL || to == NULL)
+        return wt_fail(err, WT_E_ARG, "no series to reduce");
+    const wt_reduction o = options != NULL ? *options : wt_reduction_defaults();
+    reducer r = {.from = from};
+    gsl_quiet();
+    wt_status status = param_check(wt_reduction_params(), &o, err);
+    if (status == WT_OK)
+        status = prepare_reduction(&r, &o, err);
+    double *kept = status == WT_OK ? pool_numbers(&r.memory, 2 * r.most + 1) : NULL;
+    if (status == WT_OK && kept == NULL)
+        status = wt_fail(err, WT_E_MEMORY, "no memory to reduce the series");
+    if (status == WT_OK) {
+        size_t terms = o.terms;
+        if (terms > 0) {
+            spread_terms(&r, terms);
+            fit_best_terms(&r, kept, fit_terms(&r, 0));
+            terms = r.terms;
+        } else {
+            terms = fewest_terms(&r, o.error * (1 - between), kept);
+        }
+        status = hand_out(&r, kept, terms, to, err);
+    }
+    pool_free(&r.memory);
+    return status;
+}

@@ -1,0 +1,392 @@
+/* One law of the shift factors for several samples: generalised least squares over all their shifts
+ * at once, with the error of the temperatures averaged over, beside a law of its own for each.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#include "dma/numerics/shared_shift_law_fit.h"
+#include "dma/numerics/posterior.h"
+
+#include "core/base/quantity.h"
+#include "core/math/arena_gsl.h"
+#include "core/math/gsl_quiet.h"
+
+#include <gsl/gsl_blas.h>
+#include <gsl/gsl_linalg.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* A law is common to two at least. Steps of Newton's kind double the digits: what has not settled
+ * after so many does not. */
+enum { MOST_STEPS = 100, FEWEST = 2 };
+/* A step that is so small in standard errors is the last: seven digits of what is told to two. */
+static const double settled = 1e-6;
+/* A pole to begin with, below the coldest isotherm [K]: the 51.6 K below the glass transition of
+ * Williams, Landel and Ferry (J. Am. Chem. Soc. 77 (1955) 3701). */
+static const double usual_distance = 50.0;
+
+/* ---- the shifts of a sample ------------------------------------------------------------------ */
+
+/* Means over the cells of the posterior, and the covariance within them and between. */
+static void take_shifts(const wt_posterior *p, long left_out, law_member *m)
+{
+    size_t row = 0;
+    for (size_t i = 0; i < p->frame.n_curves; i++) {
+        size_t at, with, column = 0;
+        if ((long)i == left_out)
+            continue;
+        m->temperature[row] = p->temperature[i];
+        m->slope[row] = p->slope[i];
+        for (size_t c = 0; c < p->n_cells; c++)
+            m->log_a[row] +=
+                p->cells[c].weight / M_LN10 *
+                (posterior_column(p, i, &at) ? p->cells[c].value[at] : p->frame.given_a[i]);
+        for (size_t k = 0; k < p->frame.n_curves; k++) {
+            if ((long)k == left_out)
+                continue;
+            double mean = 0.0, mean_i = 0.0, mean_k = 0.0;
+            const bool free = posterior_column(p, i, &at) && posterior_column(p, k, &with);
+            for (size_t c = 0; free && c < p->n_cells; c++) {
+                const posterior_cell *cell = &p->cells[c];
+                if (!(cell->weight > 0.0))
+                    continue;
+                mean += cell->weight * (gsl_matrix_get(cell->covariance, at, with) +
+                                        cell->value[at] * cell->value[with]);
+                mean_i += cell->weight * cell->value[at];
+                mean_k += cell->weight * cell->value[with];
+            }
+            gsl_matrix_set(m->covariance, row, column++,
+                           (mean - mean_i * mean_k) / (M_LN10 * M_LN10));
+        }
+        row++;
+    }
+}
+
+static wt_status add_member(law_samples *c, const wt_master *master, size_t sample, wt_error *err)
+{
+    const wt_posterior *p = master->posterior;
+    const law_shape *shape = &p->shape;
+    law_member *m = &c->members[c->n_members++];
+    double constants[LAW_MOST];
+    *m = (law_member){.sample = sample,
+                      .n = p->frame.n_curves - (shape->odd >= 0),
+                      .first = c->n,
+                      .reference = shape->reference,
+                      .coldest = shape->coldest};
+    m->temperature = pool_numbers(&c->memory, m->n);
+    m->log_a = pool_numbers(&c->memory, m->n);
+    m->slope = pool_numbers(&c->memory, m->n);
+    m->covariance = pool_matrix(&c->memory, m->n, m->n);
+    for (size_t i = 0; i < LAW_SPREADS; i++)
+        m->root[i] = pool_matrix(&c->memory, m->n, m->n);
+    if (c->memory.failed)
+        return wt_fail(err, WT_E_MEMORY, "no memory for a common law");
+    memset(m->log_a, 0, m->n * sizeof *m->log_a);
+    take_shifts(p, shape->odd, m);
+    posterior_mean_law(p, constants);
+    m->main_constant = constants[1];
+    if (shape->kind == WT_LAW_WLF) {
+        m->distance = constants[law_pole_index(shape)];
+    } else if (c->kind == WT_LAW_WLF) { /* of the same slope, with a pole as rubbers have it */
+        m->distance = log(usual_distance);
+        m->main_constant *= (m->reference - m->coldest + usual_distance) /
+                            (GAS_CONSTANT * M_LN10 * m->reference * m->reference);
+    }
+    c->n += m->n;
+    wt_status status = WT_OK;
+    for (size_t i = 0; status == WT_OK && i < LAW_SPREADS; i++) {
+        const law_data data = {.n = m->n, .covariance = m->covariance, .slope = m->slope};
+        status = law_gls_covariance(&data, law_spread(i), m->root[i], err);
+    }
+    return status;
+}
+
+/* ---- the fit --------------------------------------------------------------------------------- */
+
+/* Sum of squares, in units of the errors; with `cross` what the unknowns take from it. */
+static double residual_squares(const law_samples *c, const law_model *model, size_t spread,
+                               const double *unknown, gsl_vector *off, gsl_matrix *columns,
+                               gsl_matrix *cross, gsl_vector *right)
+{
+    double sum = 0.0;
+    if (cross != NULL) {
+        gsl_matrix_set_zero(cross);
+        gsl_vector_set_zero(right);
+    }
+    for (size_t k = 0; k < c->n_members; k++) {
+        const law_member *m = &c->members[k];
+        size_t at[LOCAL];
+        gsl_vector_view y = gsl_vector_subvector(off, 0, m->n);
+        common_places(c, model, k, at);
+        for (size_t i = 0; i < m->n; i++) {
+            double by[LOCAL];
+            const double law = common_value(c, model, k, unknown, m->temperature[i], by);
+            if (!isfinite(law))
+                return HUGE_VAL;
+            gsl_vector_set(off, i, m->log_a[i] - unknown[at[OFFSET]] - law);
+            for (size_t u = 0; u < LOCAL; u++)
+                gsl_matrix_set(columns, u, i, by[u]);
+        }
+        gsl_blas_dtrsv(CblasLower, CblasNoTrans, CblasNonUnit, m->root[spread], &y.vector);
+        for (size_t i = 0; i < m->n; i++)
+            sum += gsl_vector_get(off, i) * gsl_vector_get(off, i);
+        for (size_t u = 0; cross != NULL && u < LOCAL; u++) {
+            gsl_vector_view x = gsl_matrix_subrow(columns, u, 0, m->n);
+            double with = 0.0;
+            if (at[u] == NO_PLACE)
+                continue;
+            gsl_blas_dtrsv(CblasLower, CblasNoTrans, CblasNonUnit, m->root[spread], &x.vector);
+            gsl_blas_ddot(&x.vector, &y.vector, &with);
+            *gsl_vector_ptr(right, at[u]) += with;
+            for (size_t w = 0; w <= u; w++) {
+                gsl_vector_const_view other = gsl_matrix_const_subrow(columns, w, 0, m->n);
+                if (at[w] == NO_PLACE)
+                    continue;
+                gsl_blas_ddot(&x.vector, &other.vector, &with);
+                *gsl_matrix_ptr(cross, at[u], at[w]) += with;
+                if (u != w)
+                    *gsl_matrix_ptr(cross, at[w], at[u]) += with;
+            }
+        }
+    }
+    return sum;
+}
+
+static void start_law(const law_samples *c, const law_model *model, double *unknown)
+{
+    for (size_t k = c->n_members; k-- > 0;) { /* the first one's law is that of all */
+        const law_member *m = &c->members[k];
+        size_t at[LOCAL];
+        common_places(c, model, k, at);
+        unknown[at[OFFSET]] = 0.0;
+        unknown[at[MAIN]] = m->main_constant;
+        if (at[POLE] != NO_PLACE)
+            unknown[at[POLE]] = m->distance;
+        if (at[MOVED] != NO_PLACE) /* the poles on one another */
+            unknown[at[MOVED]] = (m->coldest - exp(m->distance)) -
+                                 (c->members[0].coldest - exp(c->members[0].distance));
+        if (!model->own && k == 0 && common_has_pole(c)) {
+            /* its law for the reference of all, whose pole must lie below all isotherms */
+            const double pole = m->coldest - exp(m->distance);
+            const double product = m->main_constant * (m->reference - pole);
+            const double apart = fmax(c->coldest - pole, POLE_NEAREST);
+            unknown[at[POLE]] = log(apart);
+            unknown[at[MAIN]] = product / (c->reference - c->coldest + apart);
+        }
+    }
+    for (size_t k = 0; k < c->n_members; k++) {
+        const law_member *m = &c->members[k];
+        double by[LOCAL], sum = 0.0;
+        for (size_t i = 0; i < m->n; i++) {
+            const double law = common_value(c, model, k, unknown, m->temperature[i], by);
+            sum += m->log_a[i] - (isfinite(law) ? law : 0.0);
+        }
+        unknown[k] = sum / (double)m->n;
+    }
+}
+
+/* Whether the constants are those of a law that falls and bends as far as is told. */
+static bool is_law(const law_samples *c, const law_model *model, const solution *s)
+{
+    bool good = true;
+    for (size_t k = 0; k < c->n_members; k++) {
+        size_t at[LOCAL];
+        common_places(c, model, k, at);
+        good = good && s->unknown[at[MAIN]] > 0.0;
+        if (at[POLE] != NO_PLACE)
+            good = good && s->unknown[at[POLE]] > log(POLE_NEAREST) &&
+                   s->unknown[at[POLE]] < log(POLE_FARTHEST) &&
+                   gsl_matrix_get(s->covariance, at[POLE], at[POLE]) < POLE_ERROR * POLE_ERROR;
+    }
+    return good;
+}
+
+/* Damped steps of least squares until none is left. */
+static void fit_at_spread(law_samples *c, const law_model *model, size_t spread, solution *s)
+{
+    const size_t n = model->n_unknowns;
+    pool *memory = &c->memory;
+    gsl_vector *off = pool_vector(memory, c->n), *right = pool_vector(memory, n),
+               *step = pool_vector(memory, n);
+    gsl_matrix *columns = pool_matrix(memory, LOCAL, c->n), *cross = pool_matrix(memory, n, n),
+               *damped = pool_matrix(memory, n, n);
+    double *next = pool_numbers(memory, n), damping = 1e-3;
+    s->unknown = pool_numbers(memory, n);
+    s->covariance = pool_matrix(memory, n, n);
+    s->good = false;
+    if (memory->failed)
+        return;
+    start_law(c, model, s->unknown);
+    bool done = false;
+    s->chi_square = residual_squares(c, model, spread, s->unknown, off, columns, cross, right);
+    for (int i = 0; i < MOST_STEPS && !done && s->chi_square < HUGE_VAL; i++) {
+        gsl_matrix_memcpy(damped, cross);
+        for (size_t u = 0; u < n; u++)
+            *gsl_matrix_ptr(damped, u, u) *= 1.0 + damping;
+        gsl_vector_memcpy(step, right);
+        if (gsl_linalg_cholesky_decomp1(damped) != GSL_SUCCESS)
+            return;
+        gsl_linalg_cholesky_svx(damped, step);
+        double size = 0.0;
+        for (size_t u = 0; u < n; u++) {
+            next[u] = s->unknown[u] + gsl_vector_get(step, u);
+            size = fmax(size, fabs(gsl_vector_get(step, u)) * sqrt(gsl_matrix_get(cross, u, u)));
+        }
+        const double now = residual_squares(c, model, spread, next, off, columns, NULL, NULL);
+        done = size < settled;
+        if (!(now <= s->chi_square)) {
+            damping *= 10.0;
+            continue;
+        }
+        damping *= 0.1;
+        memcpy(s->unknown, next, n * sizeof *next);
+        s->chi_square = residual_squares(c, model, spread, s->unknown, off, columns, cross, right);
+    }
+    gsl_matrix_memcpy(s->covariance, cross);
+    if (!done || gsl_linalg_cholesky_decomp1(s->covariance) != GSL_SUCCESS)
+        return;
+    s->reml = s->chi_square;
+    for (size_t u = 0; u < n; u++)
+        s->reml += 2.0 * log(gsl_matrix_get(s->covariance, u, u));
+    for (size_t k = 0; k < c->n_members; k++)
+        for (size_t i = 0; i < c->members[k].n; i++)
+            s->reml += 2.0 * log(gsl_matrix_get(c->members[k].root[spread], i, i));
+    gsl_linalg_cholesky_invert(s->covariance);
+    s->good = is_law(c, model, s);
+}
+
+/* The weights of the spreads of temperatures; false if none is left. What tells samples apart must
+ * not hang on what is believed of ovens: then all spreads are alike. */
+static bool weigh_spreads(const law_samples *c, bool believed, solution s[LAW_SPREADS])
+{
+    const law_data all = {.n = c->n};
+    double least = HUGE_VAL, sum = 0.0;
+    for (size_t i = 0; i < LAW_SPREADS; i++)
+        if (s[i].good)
+            least = fmin(least, s[i].reml);
+    for (size_t i = 0; i < LAW_SPREADS; i++) {
+        const double prior = believed ? law_spread_prior(&all, law_spread(i)) : law_spread(i);
+        s[i].weight = s[i].good ? prior * exp(-0.5 * (s[i].reml - least)) : 0.0;
+        sum += s[i].weight;
+    }
+    for (size_t i = 0; i < LAW_SPREADS; i++)
+        s[i].weight = sum > 0.0 ? s[i].weight / sum : 0.0;
+    return sum > 0.0;
+}
+
+/* ---- the whole ------------------------------------------------------------------------------- */
+
+/* Joined laws have constants that others do not share. */
+static const char *why_not(const wt_master *m)
+{
+    if (m == NULL || m->posterior == NULL)
+        return "it could not be fitted";
+    if (m->law.kind == WT_LAW_NONE)
+        return "it has no law of its own";
+    if (m->law.kind == WT_LAW_JOINED)
+        return "its own law is Arrhenius joined to WLF";
+    return isnan(m->slope.standard_error) ? "its shifts are given" : NULL;
+}
+
+/* Arrhenius if no sample shows that it bends: those that do not would be missed elsewhere. */
+static wt_law_kind kind_of_all(const wt_master *const *masters, size_t n)
+{
+    bool bends = false;
+    for (size_t i = 0; i < n; i++)
+        bends = bends || (why_not(masters[i]) == NULL && masters[i]->law.kind == WT_LAW_WLF);
+    return bends ? WT_LAW_WLF : WT_LAW_ARRHENIUS;
+}
+
+static wt_status gather_samples(law_samples *c, const wt_master *const *masters, size_t n,
+                                wt_common_law *common, wt_error *err)
+{
+    wt_status status = WT_OK;
+    c->members = pool_alloc(&c->memory, n, sizeof *c->members);
+    if (c->members == NULL)
+        return wt_fail(err, WT_E_MEMORY, "no memory for a common law");
+    for (size_t i = 0; status == WT_OK && i < n; i++) {
+        const char *const why = why_not(masters[i]);
+        if (why == NULL)
+            status = add_member(c, masters[i], i, err);
+        else
+            snprintf(common->members[i].why_not, sizeof common->members[i].why_not, "%s", why);
+    }
+    if (status == WT_OK && c->n_members < FEWEST) {
+        size_t without = 0;
+        while (common->members[without].why_not[0] == '\0')
+            without++;
+        wt_fail(err, WT_E_RANGE, "a common law needs two samples or more with a law");
+        wt_error_found(err, "%zu of %zu; of sample %zu %s", c->n_members, n, without + 1,
+                       common->members[without].why_not);
+        return WT_E_RANGE;
+    }
+    if (status == WT_OK && c->how == WT_COMMON_MOVED && !common_has_pole(c)) {
+        wt_fail(err, WT_E_RANGE, "an Arrhenius law cannot be moved along the temperature");
+        wt_error_advice(err, "ask for the same law of all samples");
+        return WT_E_RANGE;
+    }
+    if (status != WT_OK)
+        return status;
+    const law_member *first = &c->members[0];
+    c->reference = isnan(c->reference) ? first->reference : c->reference;
+    c->coldest = fmin(c->reference, first->temperature[0]);
+    for (size_t k = 1; c->how == WT_COMMON_SAME && k < c->n_members; k++)
+        c->coldest = fmin(c->coldest, c->members[k].temperature[0]);
+    return WT_OK;
+}
+
+static wt_status make_common_law(law_samples *c, wt_common_law *common, wt_error *err)
+{
+    const law_model of_all = common_model(c, false), of_each = common_model(c, true);
+    solution one[LAW_SPREADS], own[LAW_SPREADS];
+    for (size_t i = 0; i < LAW_SPREADS; i++) {
+        fit_at_spread(c, &of_all, i, &one[i]);
+        fit_at_spread(c, &of_each, i, &own[i]);
+    }
+    common->points = calloc(c->n, sizeof *common->points);
+    if (c->memory.failed || common->points == NULL)
+        return wt_fail(err, WT_E_MEMORY, "no memory for a common law");
+    if (!weigh_spreads(c, true, one)) {
+        wt_fail(err, WT_E_RANGE, "no one law describes the shifts of all samples");
+        wt_error_advice(err, "%s",
+                        c->how == WT_COMMON_SAME ? "let it be moved along the temperature"
+                                                 : "let each have its own");
+        return WT_E_RANGE;
+    }
+    const bool compared = weigh_spreads(c, false, own);
+    common_fill_law(c, one, common);
+    common->p = compared ? common_chance(c, one, own) : (double)NAN;
+    for (size_t k = 0; k < c->n_members; k++)
+        for (size_t i = 0; i < c->members[k].n; i++)
+            common_fill_point(c, k, i, one, own, compared, &common->points[common->n++]);
+    return WT_OK;
+}
+
+wt_status wt_common_law_fit(const wt_master *const *masters, size_t n, wt_common how,
+                            double reference, wt_common_law *common_law, wt_error *err)
+{
+    if (masters == NULL || common_law == NULL || n < FEWEST || how == WT_COMMON_NONE)
+        return wt_fail(err, WT_E_ARG, "a common law needs two samples or more");
+    law_samples c = {.how = how, .reference = reference, .kind = kind_of_all(masters, n)};
+    wt_common_law made = {.n_members = n, .members = calloc(n, sizeof *made.members)};
+    gsl_quiet();
+    wt_status status = made.members == NULL
+                           ? wt_fail(err, WT_E_MEMORY, "no memory for a common law")
+                           : gather_samples(&c, masters, n, &made, err);
+    if (status == WT_OK)
+        status = make_common_law(&c, &made, err);
+    pool_free(&c.memory);
+    if (status == WT_OK)
+        *common_law = made;
+    else
+        wt_common_law_clear(&made);
+    return status;
+}
+
+void wt_common_law_clear(wt_common_law *common)
+{
+    if (common == NULL)
+        return;
+    free(common->members);
+    free(common->points);
+    *common = (wt_common_law){0};
+}

@@ -1,0 +1,31 @@
+/* The overlaps of the isotherms of a fit. SPDX-License-Identifier: GPL-3.0-or-later */
+#include "dma/numerics/master_fit.h"
+
+#include "core/math/arena_gsl.h"
+
+/* A shift with a larger error is not determined [decade]: 95 % of it is then most of a decade, and
+ * as wide as the step of 5 to 10 K between isotherms that it is to tell. */
+const double master_largest_sigma = 0.2;
+
+wt_status master_links(const master_work *work, bool physical, overlap_link *link, wt_error *err)
+{
+    const size_t n = work->set.n;
+    pool memory = {0};
+    double *none = pool_numbers(&memory, n), *rubber = pool_numbers(&memory, n);
+    wt_status status =
+        memory.failed ? wt_fail(err, WT_E_MEMORY, "no memory for the overlaps") : WT_OK;
+    for (size_t i = 0; status == WT_OK && i < n; i++)
+        rubber[i] = work->physical[i] - work->physical[work->anchor];
+    if (status == WT_OK)
+        status = overlap_chain(&work->set, work->anchor, physical ? rubber : none,
+                               physical ? none : rubber, link, err);
+    pool_free(&memory);
+    return status;
+}
+
+/* Vertical shifts are those of rubber elasticity if they are asked for, else there are none: the
+ * storage modulus alone does not tell them from horizontal ones, and a glass has none. */
+wt_status master_overlaps(master_work *work, wt_error *err)
+{
+    return master_links(work, work->options.vertical == WT_VERTICAL_PHYSICAL, work->link, err);
+}

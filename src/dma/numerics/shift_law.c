@@ -1,0 +1,343 @@
+/* Laws of the shift factors: generalised least squares with the full covariance of the shifts and
+ * an error of temperature for every isotherm, which is averaged over.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#include "dma/numerics/shift_law.h"
+
+#include "core/base/quantity.h"
+#include "core/math/arena_gsl.h"
+#include "core/math/cholesky_dense.h"
+
+#include <gsl/gsl_blas.h>
+#include <gsl/gsl_errno.h>
+#include <gsl/gsl_linalg.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* Temperatures are believed to so many kelvin, the tolerance of a platinum thermometer of class B
+ * at 0 degC (IEC 60751), as the half width of a Cauchy prior. */
+const double law_believed = 0.3;
+/* A programme may be so steady that nothing is seen of it: so much weight has the smallest spread
+ * beyond its own, which makes it a fifth of all. A belief, which data overrule: without it a law of
+ * steady temperatures has errors that are too wide, and twice as much would take scatter as large
+ * as the noise for none more often. */
+static const double steady = 0.15;
+/* Of n isotherms a law leaves n - 3 degrees of freedom: scatter as large as the noise looks like
+ * none, chi^2 below half of its mean, by a chance of 0.39 with five, of 0.26 with seven. */
+enum { LEAST_STEADY = 7 };
+/* Places of a pole between the nearest and the farthest, a factor 1.24 apart, before halves. */
+enum { POLE_GRID = 40 };
+
+double law_spread(size_t i)
+{
+    return ldexp(0.004, (int)i);
+}
+
+/* ---- the laws -------------------------------------------------------------------------------- */
+
+static bool has_wlf(const law_shape *shape)
+{
+    return shape->kind != WT_LAW_ARRHENIUS;
+}
+
+size_t law_unknowns(const law_shape *shape)
+{
+    static const size_t count[] = {
+        [WT_LAW_WLF] = 3, [WT_LAW_ARRHENIUS] = 2, [WT_LAW_JOINED] = 4}; /* of unknowns */
+    return count[shape->kind] + (shape->odd >= 0 ? 1 : 0);
+}
+
+size_t law_odd_index(const law_shape *shape)
+{
+    if (shape->odd < 0)
+        return LAW_MOST;
+    return shape->kind == WT_LAW_JOINED ? 3 : 2;
+}
+
+size_t law_pole_index(const law_shape *shape)
+{
+    return has_wlf(shape) ? law_unknowns(shape) - 1 : LAW_MOST;
+}
+
+/* -(T - Tref)/(C2 + T - Tref) and its derivative by ln of the distance of the pole. */
+static double wlf_part(const law_shape *shape, double distance, double temperature, double *by_pole)
+{
+    const double rise = temperature - shape->reference;
+    const double sum = distance + temperature - shape->coldest;
+    *by_pole = rise / sum * (distance / sum);
+    return -rise / sum;
+}
+
+static double arrhenius_part(double reference, double temperature)
+{
+    return (reference - temperature) / (reference * temperature) / (GAS_CONSTANT * M_LN10);
+}
+
+/* The main part and its derivative by the pole. */
+static double part_main(const law_shape *shape, double distance, double temperature,
+                        double *by_pole)
+{
+    const double r = shape->reference, joint = shape->joint;
+    *by_pole = 0.0;
+    if (!has_wlf(shape))
+        return arrhenius_part(r, temperature);
+    if (shape->kind != WT_LAW_JOINED)
+        return wlf_part(shape, distance, temperature, by_pole);
+    double of_reference;
+    const double part = wlf_part(shape, distance, fmax(temperature, joint), by_pole) -
+                        wlf_part(shape, distance, fmax(r, joint), &of_reference);
+    *by_pole -= of_reference;
+    return part;
+}
+
+/* The part below the joint. */
+static double part_below(const law_shape *shape, double temperature)
+{
+    return shape->kind == WT_LAW_JOINED ? arrhenius_part(fmin(shape->reference, shape->joint),
+                                                         fmin(temperature, shape->joint))
+                                        : 0.0;
+}
+
+static double pole_distance(const law_shape *shape, const double *unknown)
+{
+    return has_wlf(shape) ? exp(unknown[law_pole_index(shape)]) : 1.0;
+}
+
+double law_at(const law_shape *shape, const double *unknown, double temperature, double *gradient)
+{
+    double by_pole;
+    const double main_part = part_main(shape, pole_distance(shape, unknown), temperature, &by_pole),
+                 below = part_below(shape, temperature);
+    const bool joined = shape->kind == WT_LAW_JOINED;
+    if (gradient != NULL) {
+        for (size_t u = 0; u < LAW_MOST; u++)
+            gradient[u] = 0.0;
+        gradient[1] = main_part;
+        if (joined)
+            gradient[2] = below;
+        if (has_wlf(shape))
+            gradient[law_pole_index(shape)] = unknown[1] * by_pole;
+    }
+    return unknown[1] * main_part + (joined ? unknown[2] * below : 0.0);
+}
+
+double law_of_isotherm(const law_data *data, const law_shape *shape, const double *unknown,
+                       size_t i)
+{
+    return unknown[0] + law_at(shape, unknown, data->temperature[i], NULL) +
+           ((long)i == shape->odd ? unknown[law_odd_index(shape)] : 0.0);
+}
+
+wt_shift_law law_constants(const law_shape *shape, const double *unknown)
+{
+    wt_shift_law law = {.kind = shape->kind,
+                        .wlf = {shape->reference, (double)NAN, (double)NAN},
+                        .activation_energy = (double)NAN,
+                        .joint = shape->kind == WT_LAW_JOINED ? shape->joint : (double)NAN};
+    if (has_wlf(shape)) {
+        law.wlf.c1 = unknown[1];
+        law.wlf.c2 = shape->reference - shape->coldest + pole_distance(shape, unknown);
+    }
+    if (shape->kind == WT_LAW_ARRHENIUS)
+        law.activation_energy = unknown[1];
+    if (shape->kind == WT_LAW_JOINED)
+        law.activation_energy = unknown[2];
+    return law;
+}
+
+/* ---- generalised least squares --------------------------------------------------------------- */
+
+wt_status law_gls_covariance(const law_data *data, double spread, gsl_matrix *covariance,
+                             wt_error *err)
+{
+    for (size_t i = 0; i < data->n; i++)
+        for (size_t k = 0; k < data->n; k++)
+            gsl_matrix_set(covariance, i, k, gsl_matrix_get(data->covariance, i, k));
+    for (size_t i = 0; i < data->n; i++)
+        *gsl_matrix_ptr(covariance, i, i) += spread * spread * data->slope[i] * data->slope[i];
+    if (!dense_factor(covariance))
+        return wt_fail(err, WT_E_CONVERGENCE, "the covariance of the shifts is not positive");
+    return WT_OK;
+}
+
+/* What hangs on the distance of the pole: the main part, and the derivative by it if the matrix has
+ * that column. */
+static void design_pole(const law_data *data, const law_shape *shape, double distance,
+                        double main_factor, gsl_matrix *x)
+{
+    const size_t pole = law_pole_index(shape);
+    for (size_t i = 0; i < data->n; i++) {
+        double by_pole;
+        gsl_matrix_set(x, i, 1, part_main(shape, distance, data->temperature[i], &by_pole));
+        if (pole < x->size2)
+            gsl_matrix_set(x, i, pole, main_factor * by_pole);
+    }
+}
+
+/* Offset, part below the joint, odd isotherm. */
+static void design_fixed(const law_data *data, const law_shape *shape, gsl_matrix *x)
+{
+    const size_t odd = law_odd_index(shape);
+    for (size_t i = 0; i < data->n; i++) {
+        gsl_matrix_set(x, i, 0, 1.0);
+        if (shape->kind == WT_LAW_JOINED)
+            gsl_matrix_set(x, i, 2, part_below(shape, data->temperature[i]));
+        if (odd < LAW_MOST)
+            gsl_matrix_set(x, i, odd, (long)i == shape->odd ? 1.0 : 0.0);
+    }
+}
+
+void law_design(const law_data *data, const law_shape *shape, const double *unknown, gsl_matrix *x)
+{
+    design_fixed(data, shape, x);
+    design_pole(data, shape, pole_distance(shape, unknown), unknown[1], x);
+}
+
+/* Shifts and design in units of the errors. */
+struct gls {
+    const law_data *data;
+    const law_shape *shape;
+    const gsl_matrix *root; /* Cholesky factor of the covariance of the shifts and temperatures */
+    gsl_vector_view y;      /* [n] */
+    gsl_matrix_view x;      /* [n * unknowns] */
+    double *copy;           /* [n] of a column */
+};
+
+/* The columns that hang on the pole, or those that do not. */
+static void whiten_columns(const struct gls *g, gsl_matrix *x, bool of_pole)
+{
+    for (size_t u = 0; u < x->size2; u++) {
+        gsl_vector_view column = gsl_matrix_column(x, u),
+                        copy = gsl_vector_view_array(g->copy, x->size1);
+        if ((u == 1 || u == law_pole_index(g->shape)) != of_pole)
+            continue;
+        gsl_vector_memcpy(&copy.vector, &column.vector);
+        dense_forward(g->root, g->copy);
+        gsl_vector_memcpy(&column.vector, &copy.vector);
+    }
+}
+
+static struct gls gls_new(const law_data *data, const law_shape *shape, const gsl_matrix *root)
+{
+    struct gls g = {
+        data,
+        shape,
+        root,
+        gsl_vector_view_array(data->scratch, data->n),
+        gsl_matrix_view_array(data->scratch + 2 * data->n, data->n, law_unknowns(shape)),
+        data->scratch + data->n};
+    for (size_t i = 0; i < data->n; i++)
+        gsl_vector_set(&g.y.vector, i, data->log_a[i]);
+    dense_forward(root, data->scratch);
+    design_fixed(data, shape, &g.x.matrix);
+    whiten_columns(&g, &g.x.matrix, false);
+    return g;
+}
+
+/* The covariance of the first unknowns, which solve_at_pole() leaves as its inverse. */
+static gsl_matrix_view covariance_of(law_fit *fit, size_t used)
+{
+    return gsl_matrix_view_array_with_tda(&fit->covariance[0][0], used, used, LAW_MOST);
+}
+
+/* Least squares for a given distance of the pole, with `used` columns; false if they are
+ * dependent. In the place of the covariance is the factor of its inverse. */
+static bool solve_at_pole(struct gls *g, double distance, double main_factor, size_t used,
+                          law_fit *fit)
+{
+    gsl_matrix_view x = gsl_matrix_submatrix(&g->x.matrix, 0, 0, g->data->n, used);
+    gsl_matrix_view cross = covariance_of(fit, used);
+    gsl_vector_view right = gsl_vector_view_array(fit->unknown, used);
+    design_pole(g->data, g->shape, distance, main_factor, &x.matrix);
+    whiten_columns(g, &x.matrix, true);
+    gsl_blas_dsyrk(CblasLower, CblasTrans, 1.0, &x.matrix, 0.0, &cross.matrix);
+    gsl_blas_dgemv(CblasTrans, 1.0, &x.matrix, &g->y.vector, 0.0, &right.vector);
+    if (gsl_linalg_cholesky_decomp1(&cross.matrix) != GSL_SUCCESS)
+        return false;
+    gsl_linalg_cholesky_svx(&cross.matrix, &right.vector);
+    fit->log_det_design = fit->chi_square = 0.0;
+    for (size_t u = 0; u < used; u++)
+        fit->log_det_design += 2.0 * log(fit->covariance[u][u]);
+    for (size_t i = 0; i < g->data->n; i++) {
+        double off = gsl_vector_get(&g->y.vector, i);
+        for (size_t u = 0; u < used; u++)
+            off -= gsl_matrix_get(&x.matrix, i, u) * fit->unknown[u];
+        fit->chi_square += off * off;
+    }
+    return true;
+}
+
+static double chi_square_at(struct gls *g, double log_distance, law_fit *fit)
+{
+    const bool good = solve_at_pole(g, exp(log_distance), 1.0, law_unknowns(g->shape) - 1, fit);
+    /* a law that rises with temperature is none */
+    return good && fit->unknown[1] > 0.0 ? fit->chi_square : HUGE_VAL;
+}
+
+/* ln of the distance of the pole that fits best: scanned, then by halves. */
+static double best_pole(struct gls *g, law_fit *fit)
+{
+    const double nearest = log(POLE_NEAREST), farthest = log(POLE_FARTHEST);
+    double step = (farthest - nearest) / POLE_GRID, best = HUGE_VAL, at = farthest;
+    for (int i = 0; i <= POLE_GRID; i++) {
+        const double p = nearest + i * step, chi = chi_square_at(g, p, fit);
+        if (chi < best) {
+            best = chi;
+            at = p;
+        }
+    }
+    for (; step > 1e-5; step *= 0.5)
+        for (int side = -1; side <= 1; side += 2) {
+            const double p = fmax(nearest, fmin(farthest, at + 0.5 * side * step));
+            const double chi = chi_square_at(g, p, fit);
+            if (chi < best) {
+                best = chi;
+                at = p;
+                break;
+            }
+        }
+    return at;
+}
+
+wt_status law_fit_with(const law_data *data, const law_shape *shape, const gsl_matrix *root,
+                       law_fit *fit, wt_error *err)
+{
+    struct gls g = gls_new(data, shape, root);
+    const size_t k = law_unknowns(shape), pole = law_pole_index(shape);
+    *fit = (law_fit){.n_unknowns = k};
+    bool good;
+    if (pole == LAW_MOST) {
+        good = solve_at_pole(&g, 1.0, 1.0, k, fit);
+    } else {
+        const double p = best_pole(&g, fit);
+        good = chi_square_at(&g, p, fit) < HUGE_VAL;
+        const law_fit linear = *fit;
+        good = good && solve_at_pole(&g, exp(p), linear.unknown[1], k, fit);
+        memcpy(fit->unknown, linear.unknown, sizeof linear.unknown);
+        fit->unknown[pole] = p;
+        fit->chi_square = linear.chi_square;
+    }
+    if (!good || !(fit->unknown[1] > 0.0)) {
+        wt_fail(err, WT_E_RANGE, "the shift factors do not fall with temperature");
+        wt_error_advice(err, "are the temperatures those of the isotherms?");
+        return WT_E_RANGE;
+    }
+    gsl_matrix_view covariance = covariance_of(fit, k);
+    gsl_linalg_cholesky_invert(&covariance.matrix);
+    if (pole < LAW_MOST && !(fit->covariance[pole][pole] < POLE_ERROR * POLE_ERROR))
+        fit->chi_square = HUGE_VAL;
+    for (size_t i = 0; i < data->n; i++)
+        fit->log_det += 2.0 * log(gsl_matrix_get(root, i, i));
+    return WT_OK;
+}
+
+double law_reml(const law_fit *fit)
+{
+    return fit->chi_square + fit->log_det + fit->log_det_design;
+}
+
+double law_spread_prior(const law_data *data, double spread)
+{
+    const bool none = data->n >= LEAST_STEADY && !(spread > law_spread(0));
+    return spread / (1.0 + spread * spread / (law_believed * law_believed)) + (none ? steady : 0.0);
+}

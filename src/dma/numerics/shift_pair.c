@@ -1,0 +1,148 @@
+/* The shift between two neighbouring isotherms: least squares over their overlap, both moduli, both
+ * directions, vertical shift projected out, on a grid. The start of the joint fit.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#include "dma/numerics/isotherm.h"
+
+#include <gsl/gsl_statistics_double.h>
+#include <math.h>
+
+/* These place isotherms before the fit of one spectrum moves them: they decide where that begins,
+ * and no number that is told.
+ * Shared range of ordinates below which two curves do not overlap [decade]: 12 %, beyond noise and
+ * clamping. */
+static const double least_overlap = 0.05;
+/* A point outside the overlap counts as one that is off by this much: what a shift that uses few
+ * points has to beat. Below it, more overlap wins; above it, less residual. [decade] As the shared
+ * range above; at half of it noise of 5 % would be taken for a wrong place. */
+static const double indifferent_residual = 0.05;
+/* Residuals below this are equally good [decade]: 0.7 %, the noise of a good rheometer. */
+static const double equal_residual = 0.003;
+
+/* Shifts that are tried over the range in which two overlap: 40 a decade where it is ten. */
+enum { GRID = 400 };
+
+struct pair {
+    const shift_curve *p, *s;
+    const bool *used; /* [MODULI] */
+    bool free_b;
+    double fixed_b;
+};
+
+struct overlap {
+    size_t n[MODULI];
+    double sum, square; /* of the gaps y_p - y_s */
+};
+
+/* Gaps y_onto(x + a) - y_from(x) times `sign` for the points of `from` that fall on `onto`. Both
+ * abscissas rise, so one pass over `onto` is enough. */
+static void add_gaps(const shift_curve *onto, const shift_curve *from, const bool *used, double a,
+                     double sign, double pivot, struct overlap *sum)
+{
+    size_t k = 0;
+    for (size_t i = 0; i < from->n; i++) {
+        const double x = from->x[i] + a;
+        if (x < onto->x[0])
+            continue;
+        if (x > onto->x[onto->n - 1])
+            return;
+        while (k + 2 < onto->n && onto->x[k + 1] < x)
+            k++;
+        const double width = onto->x[k + 1] - onto->x[k];
+        const double share = width > 0.0 ? (x - onto->x[k]) / width : 0.5;
+        for (int q = 0; q < MODULI; q++) {
+            if (!used[q])
+                continue;
+            const double y = onto->y[q][k] + share * (onto->y[q][k + 1] - onto->y[q][k]);
+            const double gap = sign * (y - from->y[q][i]) - pivot;
+            sum->n[q]++;
+            sum->sum += gap;
+            sum->square += gap * gap;
+        }
+    }
+}
+
+static struct overlap overlap_at(const struct pair *pair, double a)
+{
+    struct overlap sum = {0};
+    add_gaps(pair->p, pair->s, pair->used, a, 1.0, pair->fixed_b, &sum);
+    add_gaps(pair->s, pair->p, pair->used, -a, -1.0, pair->fixed_b, &sum);
+    return sum;
+}
+
+/* Mean square residual; b is the vertical shift that belongs to it. */
+static double mean_square(const struct pair *pair, const struct overlap *sum, double *b)
+{
+    const double n = (double)(sum->n[STORAGE] + sum->n[LOSS]);
+    const double mean = sum->sum / n;
+    *b = pair->fixed_b + (pair->free_b ? mean : 0.0);
+    return fmax(sum->square / n - (pair->free_b ? mean * mean : 0.0), 0.0);
+}
+
+/* Log likelihood lost against all points lying off by `indifferent_residual`; smaller is better.
+ * The plain mean square would prefer a chance match of a few points at the ends. */
+static double cost_of(const struct overlap *sum, double square)
+{
+    const double n = (double)(sum->n[STORAGE] + sum->n[LOSS]);
+    return n * log((square + equal_residual * equal_residual) /
+                   (indifferent_residual * indifferent_residual));
+}
+
+/* E' shares a twentieth of a decade, or a quarter of the flatter curve (a plateau has no more to
+ * give). E'' may turn back and meet anything; E' rises with frequency, so it decides if it is
+ * there. */
+static bool ordinates_overlap(const struct pair *pair)
+{
+    const int q = pair->used[STORAGE] ? STORAGE : LOSS;
+    double low[2], high[2];
+    const shift_curve *curve[2] = {pair->p, pair->s};
+    for (int c = 0; c < 2; c++)
+        gsl_stats_minmax(&low[c], &high[c], curve[c]->y[q], 1, curve[c]->n);
+    const double shared = fmin(high[0], high[1]) - fmax(low[0], low[1]);
+    const double flatter = fmin(high[0] - low[0], high[1] - low[1]);
+    return shared > 0.0 && shared >= fmin(least_overlap, 0.25 * flatter);
+}
+
+/* Whether enough points lie on the other curve. */
+static bool overlap_suffices(const struct pair *pair, const struct overlap *sum)
+{
+    bool enough = true;
+    for (int q = 0; q < MODULI; q++)
+        enough = enough && (!pair->used[q] || sum->n[q] >= SHIFT_MIN_POINTS);
+    return enough;
+}
+
+bool shift_pair_fit(const shift_set *set, size_t onto, size_t from, bool free_b, double *a,
+                    double *b)
+{
+    const shift_curve *p = &set->curves[onto], *s = &set->curves[from];
+    const struct pair pair = {p, s, set->used, free_b, free_b ? 0.0 : *b};
+    if (p->n < SHIFT_MIN_POINTS || s->n < SHIFT_MIN_POINTS || !ordinates_overlap(&pair))
+        return false;
+    const double lowest = p->x[0] - s->x[s->n - 1], highest = p->x[p->n - 1] - s->x[0];
+    const double step = (highest - lowest) / GRID;
+    double best_cost = HUGE_VAL, least_square = HUGE_VAL, closest = 0.0, b_closest = 0.0;
+    for (int g = 1; g < GRID; g++) {
+        const struct overlap sum = overlap_at(&pair, lowest + g * step);
+        if (!overlap_suffices(&pair, &sum))
+            continue;
+        double vertical;
+        const double square = mean_square(&pair, &sum, &vertical);
+        const double cost = cost_of(&sum, square);
+        if (cost < best_cost) {
+            best_cost = cost;
+            *a = lowest + g * step;
+            *b = vertical;
+        }
+        if (square < least_square) {
+            least_square = square;
+            closest = lowest + g * step;
+            b_closest = vertical;
+        }
+    }
+    /* where nothing fits within `indifferent_residual` the measure above favours few points */
+    if (best_cost >= 0.0) {
+        *a = closest;
+        *b = b_closest;
+    }
+    return best_cost < HUGE_VAL;
+}

@@ -1,0 +1,289 @@
+/* How noise goes together along an isotherm: a first-order autoregression, by the criterion of the
+ * fit, or within the isotherms alone. SPDX-License-Identifier: GPL-3.0-or-later */
+#include "dma/numerics/spectrum.h"
+
+#include <gsl/gsl_blas.h>
+#include <gsl/gsl_errno.h>
+#include <gsl/gsl_linalg.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* Correlations of neighbours along an isotherm, of which the criterion takes one: steps of about
+ * one standard error of a correlation of 30 points. */
+static const double rhos[] = {0.0, 0.2, 0.4, 0.6, 0.75, 0.88};
+enum { RHOS = sizeof rhos / sizeof *rhos };
+
+wt_status spectrum_choose_rho(spectrum *s, wt_error *err)
+{
+    double best = s->criterion, chosen = s->rho;
+    wt_status status = WT_OK;
+    for (size_t i = 1; status == WT_OK && i < RHOS; i++) {
+        s->rho = rhos[i];
+        status = spectrum_fit(s, SPECTRUM_ROUGH, err);
+        if (status != WT_OK || s->criterion >= best)
+            break; /* it has one minimum */
+        best = s->criterion;
+        chosen = rhos[i];
+    }
+    s->rho = chosen;
+    return status == WT_OK ? spectrum_fit(s, SPECTRUM_NOISE, err) : status;
+}
+
+/* ---- within the isotherms -------------------------------------------------------------------- */
+
+/* A polynomial of its own through the residuals of an isotherm in a modulus, of as many
+ * coefficients as its points allow: what a second process leaves bends more than a parabola, and
+ * would be taken for noise that goes together over decades. Two points a coefficient are left. */
+enum { LEAST_COEFFICIENTS = 3, MOST_COEFFICIENTS = 5, MOST_WIDTH = MOST_COEFFICIENTS + 1 };
+/* Points beyond the coefficients below which an isotherm says nothing: a correlation is of two
+ * neighbours at least, and their mean. */
+enum { LEAST_LEFT = 3 };
+/* atanh of the correlation is looked for in such steps, the standard error of 30 points,
+ * 1/sqrt(n - 3) (R. A. Fisher 1921), up to a correlation of 0.97. Few points, of which a polynomial
+ * takes the slow part, do not tell it from 0: it is believed to be about so much (half width of a
+ * Cauchy prior). Chosen: many points overrule it; with half of it a correlation of few points
+ * counts for chance, and with twice as much few points make noise of what a second process leaves.
+ */
+enum { CORRELATIONS = 15 };
+static const double correlation_first = -0.36, correlation_step = 0.18, correlation_believed = 0.3;
+/* Noise that changes along all isotherms alike: ln of its size by their place from -1 to 1, a line
+ * and a parabola, each believed to be below so much: a factor 2.2 from one end to the other.
+ * Chosen: the standard error of such a slope is 0.2 with 30 values, so that a whole sweep overrules
+ * it. Rounds: each shape moves the other little. */
+enum { SHAPES = SPECTRUM_SHAPES, NOISE_ROUNDS = 4 };
+static const double shape_believed = 0.4;
+
+struct within {
+    double squares, freedom, log_det;
+};
+
+struct noise_work {
+    double *v;            /* [n * MOST_WIDTH] */
+    double *rest, *left;  /* [n] what the polynomial leaves: residual, share of the point */
+    double scale[MODULI]; /* variances */
+    double score[SHAPES]; /* of the shape */
+    double information[SHAPES * SHAPES];
+};
+
+/* Where on its isotherm a point lies, -1 to 1. */
+static double place_on_isotherm(const spectrum *s, size_t curve, size_t k)
+{
+    const double from = s->x[s->first[curve]], to = s->x[s->first[curve + 1] - 1];
+    return to > from ? (2.0 * s->x[k] - from - to) / (to - from) : 0.0;
+}
+
+/* Fills rest and left of the curve in a modulus. */
+static struct within residual_within(const spectrum *s, size_t curve, int q, struct noise_work *w)
+{
+    const size_t from = s->first[curve], to = s->first[curve + 1];
+    size_t n = LEAST_COEFFICIENTS;
+    while (n < MOST_COEFFICIENTS && 2 * (n + 2) <= to - from)
+        n++;
+    const size_t width = n + 1;
+    double cross_block[MOST_WIDTH * MOST_WIDTH] = {0}, *v = w->v;
+    struct within sum = {0.0, -(double)n, 0.0};
+    for (size_t k = from; k < to; k++) {
+        double power = spectrum_weight(s, k, q);
+        sum.freedom += power > 0.0;
+        v[k * width + n] = s->residual[q][k];
+        for (size_t i = 0; i < n; i++, power *= place_on_isotherm(s, curve, k))
+            v[k * width + i] = power;
+    }
+    if (sum.freedom < (double)LEAST_LEFT)
+        return (struct within){0.0, 0.0, 0.0};
+    spectrum_whiten(s, curve, q, v + from * width, width);
+    for (size_t k = from; k < to; k++)
+        for (size_t i = 0; i < width; i++)
+            for (size_t j = 0; j < width; j++)
+                cross_block[i * width + j] += v[k * width + i] * v[k * width + j];
+    gsl_matrix_view cross = gsl_matrix_view_array(cross_block, width, width);
+    if (gsl_linalg_cholesky_decomp1(&cross.matrix) != GSL_SUCCESS)
+        return (struct within){0.0, 0.0, 0.0};
+    /* row by row times the inverse of the factor: an orthogonal polynomial, and what it leaves */
+    const double last = gsl_matrix_get(&cross.matrix, n, n);
+    for (size_t k = from; k < to; k++) {
+        gsl_vector_view row = gsl_vector_view_array(v + k * width, width);
+        gsl_blas_dtrsv(CblasLower, CblasNoTrans, CblasNonUnit, &cross.matrix, &row.vector);
+        w->left[k] = s->weight[q][k] > 0.0 ? 1.0 : 0.0;
+        for (size_t i = 0; i < n; i++)
+            w->left[k] -= v[k * width + i] * v[k * width + i];
+        w->rest[k] = last * v[k * width + n];
+    }
+    sum.squares = last * last;
+    for (size_t i = 0; i < n; i++)
+        sum.log_det += 2.0 * log(gsl_matrix_get(&cross.matrix, i, i));
+    return sum;
+}
+
+/* -2 ln restricted likelihood of the polynomials, and the variance of each modulus. */
+static double within_all(const spectrum *s, struct noise_work *w)
+{
+    double criterion = spectrum_log_det_correlation(s);
+    for (int q = 0; q < MODULI; q++) {
+        struct within sum = {0};
+        for (size_t i = 0; i < s->n_curves; i++) {
+            const struct within one = residual_within(s, i, q, w);
+            sum.squares += one.squares;
+            sum.freedom += one.freedom;
+            sum.log_det += one.log_det;
+        }
+        w->scale[q] = sum.freedom > 0.0 ? sum.squares / sum.freedom : 0.0;
+        criterion += sum.log_det + (sum.freedom > 0.0 ? sum.freedom * log(w->scale[q]) : 0.0);
+    }
+    return criterion;
+}
+
+/* Sets the correlation to its mean; the variance of atanh of it. */
+static double correlate_within(spectrum *s, struct noise_work *w)
+{
+    double criterion[CORRELATIONS], least = HUGE_VAL, sum[3] = {0.0, 0.0, 0.0};
+    for (int i = 0; i < CORRELATIONS; i++) {
+        const double z = correlation_first + i * correlation_step;
+        s->rho = tanh(z);
+        criterion[i] =
+            within_all(s, w) + 2.0 * log1p(z * z / (correlation_believed * correlation_believed));
+        least = fmin(least, criterion[i]);
+    }
+    for (int i = 0; i < CORRELATIONS; i++) {
+        const double weight = exp(-0.5 * (criterion[i] - least)),
+                     z = correlation_first + i * correlation_step;
+        sum[0] += weight;
+        sum[1] += weight * z;
+        sum[2] += weight * z * z;
+    }
+    const double mean = sum[1] / sum[0];
+    s->rho = tanh(fmax(mean, 0.0)); /* below 0 it is chance */
+    return sum[2] / sum[0] - mean * mean;
+}
+
+/* What a curve says of the shape in a modulus; its place less the mean, which is the factor of the
+ * isotherm. */
+static void add_shape(const spectrum *s, size_t curve, int q, struct noise_work *w)
+{
+    double sum = 0.0, mean[SHAPES] = {0.0};
+    for (size_t k = s->first[curve]; k < s->first[curve + 1]; k++) {
+        const double u = place_on_isotherm(s, curve, k);
+        sum += w->left[k];
+        mean[0] += w->left[k] * u;
+        mean[1] += w->left[k] * u * u;
+    }
+    for (size_t k = s->first[curve]; sum > 0.0 && k < s->first[curve + 1]; k++) {
+        const double u = place_on_isotherm(s, curve, k);
+        const double by[SHAPES] = {u - mean[0] / sum, u * u - mean[1] / sum};
+        for (int i = 0; i < SHAPES; i++) {
+            w->score[i] += by[i] * (w->rest[k] * w->rest[k] / w->scale[q] - w->left[k]);
+            for (int j = 0; j < SHAPES; j++)
+                w->information[i * SHAPES + j] += 2.0 * w->left[k] * by[i] * by[j];
+        }
+    }
+}
+
+/* Factors of the isotherms and the shape from what the polynomials leave; the variance of ln of
+ * the noise towards the ends. */
+static double shape_within(spectrum *s, struct noise_work *w, double shape[SHAPES])
+{
+    const double belief = 1.0 / (shape_believed * shape_believed);
+    const double end = 0.25; /* where the columns of the test have their weight, by the parabola */
+    (void)within_all(s, w);
+    for (int i = 0; i < SHAPES; i++) {
+        w->score[i] = -belief * shape[i];
+        for (int j = 0; j < SHAPES; j++)
+            w->information[i * SHAPES + j] = i == j ? belief : 0.0;
+    }
+    for (size_t i = 0; i < s->n_curves; i++) {
+        double squares = SPECTRUM_KAPPA_BELIEF, freedom = SPECTRUM_KAPPA_BELIEF;
+        for (int q = 0; q < MODULI; q++) {
+            const struct within one = residual_within(s, i, q, w);
+            if (!(one.freedom > 0.0 && w->scale[q] > 0.0))
+                continue;
+            squares += one.squares / w->scale[q] * s->kappa[i] * s->kappa[i];
+            freedom += one.freedom;
+            add_shape(s, i, q, w);
+        }
+        s->kappa[i] = sqrt(squares / freedom);
+    }
+    gsl_matrix_view information = gsl_matrix_view_array(w->information, SHAPES, SHAPES);
+    gsl_vector_view score = gsl_vector_view_array(w->score, SHAPES);
+    gsl_linalg_cholesky_decomp1(&information.matrix);
+    gsl_linalg_cholesky_svx(&information.matrix, &score.vector);
+    gsl_linalg_cholesky_invert(&information.matrix);
+    for (int i = 0; i < SHAPES; i++)
+        shape[i] += fmax(-1.0, fmin(1.0, w->score[i]));
+    return end * end * w->information[SHAPES * SHAPES - 1];
+}
+
+void spectrum_spread(spectrum *s, const double shape[SPECTRUM_SHAPES])
+{
+    double mean = 0.0;
+    for (size_t i = 0; i < s->n_curves; i++)
+        mean += log(s->kappa[i]) / (double)s->n_curves;
+    for (size_t i = 0; i < s->n_curves; i++) {
+        s->kappa[i] *= exp(-mean);
+        for (size_t k = s->first[i]; k < s->first[i + 1]; k++) {
+            const double u = place_on_isotherm(s, i, k);
+            for (int q = 0; q < MODULI; q++)
+                s->spread[q][k] = s->kappa[i] * exp(shape[0] * u + shape[1] * (u * u - 1.0 / 3.0));
+        }
+    }
+}
+
+static wt_status noise_work_new(const spectrum *s, struct noise_work *w, wt_error *err)
+{
+    *w = (struct noise_work){.v = calloc(s->n * (MOST_WIDTH + 2 + MODULI), sizeof *w->v)};
+    if (w->v == NULL)
+        return wt_fail(err, WT_E_MEMORY, "no memory for the noise");
+    w->rest = w->v + s->n * MOST_WIDTH;
+    w->left = w->rest + s->n;
+    return WT_OK;
+}
+
+wt_status spectrum_misses(spectrum *s, double all[MODULI], double within[MODULI], wt_error *err)
+{
+    const double rho = s->rho;
+    struct noise_work w;
+    const wt_status status = noise_work_new(s, &w, err);
+    if (status != WT_OK)
+        return status;
+    double *const weights = w.left + s->n; /* E', then E'' */
+    s->rho = 0.0;
+    for (int q = 0; q < MODULI; q++)
+        memcpy(weights + (size_t)q * s->n, s->weight[q], s->n * sizeof *weights);
+    (void)spectrum_outliers(s);
+    spectrum_evaluate(s, s->value, false);
+    (void)within_all(s, &w);
+    for (int q = 0; q < MODULI; q++) {
+        double n = 0.0;
+        for (size_t k = 0; k < s->n; k++)
+            n += s->weight[q][k] > 0.0;
+        all[q] = n > 0.0 ? sqrt(spectrum_squares(s, q) / n) : 0.0;
+        within[q] = sqrt(w.scale[q]);
+    }
+    for (int q = 0; q < MODULI; q++)
+        memcpy(s->weight[q], weights + (size_t)q * s->n, s->n * sizeof *weights);
+    s->rho = rho;
+    free(w.v);
+    return WT_OK;
+}
+
+wt_status spectrum_noise_within(spectrum *s, spectrum_within *within, wt_error *err)
+{
+    struct noise_work w;
+    const wt_status status = noise_work_new(s, &w, err);
+    if (status != WT_OK)
+        return status;
+    *within = (spectrum_within){0};
+    for (size_t i = 0; i < s->n_curves; i++)
+        s->kappa[i] = 1.0;
+    for (int round = 0; round < NOISE_ROUNDS; round++) {
+        spectrum_spread(s, within->shape);
+        s->rho = 0.0;
+        spectrum_evaluate(s, s->value, false);
+        const double of_correlation = correlate_within(s, &w);
+        within->rho = s->rho;
+        within->uncertainty = 4.0 * (of_correlation + shape_within(s, &w, within->shape));
+    }
+    s->rho = 0.0;
+    free(w.v);
+    return WT_OK;
+}

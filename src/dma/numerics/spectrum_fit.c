@@ -1,0 +1,204 @@
+/* The fit of one spectrum to all isotherms: Levenberg-Marquardt over terms and shifts, noise and
+ * smoothness after each step by Fellner-Schall (Wood and Fasiolo, Biometrics 73 (2017) 1071), which
+ * is restricted maximum likelihood. SPDX-License-Identifier: GPL-3.0-or-later */
+#include "dma/numerics/spectrum.h"
+
+#include "core/math/gsl_quiet.h"
+#include <float.h>
+#include <math.h>
+#include <string.h>
+
+/* Bounds of time for what does not settle. Twelve dampings by ten leave a trillionth of a step.
+ * What is steep across is curved along where one spectrum is far off: there a half or an eighth of
+ * the way gains what a damped step, which goes across alone, does not. */
+enum { MAX_DAMPINGS = 12, MAX_HALVINGS = 4 };
+/* What has not settled by then is said to be unsettled; a start need not. */
+static const int most_steps[] = {[SPECTRUM_NOISE] = 300,
+                                 [SPECTRUM_ROUGH] = 80,
+                                 [SPECTRUM_ROBUST] = 40,
+                                 [SPECTRUM_HELD] = 80,
+                                 [SPECTRUM_TRIAL] = 80};
+/* Each step follows noise and smoothness, and they follow it: where one spectrum is far off the two
+ * may go round in a circle. What has not settled after so many steps, three times what a sweep that
+ * holds takes, goes less and less of the way (Robbins and Monro, Ann. Math. Stat. 22 (1951) 400).
+ */
+static const double whole_steps = 30.0;
+/* Done when a step gains less than this of -2 ln likelihood (a standard error is 1), and noise and
+ * smoothness change by less than this share. */
+static const double least_gain = SPECTRUM_LEAST_GAIN, least_change = 2e-3;
+/* The same where that is good enough: a third of a standard error, and noise to 2 %, while points
+ * that are five standard deviations off are looked for; and where only the objective is wanted, by
+ * differences of which weights are made, exp(-0.01). */
+static const double rough_gain = 0.1, rough_change = 0.02, held_gain = 0.02;
+/* Where a trial only asks whether much less is left, 30 % of the noise, which is half of the
+ * objective: shares of that which a step gains, and which the next may. */
+static const double trial_gain = 0.005, trial_left = 0.1;
+
+/* Of a diagonal: more is no rounding. */
+static const double most_rounding = 1e-8;
+
+/* Factor of precision + damping * its diagonal. What is smooth in the vertical shifts is no
+ * unknown: it is not damped, and the diagonal of a vertical shift is that which it leaves. */
+static bool factor_damped(spectrum *s, double damping)
+{
+    bordered_copy(&s->factor, &s->precision);
+    for (size_t i = 0; i < s->n_linear; i++)
+        *gsl_matrix_ptr(s->factor.border, i, i) *= 1.0 + damping;
+    for (size_t i = 0; i < s->n_curves; i++) {
+        double *own = s->factor.own + BLOCK_OWN * i;
+        double smooth = 0.0;
+        for (size_t j = 0; j < s->prior->n_smooth; j++)
+            smooth +=
+                pow(gsl_matrix_get(s->precision.side, BLOCK_SIDE * i + 1, s->n_linear + j), 2);
+        own[0] += s->column_a[i] < 0 ? 0.0 : damping * own[0];
+        own[2] += s->column_b[i] < 0 ? 0.0 : damping * (own[2] - smooth);
+    }
+    return bordered_factor(&s->factor);
+}
+
+void spectrum_solve(const spectrum *s, const double *y, double *x)
+{
+    double *border = s->border, *side = s->side;
+    memset(border, 0, s->factor.m * sizeof *border);
+    memcpy(border, y, s->n_linear * sizeof *border);
+    for (size_t i = 0; i < s->n_curves; i++) {
+        side[BLOCK_SIDE * i] = s->column_a[i] < 0 ? 0.0 : y[s->column_a[i]];
+        side[BLOCK_SIDE * i + 1] = s->column_b[i] < 0 ? 0.0 : y[s->column_b[i]];
+    }
+    bordered_solve(&s->factor, border, side);
+    memcpy(x, border, s->n_linear * sizeof *border);
+    for (size_t i = 0; i < s->n_curves; i++) {
+        if (s->column_a[i] >= 0)
+            x[s->column_a[i]] = side[BLOCK_SIDE * i];
+        if (s->column_b[i] >= 0)
+            x[s->column_b[i]] = side[BLOCK_SIDE * i + 1];
+    }
+}
+
+double spectrum_variance(const spectrum *s, size_t curve)
+{
+    return s->covariance.own[BLOCK_OWN * curve];
+}
+
+static wt_status invert_precision(spectrum *s, wt_error *err)
+{
+    /* little noise beside a loose prior: rounding may leave no more than a part in 1/(n epsilon) of
+     * a diagonal, which is given back */
+    double rounding = 0.0;
+    while (!factor_damped(s, rounding) && rounding < most_rounding)
+        rounding = fmax(10.0 * rounding, (double)s->n_unknowns * DBL_EPSILON);
+    if (!(rounding < most_rounding))
+        return wt_fail(err, WT_E_CONVERGENCE, "the isotherms do not determine a spectrum");
+    s->rounding = rounding;
+    s->log_det = bordered_log_det(&s->factor);
+    bordered_inverse(&s->factor, s->scratch, &s->covariance);
+    return WT_OK;
+}
+
+double spectrum_step_left(const spectrum *s)
+{
+    double sum = 0.0;
+    spectrum_solve(s, s->gradient->data, s->direction->data);
+    for (size_t u = 0; u < s->n_unknowns; u++)
+        sum += s->gradient->data[u] * s->direction->data[u];
+    return sqrt(fmax(sum, 0.0));
+}
+
+/* Noise and smoothness may ask for another step, and a part of one gains little. */
+static bool is_at_end(spectrum *s, double enough_gain)
+{
+    return !factor_damped(s, 0.0) || spectrum_step_left(s) < sqrt(enough_gain);
+}
+
+/* The whole of a direction, or less of it, as long as it raises the objective; what that gained, or
+ * a negative number. */
+static double go_along(spectrum *s)
+{
+    double gain = -1.0, share = 1.0;
+    for (int i = 0; i < MAX_HALVINGS && !(gain >= 0.0); i++, share *= 0.5) { /* also for NaN */
+        for (size_t u = 0; u < s->n_unknowns; u++)
+            s->trial[u] = s->value[u] + share * gsl_vector_get(s->direction, u);
+        spectrum_evaluate(s, s->trial, false);
+        gain = s->objective - spectrum_objective(s, s->trial);
+    }
+    return gain >= 0.0 ? gain : -1.0;
+}
+
+/* A step that does not raise the objective; what it gained. */
+static wt_status take_step(spectrum *s, double *damping, double *gain, wt_error *err)
+{
+    *gain = 0.0;
+    for (int i = 0; i < MAX_DAMPINGS; i++) {
+        if (!factor_damped(s, *damping)) {
+            *damping = fmax(10.0 * *damping, 1e-6);
+            continue;
+        }
+        spectrum_solve(s, s->gradient->data, s->direction->data);
+        const double gained = go_along(s);
+        if (gained >= 0.0) {
+            memcpy(s->value, s->trial, s->n_unknowns * sizeof *s->value);
+            *gain = gained;
+            *damping = *damping > 1e-6 ? *damping / 10.0 : 0.0;
+            return WT_OK;
+        }
+        *damping = fmax(10.0 * *damping, 1e-3);
+    }
+    return isfinite(s->objective)
+               ? WT_OK
+               : wt_fail(err, WT_E_CONVERGENCE, "no spectrum describes the isotherms");
+}
+
+/* Noise and smoothness have changed. */
+static void assemble_objective(spectrum *s)
+{
+    spectrum_assemble(s);
+    s->objective = spectrum_objective(s, s->value);
+}
+
+static void prepare_equations(spectrum *s)
+{
+    spectrum_evaluate(s, s->value, true);
+    spectrum_normal(s);
+    assemble_objective(s);
+}
+
+wt_status spectrum_fit(spectrum *s, spectrum_mode mode, wt_error *err)
+{
+    const bool rough = mode == SPECTRUM_ROBUST || mode == SPECTRUM_ROUGH;
+    const bool held = mode == SPECTRUM_HELD || mode == SPECTRUM_TRIAL;
+    const double least = rough ? rough_gain : held ? held_gain : least_gain;
+    wt_status status = WT_OK;
+    double damping = 0.0, gain = HUGE_VAL, change = 0.0;
+    bool done = false;
+    gsl_quiet();
+    s->smooth_move = 0.0;
+    prepare_equations(s);
+    for (int i = 0; status == WT_OK && !done && i < most_steps[mode]; i++) {
+        status = take_step(s, &damping, &gain, err);
+        if (status != WT_OK)
+            break;
+        prepare_equations(s);
+        if (!held) {
+            status = invert_precision(s, err);
+            if (status != WT_OK)
+                break;
+            change = spectrum_noise_update(s, fmin(1.0, whole_steps / (double)(i + 1)));
+        }
+        if (mode == SPECTRUM_ROBUST) {
+            spectrum_student_weights(s);
+            prepare_equations(s);
+        } else {
+            assemble_objective(s);
+        }
+        const bool trial = mode == SPECTRUM_TRIAL;
+        const double enough = trial ? fmax(least, trial_gain * s->objective) : least;
+        done = gain < enough && change < (rough ? rough_change : least_change) &&
+               is_at_end(s, trial ? fmax(least, trial_left * s->objective) : least);
+    }
+    s->settled = done;
+    if (status == WT_OK)
+        status = invert_precision(s, err);
+    if (status == WT_OK)
+        spectrum_criterion(s);
+    return status;
+}

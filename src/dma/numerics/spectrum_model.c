@@ -1,0 +1,491 @@
+/* The model of all isotherms by one relaxation spectrum: rows of residuals and derivatives, normal
+ * equations, priors. SPDX-License-Identifier: GPL-3.0-or-later */
+#include "dma/numerics/spectrum.h"
+
+#include "core/math/arena_gsl.h"
+#include "core/math/blocked_product.h"
+
+#include <math.h>
+#include <string.h>
+
+/* Standard deviation of the prior of ln E_inf about a third of the lowest storage modulus: a factor
+ * 20 either way, so that it holds what the data leave open, and is nothing beside what they say. */
+static const double equilibrium_spread = 3.0;
+/* Isotherms that span more once shifted have frequencies or shifts of another unit [decade]: from
+ * vibrations of molecules, 1e13 Hz, to a century, 1e-10 Hz, are 23, and WLF of universal constants
+ * gives 17 above the glass transition. It bounds the terms, too. */
+static const double most_decades = 100.0;
+/* Slope of the terms to start from beyond the slowest measured point: that of Rouse's spectrum. */
+static const double start_fall = 0.5;
+/* Slopes of ln E' to start from. A spectrum makes 0 to 2, and both ends have no start: of slope 0
+ * there is no loss, and with 2 all relaxes beyond the range. */
+static const double flattest = 0.01, steepest = 1.5;
+
+/* ---- making ---------------------------------------------------------------------------------- */
+
+static wt_status allocate_spectrum(spectrum *s, wt_error *err)
+{
+    pool *m = &s->memory;
+    const size_t most = s->n_linear + 2 * s->n_curves;
+    const size_t smooth = s->n_curves < SPECTRUM_MOST_SMOOTH ? s->n_curves : SPECTRUM_MOST_SMOOTH;
+    const size_t border = s->n_linear + smooth;
+    s->first = pool_alloc(m, s->n_curves + 1, sizeof *s->first);
+    s->column_a = pool_alloc(m, s->n_curves, sizeof *s->column_a);
+    s->column_b = pool_alloc(m, s->n_curves, sizeof *s->column_b);
+    s->given = pool_alloc(m, s->n_curves, sizeof *s->given);
+    s->given_a = pool_numbers(m, s->n_curves);
+    s->given_b = pool_numbers(m, s->n_curves);
+    s->x = pool_numbers(m, s->n);
+    s->copy = pool_numbers(m, s->n);
+    for (int q = 0; q < MODULI; q++) {
+        s->y[q] = pool_numbers(m, s->n);
+        s->weight[q] = pool_numbers(m, s->n);
+        s->was[q] = pool_numbers(m, s->n);
+        s->spread[q] = pool_numbers(m, s->n);
+        s->residual[q] = pool_numbers(m, s->n);
+        s->row[q] = pool_numbers(m, (s->n + TILE_ROWS - 1) * (s->n_linear + 2));
+        s->normal[q] = bordered_new(m, s->n_linear, s->n_curves);
+    }
+    s->kappa = pool_numbers(m, s->n_curves);
+    s->bend = pool_numbers(m, s->n_terms);
+    s->term = pool_numbers(m, s->n_linear);
+    s->time = pool_numbers(m, s->n_terms);
+    s->value = pool_numbers(m, most);
+    s->trial = pool_numbers(m, most);
+    s->precision = bordered_new(m, border, s->n_curves);
+    s->covariance = bordered_new(m, border, s->n_curves);
+    s->factor = bordered_new(m, border, s->n_curves);
+    s->scratch = pool_matrix(m, border, border);
+    s->border = pool_numbers(m, border);
+    s->side = pool_numbers(m, BLOCK_SIDE * s->n_curves);
+    s->gradient = pool_vector(m, most);
+    s->direction = pool_vector(m, most);
+    if (s->loading == WT_CREEP)
+        spectrum_modes_new(s);
+    return m->failed
+               ? wt_fail(err, WT_E_MEMORY, "no memory for a spectrum of %zu terms", s->n_terms)
+               : WT_OK;
+}
+
+void spectrum_free(spectrum *s)
+{
+    pool_free(&s->memory);
+    *s = (spectrum){0};
+}
+
+/* ln of what is nearest to E'' at a point: E'' itself, what the slope of E' makes of it
+ * (Kramers-Kronig in its local form), or tan delta. */
+static double near_loss(const spectrum *s, size_t curve, size_t k)
+{
+    if (s->used[LOSS])
+        return s->y[LOSS][k];
+    const size_t from = k > s->first[curve] ? k - 1 : k,
+                 to = k + 1 < s->first[curve + 1] ? k + 1 : k;
+    const double rise = s->y[STORAGE][to] - s->y[STORAGE][from], width = s->x[to] - s->x[from];
+    const double slope = width > 0.0 ? fmax(flattest, fmin(steepest, rise / width)) : flattest;
+    return s->y[STORAGE][k] + log(slope * M_PI / 2.0);
+}
+
+/* The same at ln w = `at`, of the nearest points once shifted. */
+static double loss_at(const spectrum *s, double at, const double *a, const double *b)
+{
+    double sum = 0.0, weights = 0.0;
+    for (size_t i = 0; i < s->n_curves; i++)
+        for (size_t k = s->first[i]; k < s->first[i + 1]; k++) {
+            const double away = (s->x[k] + a[i] - at) / s->step;
+            const double w = 1.0 / (1e-2 + away * away * away * away);
+            sum += w * (near_loss(s, i, k) + b[i]);
+            weights += w;
+        }
+    return sum / weights;
+}
+
+/* Terms to start from: E'' at the frequency of a term. By tan delta alone E' begins at 1 and rises
+ * by 2/pi delta. */
+static void start_terms(spectrum *s, const double *a, const double *b)
+{
+    double lowest = HUGE_VAL, slowest = HUGE_VAL, fastest = -HUGE_VAL, level = 0.0;
+    const int q = s->used[STORAGE] ? STORAGE : LOSS;
+    for (size_t i = 0; i < s->n_curves; i++) {
+        slowest = fmin(slowest, s->x[s->first[i]] + a[i]);
+        fastest = fmax(fastest, s->x[s->first[i + 1] - 1] + a[i]);
+        for (size_t k = s->first[i]; k < s->first[i + 1]; k++)
+            lowest = fmin(lowest, s->y[q][k] + b[i]);
+    }
+    if (s->ratio)
+        lowest = 0.0;
+    s->level = 0.0;
+    for (size_t j = s->n_terms; j-- > 0;) { /* from slow to fast */
+        const double at = -(s->log_tau + (double)j * s->step), near = loss_at(s, at, a, b);
+        if (s->ratio && at > slowest && at < fastest)
+            level += 2.0 / M_PI * atan(exp(near)) * s->step;
+        /* beyond the measured range falling: what is slow is left to the equilibrium modulus */
+        s->value[j] = near + level + log(s->step * 2.0 / M_PI) - start_fall * fmax(slowest - at, 0);
+        s->level += s->value[j] / (double)s->n_terms;
+    }
+    s->equilibrium_mean = lowest - 1.0;
+    s->equilibrium_spread = equilibrium_spread;
+    if (!s->liquid)
+        s->value[s->n_terms] = lowest - 0.5;
+}
+
+wt_status spectrum_new(const shift_set *set, const bool *use, size_t anchor, const double *a,
+                       const double *b, double terms_per_decade, bool liquid, spectrum *s,
+                       wt_error *err)
+{
+    double low = HUGE_VAL, high = -HUGE_VAL;
+    *s = (spectrum){.liquid = liquid,
+                    .loading = set->loading,
+                    .used = {set->used[STORAGE], set->used[LOSS]},
+                    .ratio = set->by == WT_BY_LOSS_FACTOR,
+                    .step = M_LN10 / terms_per_decade};
+    for (size_t i = 0; i < set->n; i++) {
+        const shift_curve *c = &set->curves[i];
+        if (!use[i])
+            continue;
+        if (i == anchor)
+            s->anchor = s->n_curves;
+        s->n_curves++;
+        s->n += c->n;
+        low = fmin(low, c->x[0] + a[i]);
+        high = fmax(high, c->x[c->n - 1] + a[i]);
+    }
+    if (!(high - low <= most_decades)) {
+        wt_fail(err, WT_E_RANGE, "the shifted isotherms span %.3g decades of frequency",
+                high - low);
+        wt_error_expected(err, "at most %g", most_decades);
+        wt_error_advice(err, "check the unit of the frequencies, and the shifts if they are given");
+        return WT_E_RANGE;
+    }
+    s->n_fast = (size_t)ceil(spectrum_fast_margin * terms_per_decade);
+    s->n_measured = (size_t)ceil((high + spectrum_fast_margin - low) * terms_per_decade);
+    s->n_terms = 1 + s->n_measured + (size_t)ceil(spectrum_slow_margin * terms_per_decade);
+    s->n_linear = s->n_terms + (liquid ? 0 : 1);
+    s->log_tau = -(high + spectrum_fast_margin) * M_LN10;
+    wt_status status = allocate_spectrum(s, err);
+    if (status != WT_OK) {
+        spectrum_free(s);
+        return status;
+    }
+    double *start = s->trial; /* a, then b */
+    size_t curve = 0, k = 0;
+    for (size_t i = 0; i < set->n; i++) {
+        const shift_curve *c = &set->curves[i];
+        if (!use[i])
+            continue;
+        s->first[curve] = k;
+        for (size_t p = 0; p < c->n; p++, k++) {
+            s->x[k] = c->x[p] * M_LN10;
+            for (int q = 0; q < MODULI; q++) {
+                s->y[q][k] = c->y[q][p] * M_LN10;
+                s->weight[q][k] = s->used[q] ? 1.0 : 0.0;
+                s->spread[q][k] = 1.0;
+            }
+        }
+        start[curve] = a[i] * M_LN10;
+        s->given[curve] = c->given || i == anchor;
+        s->given_a[curve] = (a[i] - a[anchor]) * M_LN10;
+        s->given_b[curve] = c->held ? b[i] * M_LN10 : (double)NAN;
+        start[s->n_curves + curve] = b[i] * M_LN10;
+        s->kappa[curve++] = 1.0;
+    }
+    s->first[curve] = k;
+    start_terms(s, start, start + s->n_curves);
+    s->smooth = 0.3;
+    for (size_t j = 0; j < s->n_terms; j++) {
+        s->bend[j] = 1.0;
+        s->time[j] = exp((double)j * s->step);
+    }
+    spectrum_set_bends(s);
+    for (int q = 0; q < MODULI; q++)
+        s->noise[q] = 0.05;
+    /* until a prior is set: shifts lie behind the terms, the anchor's among them */
+    s->n_unknowns = s->n_linear;
+    for (size_t i = 0; i < s->n_curves; i++) {
+        s->column_a[i] = (long)s->n_unknowns;
+        s->value[s->n_unknowns++] = start[i] - start[s->anchor];
+        s->column_b[i] = (long)s->n_unknowns;
+        s->value[s->n_unknowns++] = start[s->n_curves + i];
+    }
+    return WT_OK;
+}
+
+double spectrum_a(const spectrum *s, size_t curve)
+{
+    return s->column_a[curve] < 0 ? s->given_a[curve] : s->value[s->column_a[curve]];
+}
+
+double spectrum_b_of(const spectrum *s, const double *value, size_t curve)
+{
+    if (s->column_b[curve] >= 0)
+        return value[s->column_b[curve]];
+    return isnan(s->given_b[curve]) ? s->prior->mean[curve] : s->given_b[curve];
+}
+
+double spectrum_b(const spectrum *s, size_t curve)
+{
+    return spectrum_b_of(s, s->value, curve);
+}
+
+void spectrum_terms(const spectrum *s, const double *value, double *term)
+{
+    for (size_t j = 0; j < s->n_linear; j++)
+        term[j] = exp(value[j]);
+}
+
+void spectrum_set_prior(spectrum *s, const spectrum_prior *prior)
+{
+    double *shift = s->trial; /* a, b of all curves */
+    for (size_t i = 0; i < s->n_curves; i++) {
+        shift[2 * i] = spectrum_a(s, i);
+        shift[2 * i + 1] = spectrum_b(s, i);
+    }
+    s->prior = prior;
+    s->n_unknowns = s->n_linear;
+    for (size_t i = 0; i < s->n_curves; i++) {
+        s->column_a[i] = s->column_b[i] = -1;
+        if (!s->given[i]) {
+            s->column_a[i] = (long)s->n_unknowns;
+            s->value[s->n_unknowns++] = shift[2 * i];
+        }
+    }
+    for (size_t i = 0; i < s->n_curves; i++)
+        if (!prior->held && isnan(s->given_b[i]) && (prior->precision != NULL || i != s->anchor)) {
+            s->column_b[i] = (long)s->n_unknowns;
+            s->value[s->n_unknowns++] = shift[2 * i + 1];
+        }
+}
+
+/* ---- the moduli ------------------------------------------------------------------------------ */
+
+/* Sums over the terms at a frequency: E', E'', and their slopes. */
+enum { SUMS = 2 * MODULI };
+
+/* Terms from j on, as many as there are lanes; gradient: E' and E'' of each, or NULL. */
+WIDE_PART void add_terms(const double *term, const double *time, double first, wide sum[SUMS],
+                         double *storage_at, double *loss_at)
+{
+    wide e, z;
+    wide_load(&e, term);
+    wide_load(&z, time);
+    z *= first;
+    const wide share = z / (1.0 + z * z), loss = e * share, storage = loss * z;
+    sum[STORAGE] += storage;
+    sum[LOSS] += loss;
+    sum[MODULI + STORAGE] += 2.0 * loss * share;
+    sum[MODULI + LOSS] += loss * (1.0 - 2.0 * z * share);
+    if (storage_at != NULL) {
+        wide_store(storage_at, &storage);
+        wide_store(loss_at, &loss);
+    }
+}
+
+/* The moduli and their rises at a frequency by all terms, whose times are first * s->time. */
+WIDE_REGISTERS
+static void sum_terms(const spectrum *s, const double *term, double first, double total[SUMS],
+                      double *const by[MODULI])
+{
+    wide sum[SUMS] = {{0.0}};
+    const size_t whole = s->n_terms / WIDE * WIDE, rest = s->n_terms - whole;
+    for (size_t j = 0; j < whole; j += WIDE)
+        add_terms(term + j, s->time + j, first, sum, by != NULL ? by[STORAGE] + j : NULL,
+                  by != NULL ? by[LOSS] + j : NULL);
+    if (rest > 0) {
+        double last[WIDE] = {0.0}, time[WIDE] = {0.0}, storage[WIDE], loss[WIDE];
+        memcpy(last, term + whole, rest * sizeof *last);
+        memcpy(time, s->time + whole, rest * sizeof *time);
+        add_terms(last, time, first, sum, storage, loss);
+        if (by != NULL) {
+            memcpy(by[STORAGE] + whole, storage, rest * sizeof *storage);
+            memcpy(by[LOSS] + whole, loss, rest * sizeof *loss);
+        }
+    }
+    for (int i = 0; i < SUMS; i++)
+        total[i] = wide_sum(&sum[i]);
+}
+
+WIDE_REGISTERS
+static void scale_row(double *row, size_t n, double by)
+{
+    for (size_t j = 0; j < n; j++)
+        row[j] *= by;
+}
+
+void spectrum_at(const spectrum *s, const double *term, double x, double log_modulus[MODULI],
+                 double slope[MODULI], double *const gradient[MODULI])
+{
+    const double equilibrium = s->liquid ? 0.0 : term[s->n_terms];
+    double total[SUMS];
+    sum_terms(s, term, exp(x + s->log_tau), total, gradient);
+    total[STORAGE] += equilibrium;
+    for (int q = 0; q < MODULI; q++) {
+        log_modulus[q] = log(total[q]);
+        slope[q] = total[MODULI + q] / total[q];
+        if (gradient != NULL)
+            scale_row(gradient[q], s->n_terms, 1.0 / total[q]);
+    }
+    if (gradient != NULL && !s->liquid) {
+        gradient[STORAGE][s->n_terms] = equilibrium / total[STORAGE];
+        gradient[LOSS][s->n_terms] = 0.0;
+    }
+}
+
+void spectrum_measured_at(const spectrum *s, const double *term, double x,
+                          double log_modulus[MODULI], double slope[MODULI],
+                          double *const gradient[MODULI])
+{
+    if (s->loading == WT_OSCILLATION) {
+        spectrum_at(s, term, x, log_modulus, slope, gradient);
+        return;
+    }
+    log_modulus[LOSS] = slope[LOSS] = 0.0;
+    if (gradient != NULL)
+        memset(gradient[LOSS], 0, s->n_linear * sizeof *gradient[LOSS]);
+    spectrum_step_at(s, term, x, &log_modulus[STORAGE], &slope[STORAGE],
+                     gradient != NULL ? gradient[STORAGE] : NULL);
+}
+
+/* ---- rows ------------------------------------------------------------------------------------ */
+
+double spectrum_weight(const spectrum *s, size_t k, int q)
+{
+    return sqrt(s->weight[q][k]) / s->spread[q][k];
+}
+
+/* The point that counts before point k of a curve; false if there is none. */
+static bool point_before(const spectrum *s, size_t curve, int q, size_t k, size_t *before)
+{
+    while (k > s->first[curve] && s->weight[q][k - 1] == 0.0)
+        k--;
+    *before = k > 0 ? k - 1 : 0;
+    return k > s->first[curve];
+}
+
+void spectrum_whiten(const spectrum *s, size_t curve, int q, double *v, size_t width)
+{
+    const size_t from = s->first[curve];
+    size_t at, before;
+    if (s->rho == 0.0 || !point_before(s, curve, q, s->first[curve + 1], &at))
+        return;
+    for (; point_before(s, curve, q, at, &before); at = before) {
+        const double rho = pow(s->rho, (double)(at - before));
+        const double scale = 1.0 / sqrt(1.0 - rho * rho);
+        for (size_t j = 0; j < width; j++)
+            v[(at - from) * width + j] =
+                (v[(at - from) * width + j] - rho * v[(before - from) * width + j]) * scale;
+    }
+}
+
+double spectrum_log_det_correlation(const spectrum *s)
+{
+    double sum = 0.0;
+    for (size_t i = 0; i < s->n_curves && s->rho != 0.0; i++)
+        for (int q = 0; q < MODULI; q++) {
+            size_t at, before;
+            if (!point_before(s, i, q, s->first[i + 1], &at))
+                continue;
+            for (; point_before(s, i, q, at, &before); at = before)
+                sum += log(1.0 - pow(s->rho, 2.0 * (double)(at - before)));
+        }
+    return sum;
+}
+
+/* tan delta in the place of E''. */
+static void to_factor(const spectrum *s, double modulus[MODULI], double slope[MODULI],
+                      double *const row[MODULI])
+{
+    modulus[LOSS] -= modulus[STORAGE];
+    slope[LOSS] -= slope[STORAGE];
+    for (size_t j = 0; row != NULL && j < s->n_linear; j++)
+        row[LOSS][j] -= row[STORAGE][j];
+}
+
+void spectrum_evaluate(spectrum *s, const double *value, bool with_rows)
+{
+    const size_t width = s->n_linear + 2;
+    s->evaluations++;
+    spectrum_terms(s, value, s->term);
+    for (size_t i = 0; i < s->n_curves; i++) {
+        const double a = s->column_a[i] < 0 ? s->given_a[i] : value[s->column_a[i]];
+        const double b = spectrum_b_of(s, value, i);
+        for (size_t k = s->first[i]; k < s->first[i + 1]; k++) {
+            double *const row[MODULI] = {s->row[STORAGE] + k * width, s->row[LOSS] + k * width};
+            double modulus[MODULI], slope[MODULI];
+            spectrum_measured_at(s, s->term, s->x[k] + a, modulus, slope, with_rows ? row : NULL);
+            if (s->ratio)
+                to_factor(s, modulus, slope, with_rows ? row : NULL);
+            for (int q = 0; q < MODULI; q++) {
+                const double w = spectrum_weight(s, k, q);
+                s->residual[q][k] = w * (s->y[q][k] - modulus[q] + (s->ratio ? 0.0 : b));
+                if (with_rows)
+                    scale_row(row[q], s->n_linear, w);
+                row[q][s->n_linear] = w * slope[q];
+                row[q][s->n_linear + 1] = s->ratio ? 0.0 : -w;
+            }
+        }
+        for (int q = 0; q < MODULI; q++) {
+            spectrum_whiten(s, i, q, s->residual[q] + s->first[i], 1);
+            if (with_rows)
+                spectrum_whiten(s, i, q, s->row[q] + s->first[i] * width, width);
+        }
+    }
+}
+
+/* ---- normal equations ------------------------------------------------------------------------ */
+
+/* Adds the products of all rows to the block of the terms; the upper triangle is whole, and some of
+ * what is below. */
+WIDE_REGISTERS
+static void add_rows(gsl_matrix *normal, size_t m, const double *row, size_t width, size_t rows)
+{
+    rows = (rows + TILE_ROWS - 1) / TILE_ROWS * TILE_ROWS; /* those behind the last are zeros */
+    for (size_t i = 0; i < m; i += TILE)
+        for (size_t j = i; j < m; j += TILE)
+            tile_add(gsl_matrix_ptr(normal, i, j), m - i, m - j, normal->tda,
+                     (tile_rows){row + i, row + j, width, width, rows}, false);
+}
+
+/* Adds what the shifts of a curve have with the terms and each other. */
+static void add_shifts(spectrum *s, size_t curve, int q)
+{
+    const size_t m = s->n_linear, width = m + 2;
+    const bool free[BLOCK_SIDE] = {s->column_a[curve] >= 0, s->column_b[curve] >= 0};
+    double *own = s->normal[q].own + BLOCK_OWN * curve;
+    for (size_t c = 0; c < BLOCK_SIDE; c++) {
+        double *restrict into = gsl_matrix_ptr(s->normal[q].side, BLOCK_SIDE * curve + c, 0);
+        for (size_t k = s->first[curve]; free[c] && k < s->first[curve + 1]; k++) {
+            const double *row = s->row[q] + k * width;
+            const double r = row[m + c];
+            for (size_t j = 0; j < m; j++)
+                into[j] += r * row[j];
+            for (size_t d = 0; d <= c; d++)
+                if (free[d])
+                    own[c + d] += r * row[m + d];
+        }
+    }
+}
+
+void spectrum_normal(spectrum *s)
+{
+    const size_t m = s->n_linear, width = m + 2;
+    for (int q = 0; q < MODULI; q++) {
+        gsl_matrix *normal = s->normal[q].border;
+        bordered_zero(&s->normal[q]);
+        for (size_t k = 0; k < s->n; k += TILE_NEAR) /* the last rows are zeros */
+            add_rows(normal, m, s->row[q] + k * width, width,
+                     k + TILE_NEAR < s->n ? TILE_NEAR : s->n - k);
+        for (size_t i = 0; i < s->n_curves; i++)
+            add_shifts(s, i, q);
+        for (size_t i = 0; i < m; i++) /* the other triangle */
+            for (size_t j = 0; j < i; j++)
+                gsl_matrix_set(normal, i, j, gsl_matrix_get(normal, j, i));
+    }
+}
+
+double spectrum_squares(const spectrum *s, int q)
+{
+    double sum = 0.0;
+    for (size_t k = 0; k < s->n; k++)
+        sum += s->residual[q][k] * s->residual[q][k];
+    return sum;
+}

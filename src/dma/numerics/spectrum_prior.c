@@ -1,0 +1,266 @@
+/* What is believed of a spectrum before it is measured: that it is smooth, its equilibrium modulus,
+ * the vertical shifts; and the equations of the fit with that.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#include "dma/numerics/spectrum.h"
+
+#include "core/math/cholesky_dense.h"
+
+#include <math.h>
+#include <string.h>
+
+/* Of terms j to j + 2: by the measured range, or beyond one of its ends. */
+typedef struct bend_law {
+    const double *weight;
+    double mean, precision;
+} bend_law;
+
+static bool is_beyond(const spectrum *s, size_t j)
+{
+    return j < s->bend_first || j >= s->bend_end;
+}
+
+static bend_law law_of_bend(const spectrum *s, size_t j)
+{
+    static const double plain[3] = {1.0, -2.0, 1.0}; /* second difference */
+    const spectrum_beyond *b = &s->beyond[j < s->bend_first ? 0 : 1];
+    if (is_beyond(s, j))
+        return (bend_law){b->weight, b->mean, b->precision};
+    return (bend_law){plain, 0.0, s->bend[j] / (s->smooth * s->smooth)};
+}
+
+static double off_law(const bend_law *law, const double *value)
+{
+    return law->weight[0] * value[0] + law->weight[1] * value[1] + law->weight[2] * value[2] -
+           law->mean;
+}
+
+double spectrum_roughness(const spectrum *s, const double *value)
+{
+    double sum = 0.0;
+    for (size_t j = s->bend_first; j < s->bend_end; j++) {
+        const bend_law law = law_of_bend(s, j);
+        sum += s->bend[j] * pow(off_law(&law, value + j), 2);
+    }
+    return sum;
+}
+
+double spectrum_roughness_trace(const spectrum *s)
+{
+    double sum = 0.0;
+    for (size_t j = s->bend_first; j < s->bend_end; j++) {
+        const bend_law law = law_of_bend(s, j);
+        for (size_t i = 0; i < 3; i++)
+            for (size_t k = 0; k < 3; k++)
+                sum += s->bend[j] * law.weight[i] * law.weight[k] *
+                       gsl_matrix_get(s->covariance.border, j + i, j + k);
+    }
+    return sum;
+}
+
+static double off_mean_b(const spectrum *s, const double *value, size_t curve)
+{
+    return spectrum_b_of(s, value, curve) - s->prior->mean[curve];
+}
+
+/* By tan delta alone the level is held, loosely: it is no part of what is told. */
+static double off_level(const spectrum *s, const double *value)
+{
+    double sum = -s->level;
+    for (size_t j = 0; j < s->n_terms; j++)
+        sum += value[j] / (double)s->n_terms;
+    return sum;
+}
+
+/* S' P times how far the vertical shifts are from their mean, into prior->at. */
+static void find_smooth(const spectrum *s, const double *value)
+{
+    const spectrum_prior *p = s->prior;
+    memset(p->at, 0, p->n_smooth * sizeof *p->at);
+    for (size_t i = 0; i < s->n_curves; i++) {
+        const double off = p->precision[i] * off_mean_b(s, value, i);
+        for (size_t j = 0; j < p->n_smooth; j++)
+            p->at[j] += gsl_matrix_get(p->smooth, i, j) * off;
+    }
+}
+
+/* What is left of a vertical shift without what is smooth. */
+static double off_smooth(const spectrum *s, const double *value, size_t curve)
+{
+    const spectrum_prior *p = s->prior;
+    double off = off_mean_b(s, value, curve);
+    for (size_t j = 0; j < p->n_smooth; j++)
+        off -= gsl_matrix_get(p->smooth, curve, j) * p->at[j];
+    return off;
+}
+
+static double off_vertical(const spectrum *s, const double *value)
+{
+    const spectrum_prior *p = s->prior;
+    double sum = 0.0;
+    if (p->precision == NULL)
+        return 0.0;
+    find_smooth(s, value);
+    for (size_t i = 0; i < s->n_curves; i++)
+        sum += p->precision[i] * off_mean_b(s, value, i) * off_smooth(s, value, i);
+    return sum;
+}
+
+double spectrum_objective(const spectrum *s, const double *value)
+{
+    double sum = 0.0;
+    for (size_t j = 0; j + 2 < s->n_terms; j++) {
+        const bend_law law = law_of_bend(s, j);
+        sum += law.precision * pow(off_law(&law, value + j), 2);
+    }
+    for (int q = 0; q < MODULI; q++)
+        sum += spectrum_squares(s, q) / (s->noise[q] * s->noise[q]);
+    if (!s->liquid) {
+        const double off = (value[s->n_terms] - s->equilibrium_mean) / s->equilibrium_spread;
+        sum += off * off;
+    }
+    if (s->ratio)
+        sum += pow(off_level(s, value), 2);
+    return sum + off_vertical(s, value);
+}
+
+static void add_bends(spectrum *s)
+{
+    for (size_t j = 0; j + 2 < s->n_terms; j++) {
+        const bend_law law = law_of_bend(s, j);
+        const double off = off_law(&law, s->value + j);
+        for (size_t i = 0; i < 3; i++) {
+            *gsl_vector_ptr(s->gradient, j + i) -= law.precision * law.weight[i] * off;
+            for (size_t k = 0; k < 3; k++)
+                *gsl_matrix_ptr(s->precision.border, j + i, j + k) +=
+                    law.precision * law.weight[i] * law.weight[k];
+        }
+    }
+}
+
+static void add_vertical(spectrum *s)
+{
+    const spectrum_prior *p = s->prior;
+    if (p->precision == NULL)
+        return;
+    find_smooth(s, s->value);
+    for (size_t i = 0; i < s->n_curves; i++) {
+        const double w = p->precision[i];
+        if (s->column_b[i] < 0)
+            continue;
+        *gsl_vector_ptr(s->gradient, (size_t)s->column_b[i]) -= w * off_smooth(s, s->value, i);
+        s->precision.own[BLOCK_OWN * i + 2] += w;
+        for (size_t j = 0; j < p->n_smooth; j++)
+            gsl_matrix_set(s->precision.side, BLOCK_SIDE * i + 1, s->n_linear + j,
+                           -w * gsl_matrix_get(p->smooth, i, j));
+    }
+    for (size_t j = 0; j < p->n_smooth; j++)
+        gsl_matrix_set(s->precision.border, s->n_linear + j, s->n_linear + j, 1.0);
+}
+
+static void add_priors(spectrum *s)
+{
+    add_bends(s);
+    if (!s->liquid) {
+        const double w = 1.0 / (s->equilibrium_spread * s->equilibrium_spread);
+        *gsl_matrix_ptr(s->precision.border, s->n_terms, s->n_terms) += w;
+        *gsl_vector_ptr(s->gradient, s->n_terms) -=
+            w * (s->value[s->n_terms] - s->equilibrium_mean);
+    }
+    const double share = 1.0 / (double)s->n_terms, off = s->ratio ? off_level(s, s->value) : 0.0;
+    for (size_t j = 0; s->ratio && j < s->n_terms; j++) {
+        *gsl_vector_ptr(s->gradient, j) -= share * off;
+        for (size_t i = 0; i < s->n_terms; i++)
+            *gsl_matrix_ptr(s->precision.border, j, i) += share * share;
+    }
+    add_vertical(s);
+}
+
+/* Adds J'r of a modulus times `scale`. */
+static void add_gradient(spectrum *s, int q, double scale)
+{
+    const size_t m = s->n_linear, width = m + 2;
+    double *gradient = gsl_vector_ptr(s->gradient, 0);
+    for (size_t i = 0; i < s->n_curves; i++)
+        for (size_t k = s->first[i]; k < s->first[i + 1]; k++) {
+            const double *row = s->row[q] + k * width, r = scale * s->residual[q][k];
+            for (size_t j = 0; j < m; j++)
+                gradient[j] += r * row[j];
+            if (s->column_a[i] >= 0)
+                gradient[s->column_a[i]] += r * row[m];
+            if (s->column_b[i] >= 0)
+                gradient[s->column_b[i]] += r * row[m + 1];
+        }
+}
+
+/* Adds the normal equations of a modulus times `scale`. */
+static void add_normal(bordered *into, const bordered *normal, double scale)
+{
+    const size_t m = normal->m;
+    for (size_t i = 0; i < m; i++)
+        dense_add(gsl_matrix_ptr(into->border, i, 0), m, &scale, 1,
+                  gsl_matrix_const_ptr(normal->border, i, 0), m, 1);
+    for (size_t i = 0; i < BLOCK_SIDE * normal->n; i++)
+        dense_add(gsl_matrix_ptr(into->side, i, 0), m, &scale, 1,
+                  gsl_matrix_const_ptr(normal->side, i, 0), m, 1);
+    for (size_t i = 0; i < BLOCK_OWN * normal->n; i++)
+        into->own[i] += scale * normal->own[i];
+}
+
+void spectrum_assemble(spectrum *s)
+{
+    gsl_vector_set_zero(s->gradient);
+    s->precision.m = s->n_linear + s->prior->n_smooth;
+    bordered_zero(&s->precision);
+    for (int q = 0; q < MODULI; q++) {
+        const double scale = 1.0 / (s->noise[q] * s->noise[q]);
+        add_normal(&s->precision, &s->normal[q], scale);
+        add_gradient(s, q, scale);
+    }
+    add_priors(s);
+    for (size_t i = 0; i < s->n_curves; i++) { /* what is no unknown */
+        double *own = s->precision.own + BLOCK_OWN * i;
+        if (s->column_a[i] < 0)
+            own[0] = 1.0;
+        if (s->column_b[i] < 0)
+            own[2] = 1.0;
+    }
+}
+
+void spectrum_precision(const spectrum *s, gsl_matrix *precision)
+{
+    const bordered *p = &s->precision;
+    const size_t m = s->n_linear;
+    gsl_matrix_set_zero(precision);
+    for (size_t i = 0; i < m; i++)
+        memcpy(gsl_matrix_ptr(precision, i, 0), gsl_matrix_const_ptr(p->border, i, 0),
+               m * sizeof(double));
+    for (size_t i = 0; i < s->n_curves; i++) {
+        const long column[BLOCK_SIDE] = {s->column_a[i], s->column_b[i]};
+        for (size_t c = 0; c < BLOCK_SIDE; c++) {
+            const double *row = gsl_matrix_const_ptr(p->side, BLOCK_SIDE * i + c, 0);
+            if (column[c] < 0)
+                continue;
+            const size_t at = (size_t)column[c];
+            for (size_t j = 0; j < m; j++) {
+                gsl_matrix_set(precision, at, j, row[j]);
+                gsl_matrix_set(precision, j, at, row[j]);
+            }
+            for (size_t d = 0; d < BLOCK_SIDE; d++)
+                if (column[d] >= 0)
+                    gsl_matrix_set(precision, at, (size_t)column[d], p->own[BLOCK_OWN * i + c + d]);
+        }
+        /* what is smooth is taken out: P - P S S' P */
+        for (size_t k = 0; s->column_b[i] >= 0 && s->prior->n_smooth > 0 && k < s->n_curves; k++) {
+            const double *one = gsl_matrix_const_ptr(p->side, BLOCK_SIDE * i + 1, m),
+                         *other = gsl_matrix_const_ptr(p->side, BLOCK_SIDE * k + 1, m);
+            for (size_t j = 0; s->column_b[k] >= 0 && j < s->prior->n_smooth; j++)
+                *gsl_matrix_ptr(precision, (size_t)s->column_b[i], (size_t)s->column_b[k]) -=
+                    one[j] * other[j];
+        }
+    }
+}
+
+double spectrum_prior_log_det(const spectrum *s)
+{
+    return 2.0 * (double)(s->bend_end - s->bend_first) * log(s->smooth) + s->prior->log_det;
+}

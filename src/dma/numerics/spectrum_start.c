@@ -1,0 +1,90 @@
+/* The start of the fit: isotherm by isotherm from the anchor outwards.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#include "dma/numerics/spectrum_start.h"
+
+#include <math.h>
+
+/* Isotherms to one side that one is tried on before it counts as unplaced: a bad one, and another.
+ */
+enum { NEIGHBOURS = 3 };
+
+/* Places curve i on one of the placed curves towards the anchor: the next one, or one behind it if
+ * that is not to be had. */
+static void place_isotherm(const shift_set *set, size_t anchor, wt_vertical_shift kind, size_t i,
+                           bool *placed, double *a, double *b)
+{
+    const bool free_b = set->used[STORAGE] && set->used[LOSS] &&
+                        (kind == WT_VERTICAL_FREE || kind == WT_VERTICAL_TIED);
+    if (placed[i])
+        return;
+    const long inwards = i > anchor ? -1 : 1;
+    int tried = 0;
+    for (long p = (long)i + inwards; tried < NEIGHBOURS; p += inwards) {
+        double by = 0.0, vertical = b[i] - b[p];
+        if (placed[p]) {
+            tried++;
+            placed[i] = shift_pair_fit(set, (size_t)p, i, free_b, &by, &vertical);
+        }
+        if (placed[i]) {
+            a[i] = a[p] + by;
+            b[i] = b[p] + vertical;
+            return;
+        }
+        if ((size_t)p == anchor)
+            return;
+    }
+}
+
+void spectrum_start(const shift_set *set, size_t anchor, wt_vertical_shift kind,
+                    const double *physical, bool *placed, double *a, double *b)
+{
+    /* a table for another reference has the factor of this one in all of its own */
+    const shift_curve *at = &set->curves[anchor];
+    const double off = at->held && at->given_a != 0.0 ? at->given_b - physical[anchor] : 0.0;
+    for (size_t i = 0; i < set->n; i++) {
+        const shift_curve *c = &set->curves[i];
+        placed[i] = i == anchor || (c->given && c->n >= SHIFT_MIN_POINTS);
+        a[i] = c->given ? c->given_a - set->curves[anchor].given_a : 0.0;
+        b[i] = c->held                                                    ? c->given_b - off
+               : kind == WT_VERTICAL_NONE || set->by == WT_BY_LOSS_FACTOR ? 0.0
+                                                                          : physical[i];
+    }
+    for (size_t i = anchor + 1; i < set->n; i++)
+        place_isotherm(set, anchor, kind, i, placed, a, b);
+    for (size_t i = anchor; i-- > 0;)
+        place_isotherm(set, anchor, kind, i, placed, a, b);
+}
+
+static double shared_decades(const shift_curve *p, double a_p, const shift_curve *s, double a_s)
+{
+    return fmin(p->x[p->n - 1] + a_p, s->x[s->n - 1] + a_s) - fmax(p->x[0] + a_p, s->x[0] + a_s);
+}
+
+size_t spectrum_connected(const shift_set *set, size_t anchor, const double *a, bool *placed,
+                          double *overlap)
+{
+    size_t count = 1;
+    for (size_t i = 0; i < set->n; i++)
+        overlap[i] = i == anchor || (placed[i] && set->curves[i].given) ? HUGE_VAL : 0.0;
+    /* an isotherm hangs by its largest overlap, or by that of the one it hangs on if that is less
+     */
+    for (bool grown = true; grown;) {
+        grown = false;
+        for (size_t i = 0; i < set->n; i++)
+            for (size_t p = 0; placed[i] && p < set->n; p++) {
+                if (p == i || !placed[p])
+                    continue;
+                const double both =
+                    fmin(shared_decades(&set->curves[p], a[p], &set->curves[i], a[i]), overlap[p]);
+                if (both > overlap[i]) {
+                    overlap[i] = both;
+                    grown = true;
+                }
+            }
+    }
+    for (size_t i = 0; i < set->n; i++) {
+        placed[i] = placed[i] && overlap[i] > 0.0;
+        count += placed[i] && i != anchor;
+    }
+    return count;
+}

@@ -1,0 +1,542 @@
+/* Lack of fit of one spectrum: what a line and a parabola of every isotherm of its own would still
+ * explain, and what slow times would that shift more than fast ones. A spectrum ties E' and E''
+ * (Kramers-Kronig); a common factor on E'' tests that alone.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#include "dma/numerics/superposition.h"
+
+#include "core/math/arena_gsl.h"
+#include "core/math/cholesky.h"
+#include "core/math/cholesky_dense.h"
+#include "core/math/root.h"
+
+#include <gsl/gsl_cdf.h>
+#include <gsl/gsl_eigen.h>
+#include <math.h>
+#include <string.h>
+
+/* Columns of an isotherm: powers of its frequency from the first one on, in each modulus. A factor
+ * on both moduli is the vertical shift. */
+static const int first_power[MODULI] = {1, 0};
+/* From so many points on a parabola too: six are twelve values, of which five columns and two
+ * shifts leave five. */
+enum { LEAST_PARABOLA = 6, POWERS = 3 };
+/* Places in the spectrum where slow times may part from fast ones: few, so that they see what grows
+ * with the shift and is small in each isotherm. */
+enum { PARTINGS = 3, FACTOR = PARTINGS, WITH_FACTOR };
+/* The smaller p of so many counts, times their number. */
+static const double tests = 2.0;
+/* What is left of a column, of its square, below which the model has it: 1e-3 of its
+ * length, far above rounding, and too little to tell anything beside noise. */
+static const double least_left = 1e-6;
+/* Of the squares the columns leave at least so much: where the fit is far from its minimum, as with
+ * exchanged moduli, they seem to explain more than there is. Then p is nothing either way, and the
+ * misfit is what the columns explain, whatever this share is. */
+static const double least_squares = 0.01;
+
+/* A misfit that is large makes noise within the isotherms that hardly is one: not less is believed
+ * to be known of it than so many degrees of freedom would tell. The variance of ln of a variance is
+ * 2 over them: 12 are a factor 1.5 in it. Chosen: of 20 columns the F that 1 % exceed is 3.9, and
+ * would be 7.4 with half and 2.7 with twice as many. */
+static const double least_known = 12.0;
+
+/* To this part the end of a stated interval is made; of 2 digits that are told. */
+static const double misfit_close = 1e-4;
+enum { MOST_HALVINGS = 100 }; /* of [0, high] down to that part of what may be 1e-25 of it */
+
+/* Columns that have data in common: those of one isotherm, or those of all. */
+enum { MOST_COLUMNS = MODULI * POWERS - 1 };
+struct columns {
+    size_t n;
+    double product[MOST_COLUMNS * MOST_COLUMNS]; /* of each other; later what the model leaves */
+    double right[MOST_COLUMNS];                  /* with the residuals */
+    double length[MOST_COLUMNS];                 /* of a column before it is 1 */
+    double *border[MOST_COLUMNS];                /* [n_linear] with the terms, shifts taken out */
+};
+
+/* Squares of the residuals that so many columns explain, which have only the terms in common. */
+typedef struct explanation {
+    double explained;
+    size_t rank;
+} explanation;
+
+struct extra {
+    const spectrum *s;
+    pool memory;
+    size_t n;             /* columns that are filled */
+    double *column;       /* [MOST_COLUMNS * 2 longest] of one isotherm: whitened, E' then E'' */
+    size_t longest;       /* points of an isotherm */
+    gsl_matrix *together; /* [n_linear^2] what the columns have in common through the terms */
+    double *toward;       /* [n_linear] the same with the residuals */
+    double *share;        /* [PARTINGS * n_terms] how much a term follows a parting */
+    explanation got;
+    double squares, points, freedom;
+    double uncertainty; /* variance of ln of the variance of what columns explain */
+};
+
+static double *column_of(const struct extra *x, size_t column, int q)
+{
+    return x->column + (column * MODULI + (size_t)q) * x->longest;
+}
+
+/* Whitened and divided by the noise. */
+static void add_column(struct extra *x, size_t curve, int q, int power)
+{
+    const spectrum *s = x->s;
+    double *v = column_of(x, x->n++, q);
+    const size_t from = s->first[curve], to = s->first[curve + 1];
+    const double middle = 0.5 * (s->x[from] + s->x[to - 1]);
+    const double half = fmax(0.5 * (s->x[to - 1] - s->x[from]), 1e-300);
+    for (size_t k = from; k < to; k++)
+        v[k - from] =
+            spectrum_weight(s, k, q) / s->noise[q] * pow((s->x[k] - middle) / half, power);
+    spectrum_whiten(s, curve, q, v, 1);
+}
+
+/* No columns. */
+static void clear_columns(struct extra *x)
+{
+    x->n = 0;
+    memset(x->column, 0, MOST_COLUMNS * MODULI * x->longest * sizeof *x->column);
+}
+
+static void fill_columns(struct extra *x, size_t curve)
+{
+    const size_t points = x->s->first[curve + 1] - x->s->first[curve];
+    clear_columns(x);
+    for (int q = 0; q < MODULI; q++)
+        for (int p = first_power[q]; p < (points < LEAST_PARABOLA ? 2 : POWERS); p++)
+            add_column(x, curve, q, p);
+}
+
+/* How much the terms follow each parting: rising from -1 to 1 across it [PARTINGS * n_terms]. */
+static void follow_partings(const spectrum *s, double *share)
+{
+    double low = HUGE_VAL, high = -HUGE_VAL;
+    for (size_t i = 0; i < s->n_curves; i++) {
+        low = fmin(low, s->x[s->first[i]] + spectrum_a(s, i));
+        high = fmax(high, s->x[s->first[i + 1] - 1] + spectrum_a(s, i));
+    }
+    for (size_t p = 0; p < PARTINGS; p++)
+        for (size_t j = 0; j < s->n_terms; j++) {
+            const double at = -(s->log_tau + (double)j * s->step);
+            const double u = (PARTINGS + 1.0) * (at - low) / (high - low);
+            share[p * s->n_terms + j] = tanh(2.0 * (u - (double)(p + 1)));
+        }
+}
+
+/* What the moduli of a point change by when each term moves by its share of the isotherm's shift.
+ */
+static void add_parted(struct extra *x, size_t curve, size_t k, const double *share,
+                       double *const part[MODULI])
+{
+    const spectrum *s = x->s;
+    const double a = spectrum_a(s, curve);
+    double modulus[MODULI], slope[MODULI];
+    spectrum_at(s, s->term, s->x[k] + a, modulus, slope, part);
+    for (size_t j = 0; j < s->n_terms; j++) {
+        const double z = exp(s->x[k] + a + s->log_tau + (double)j * s->step);
+        const double rise[MODULI] = {2.0 / (1.0 + z * z), 2.0 / (1.0 + z * z) - 1.0};
+        for (int q = 0; q < MODULI; q++)
+            for (size_t p = 0; p < PARTINGS; p++)
+                column_of(x, p, q)[k - s->first[curve]] += a * spectrum_weight(s, k, q) /
+                                                           s->noise[q] * share[p * s->n_terms + j] *
+                                                           part[q][j] * rise[q];
+    }
+}
+
+/* ---- products -------------------------------------------------------------------------------- */
+
+/* Products of the columns of a curve with its rows, which are divided by the noise, and residuals;
+ * its shifts are taken out. */
+static void add_products(const struct extra *x, size_t curve, struct columns *to)
+{
+    const spectrum *s = x->s;
+    const size_t m = s->n_linear, width = m + 2, from = s->first[curve], end = s->first[curve + 1];
+    const double *own = s->factor.own + BLOCK_OWN * curve;
+    const double *side[BLOCK_SIDE] = {
+        gsl_matrix_const_ptr(s->factor.side, BLOCK_SIDE * curve, 0),
+        gsl_matrix_const_ptr(s->factor.side, BLOCK_SIDE * curve + 1, 0)};
+    double shift[MOST_COLUMNS][BLOCK_SIDE] = {{0.0}};
+    for (size_t c = 0; c < to->n; c++) {
+        for (int q = 0; q < MODULI; q++)
+            for (size_t k = from; k < end; k++) {
+                const double w = column_of(x, c, q)[k - from] / s->noise[q];
+                const double *row = s->row[q] + k * width;
+                if (w == 0.0)
+                    continue;
+                dense_add(to->border[c], m, &w, 1, row, width, 1);
+                to->right[c] += w * s->residual[q][k];
+                shift[c][0] += s->column_a[curve] >= 0 ? w * row[m] : 0.0;
+                shift[c][1] += s->column_b[curve] >= 0 ? w * row[m + 1] : 0.0;
+            }
+        shift[c][0] /= own[0];
+        shift[c][1] = (shift[c][1] - own[1] * shift[c][0]) / own[2];
+        for (size_t j = 0; j < m; j++)
+            to->border[c][j] -= shift[c][0] * side[0][j] + shift[c][1] * side[1][j];
+        for (size_t d = 0; d <= c; d++) {
+            double sum = 0.0;
+            for (int q = 0; q < MODULI; q++)
+                for (size_t k = 0; k < end - from; k++)
+                    sum += column_of(x, c, q)[k] * column_of(x, d, q)[k];
+            if (c == d)
+                to->length[c] += sum;
+            to->product[c * MOST_COLUMNS + d] +=
+                sum - shift[c][0] * shift[d][0] - shift[c][1] * shift[d][1];
+        }
+    }
+}
+
+static void clear_products(const struct extra *x, size_t n, struct columns *c)
+{
+    c->n = n;
+    for (size_t i = 0; i < n; i++) {
+        memset(c->border[i], 0, x->s->n_linear * sizeof *c->border[i]);
+        memset(c->product + i * MOST_COLUMNS, 0, MOST_COLUMNS * sizeof *c->product);
+        c->right[i] = c->length[i] = 0.0;
+    }
+}
+
+/* As if each column had been of length 1. */
+static void scale_products(const struct extra *x, struct columns *c)
+{
+    for (size_t i = 0; i < c->n; i++)
+        c->length[i] = sqrt(c->length[i]);
+    for (size_t i = 0; i < c->n; i++) {
+        const double by = c->length[i] > 0.0 ? 1.0 / c->length[i] : 1.0;
+        c->right[i] *= by;
+        for (size_t j = 0; j < x->s->n_linear; j++)
+            c->border[i][j] *= by;
+        for (size_t j = 0; j < c->n; j++)
+            c->product[(j > i ? j : i) * MOST_COLUMNS + (j > i ? i : j)] *= i == j ? by * by : by;
+    }
+}
+
+/* Times the inverse of the factor of the border, from the left. */
+static void by_border(const spectrum *s, double *v)
+{
+    const size_t m = s->n_linear; /* free shifts have nothing behind the terms */
+    gsl_matrix_const_view root = gsl_matrix_const_submatrix(s->factor.border, 0, 0, m, m);
+    dense_forward(&root.matrix, v);
+}
+
+/* Takes out the terms, too. */
+static void take_out_terms(const struct extra *x, struct columns *c)
+{
+    for (size_t i = 0; i < c->n; i++) {
+        by_border(x->s, c->border[i]);
+        for (size_t j = 0; j <= i; j++)
+            for (size_t k = 0; k < x->s->n_linear; k++)
+                c->product[i * MOST_COLUMNS + j] -= c->border[i][k] * c->border[j][k];
+    }
+}
+
+/* How far the times of the measured range part from the shifts, as a share of those: half of the
+ * range of what the partings, fitted together with the factor, make of the terms. */
+static double parted_share(const struct extra *x, const struct columns *c)
+{
+    const spectrum *s = x->s;
+    double matrix[WITH_FACTOR * WITH_FACTOR] = {0.0}, by[WITH_FACTOR], low = HUGE_VAL,
+                                high = -HUGE_VAL;
+    for (size_t p = 0; p < WITH_FACTOR; p++) {
+        by[p] = c->right[p];
+        for (size_t k = 0; k <= p; k++)
+            matrix[p * WITH_FACTOR + k] = c->product[p * MOST_COLUMNS + k];
+    }
+    if (!cholesky_solve(matrix, WITH_FACTOR, WITH_FACTOR, 0.0, by))
+        return 1.0; /* too little is left of them to tell: it may be all of a shift */
+    for (size_t j = s->n_fast; j < s->n_measured; j++) {
+        double sum = 0.0;
+        for (size_t p = 0; p < PARTINGS; p++)
+            sum += by[p] / c->length[p] * x->share[p * s->n_terms + j];
+        low = fmin(low, sum);
+        high = fmax(high, sum);
+    }
+    return high > low ? 0.5 * (high - low) : 0.0;
+}
+
+static void swap(double *a, double *b)
+{
+    const double keep = *a;
+    *a = *b;
+    *b = keep;
+}
+
+/* Makes the columns that the model leaves orthogonal and of length 1, those of which most is left
+ * first, and adds what they explain of the residuals. */
+static void orthogonalise(struct extra *x, struct columns *c)
+{
+    double *a = c->product;
+    for (size_t i = 0; i < c->n; i++)
+        for (size_t j = 0; j < i; j++)
+            a[j * MOST_COLUMNS + i] = a[i * MOST_COLUMNS + j];
+    for (size_t rank = 0; rank < c->n; rank++) {
+        size_t pivot = rank;
+        for (size_t i = rank; i < c->n; i++)
+            pivot = a[i * MOST_COLUMNS + i] > a[pivot * MOST_COLUMNS + pivot] ? i : pivot;
+        for (size_t i = 0; i < c->n; i++)
+            swap(a + rank * MOST_COLUMNS + i, a + pivot * MOST_COLUMNS + i);
+        for (size_t i = 0; i < c->n; i++)
+            swap(a + i * MOST_COLUMNS + rank, a + i * MOST_COLUMNS + pivot);
+        swap(c->right + rank, c->right + pivot);
+        double *const border = c->border[rank];
+        c->border[rank] = c->border[pivot];
+        c->border[pivot] = border;
+        const double d = a[rank * MOST_COLUMNS + rank];
+        if (!(d > least_left)) {
+            c->n = rank;
+            break;
+        }
+        const double root = 1.0 / sqrt(d);
+        c->right[rank] *= root;
+        for (size_t j = 0; j < x->s->n_linear; j++)
+            c->border[rank][j] *= root;
+        for (size_t i = rank + 1; i < c->n; i++) {
+            const double f = a[i * MOST_COLUMNS + rank] * root, less = -f;
+            c->right[i] -= f * c->right[rank];
+            dense_add(c->border[i], x->s->n_linear, &less, 1, c->border[rank], 1, 1);
+            for (size_t j = rank + 1; j < c->n; j++)
+                a[i * MOST_COLUMNS + j] -= f * a[rank * MOST_COLUMNS + j] * root;
+        }
+    }
+    for (size_t i = 0; i < c->n; i++)
+        x->got.explained += c->right[i] * c->right[i];
+    x->got.rank += c->n;
+}
+
+/* What orthogonal columns of an isotherm have in common with all others. */
+static void add_together(struct extra *x, const struct columns *c)
+{
+    const size_t m = x->s->n_linear;
+    for (size_t i = 0; i < c->n; i++) {
+        dense_add(x->toward, m, &c->right[i], 1, c->border[i], m, 1);
+        for (size_t j = 0; j < m; j++)
+            dense_add(gsl_matrix_ptr(x->together, j, 0), m, &c->border[i][j], 1, c->border[i], m,
+                      1);
+    }
+}
+
+/* Takes the terms out of the columns of all isotherms at once: of what they have in common, by its
+ * eigenvectors, the model leaves 1 less the eigenvalue. */
+static wt_status take_out_together(struct extra *x, wt_error *err)
+{
+    const size_t m = x->s->n_linear;
+    gsl_vector *value = pool_vector(&x->memory, m);
+    gsl_matrix *vector = pool_matrix(&x->memory, m, m);
+    gsl_eigen_symmv_workspace *work = gsl_eigen_symmv_alloc(m);
+    if (x->memory.failed || work == NULL) {
+        gsl_eigen_symmv_free(work);
+        return wt_fail(err, WT_E_MEMORY, "no memory for the test of superposition");
+    }
+    for (size_t i = 0; i < m; i++)
+        by_border(x->s, gsl_matrix_ptr(x->together, i, 0));
+    gsl_matrix_transpose(x->together);
+    for (size_t i = 0; i < m; i++)
+        by_border(x->s, gsl_matrix_ptr(x->together, i, 0));
+    by_border(x->s, x->toward);
+    gsl_eigen_symmv(x->together, value, vector, work);
+    gsl_eigen_symmv_free(work);
+    for (size_t k = 0; k < m; k++) {
+        const double taken = gsl_vector_get(value, k), left = 1.0 - taken;
+        double sum = 0.0;
+        for (size_t i = 0; i < m; i++)
+            sum += gsl_matrix_get(vector, i, k) * x->toward[i];
+        x->got.explained += left > least_left ? sum * sum / left : -sum * sum / taken;
+        x->got.rank -= left > least_left ? 0 : 1;
+    }
+    return WT_OK;
+}
+
+/* A line and a parabola of each isotherm. */
+static wt_status explain_isotherms(struct extra *x, struct columns *c, wt_error *err)
+{
+    x->got = (explanation){0.0, 0};
+    for (size_t i = 0; i < x->s->n_curves; i++) {
+        fill_columns(x, i);
+        clear_products(x, x->n, c);
+        add_products(x, i, c);
+        scale_products(x, c);
+        orthogonalise(x, c);
+        add_together(x, c);
+    }
+    return take_out_together(x, err);
+}
+
+/* A second process has a law of its own: slow and fast times part in proportion to the shift. With
+ * the columns of the partings is that of a factor on E''. */
+static wt_status fill_of_all(struct extra *x, struct columns *c, wt_error *err)
+{
+    const spectrum *s = x->s;
+    double *share = x->share = pool_numbers(&x->memory, PARTINGS * s->n_terms);
+    double *const part[MODULI] = {pool_numbers(&x->memory, s->n_linear),
+                                  pool_numbers(&x->memory, s->n_linear)};
+    if (x->memory.failed)
+        return wt_fail(err, WT_E_MEMORY, "no memory for the test of superposition");
+    follow_partings(s, share);
+    clear_products(x, WITH_FACTOR, c);
+    for (size_t i = 0; i < s->n_curves; i++) {
+        clear_columns(x);
+        for (size_t k = s->first[i]; k < s->first[i + 1]; k++)
+            add_parted(x, i, k, share, part);
+        for (size_t p = 0; p < PARTINGS; p++)
+            for (int q = 0; q < MODULI; q++)
+                spectrum_whiten(s, i, q, column_of(x, p, q), 1);
+        x->n = FACTOR;
+        add_column(x, i, LOSS, 0);
+        add_products(x, i, c);
+    }
+    scale_products(x, c);
+    take_out_terms(x, c);
+    return WT_OK;
+}
+
+/* What the partings explain. */
+static void explain_partings(struct extra *x, struct columns *c)
+{
+    c->n = PARTINGS;
+    x->got = (explanation){0.0, 0};
+    orthogonalise(x, c);
+}
+
+/* Distribution of noncentral chi-square: a Poisson mixture of central ones. */
+static double noncentral_below(double x, double freedom, double lambda)
+{
+    const double mean = 0.5 * lambda, width = 10.0 * sqrt(mean) + 20.0;
+    double sum = 0.0;
+    for (double j = floor(fmax(mean - width, 0.0)); j < mean + width; j += 1.0) {
+        const double log_weight = (mean > 0.0 ? j * log(mean)
+                                   : j > 0.0  ? -HUGE_VAL
+                                              : 0.0) -
+                                  mean - lgamma(j + 1.0);
+        sum += exp(log_weight) * gsl_cdf_chisq_P(x, freedom + 2.0 * j);
+    }
+    return sum;
+}
+
+/* Beyond it the square root of noncentral chi-square is normal to four digits, and the sum above
+ * has too many terms. */
+static const double many = 1e4;
+
+typedef struct noncentral {
+    double x, freedom, probability;
+} noncentral;
+
+static bool more_probable(double lambda, void *user)
+{
+    const noncentral *c = user;
+    return noncentral_below(c->x, c->freedom, lambda) > c->probability;
+}
+
+/* Lambda with which x has this probability to be exceeded from below. */
+static double noncentrality(double x, double freedom, double probability)
+{
+    const double half = 0.5 * (freedom - 1.0);
+    if (x > many + freedom)
+        return pow(sqrt(x - half) - gsl_cdf_ugaussian_Pinv(probability), 2) - half;
+    noncentral c = {x, freedom, probability};
+    double low = 0.0, high = 4.0 * x + 100.0;
+    if (!more_probable(low, &c))
+        return 0.0;
+    root_halve(more_probable, &c, &low, &high, misfit_close, MOST_HALVINGS);
+    return 0.5 * (low + high);
+}
+
+/* Degrees of freedom by which the noise is known that slow columns have. */
+static double known_freedom(const struct extra *x, double left)
+{
+    return fmax(2.0 / (2.0 / left + x->uncertainty), fmin(least_known, left));
+}
+
+/* Degrees of freedom that k columns leave, and the variance that is left once they explain q. */
+static double left_by(const struct extra *x, double k)
+{
+    return fmax(x->points - x->freedom - k, 1.0);
+}
+
+static double variance_left(const struct extra *x, double q, double k)
+{
+    return fmax(x->squares - q, least_squares * x->squares) / left_by(x, k);
+}
+
+/* Probability and misfit of what the columns explain, if that is less likely than what is in
+ * `result`; the misfit is the larger one. */
+static void judge_columns(const struct extra *x, lack_of_fit *result)
+{
+    const spectrum *s = x->s;
+    const double q = x->got.explained, k = (double)x->got.rank, left = left_by(x, k);
+    const double variance = variance_left(x, q, k);
+    if (x->got.rank == 0)
+        return;
+    const double known = known_freedom(x, left);
+    const double to_misfit = s->noise[STORAGE] * s->noise[LOSS] * variance / x->points;
+    const double above = q / variance;
+    result->p = fmin(result->p, tests * gsl_cdf_fdist_Q(above / k, k, left));
+    result->p_sure = fmin(result->p_sure, tests * gsl_cdf_fdist_Q(above / k, k, known));
+    result->misfit_low = fmax(result->misfit_low, sqrt(noncentrality(above, k, 0.975) * to_misfit));
+    result->misfit_high =
+        fmax(result->misfit_high, sqrt(noncentrality(above, k, 0.025) * to_misfit));
+}
+
+/* The column of all isotherms is a factor on E''. It is among those of the isotherms, of which
+ * `lines` explain so much: what they explain beside it is no matter of a factor. */
+static void test_factor(const struct extra *x, const struct columns *c, explanation lines,
+                        lack_of_fit *result)
+{
+    const double d = c->product[FACTOR * MOST_COLUMNS + FACTOR], r = c->right[FACTOR];
+    const double left = left_by(x, 1.0), q = fmax(lines.explained - r * r / d, 0.0);
+    const double spread = fmax((x->squares - r * r / d) / left, 1e-300);
+    const double known = known_freedom(x, left), k = (double)lines.rank;
+    if (lines.rank > 1)
+        result->p_beyond = gsl_cdf_fdist_Q(q / variance_left(x, lines.explained, k) / (k - 1.0),
+                                           k - 1.0, known_freedom(x, left_by(x, k)));
+    result->beyond = lines.explained > 0.0 ? q / lines.explained : 1.0;
+    result->factor = r / d / c->length[FACTOR];
+    result->factor_error = sqrt(spread / d) / c->length[FACTOR];
+    result->kk = 2.0 * gsl_cdf_tdist_Q(fabs(r) / sqrt(spread * d), known);
+}
+
+static void make_room(struct extra *x, struct columns *c)
+{
+    const spectrum *s = x->s;
+    for (size_t i = 0; i < s->n_curves; i++) {
+        const size_t points = s->first[i + 1] - s->first[i];
+        x->longest = points > x->longest ? points : x->longest;
+    }
+    x->column = pool_numbers(&x->memory, MOST_COLUMNS * MODULI * x->longest);
+    x->together = pool_matrix(&x->memory, s->n_linear, s->n_linear);
+    x->toward = pool_numbers(&x->memory, s->n_linear);
+    for (size_t i = 0; i < MOST_COLUMNS; i++)
+        c->border[i] = pool_numbers(&x->memory, s->n_linear);
+}
+
+wt_status superposition_test(const spectrum *s, double uncertainty, lack_of_fit *result,
+                             wt_error *err)
+{
+    struct extra x = {.s = s, .uncertainty = uncertainty};
+    struct columns c = {0};
+    make_room(&x, &c);
+    wt_status status = x.memory.failed
+                           ? wt_fail(err, WT_E_MEMORY, "no memory for the test of superposition")
+                           : WT_OK;
+    for (int q = 0; q < MODULI; q++) {
+        x.squares += spectrum_squares(s, q) / (s->noise[q] * s->noise[q]);
+        x.freedom += s->freedom[q];
+        for (size_t k = 0; k < s->n; k++)
+            x.points += s->weight[q][k] > 0.0;
+    }
+    *result = (lack_of_fit){.p = 1.0, .p_sure = 1.0, .p_beyond = 1.0};
+    if (status == WT_OK)
+        status = explain_isotherms(&x, &c, err);
+    const explanation lines = x.got;
+    if (status == WT_OK) {
+        judge_columns(&x, result);
+        status = fill_of_all(&x, &c, err);
+    }
+    if (status == WT_OK) {
+        test_factor(&x, &c, lines, result);
+        result->parted = parted_share(&x, &c);
+        explain_partings(&x, &c);
+        judge_columns(&x, result);
+    }
+    pool_free(&x.memory);
+    return status;
+}

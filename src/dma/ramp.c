@@ -1,0 +1,440 @@
+/* The job of temperature sweeps: glass transition by the peaks of tan delta and of the loss modulus
+ * and the onset of the fall at each frequency, moduli at temperatures. SPDX-License-Identifier:
+ * GPL-3.0-or-later */
+#include "dma/sweep_input.h"
+#include "job/cost.h"
+#include "job/inputs.h"
+
+#include "core/base/arena.h"
+#include "core/base/array.h"
+#include "core/base/quantity.h"
+#include "core/table/table_rows.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* Frequencies that differ by less are one that was set at each temperature: exports of four digits
+ * differ by 5e-4. Temperatures that make a temperature sweep, two more than the constants of a
+ * parabola. */
+static const double same_frequency = 1e-3;
+enum { FEWEST = 5 };
+
+wt_ramp_job wt_ramp_job_defaults(void)
+{
+    return (wt_ramp_job){.n_temperatures = 0};
+}
+
+static wt_status check_points(const void *member, wt_error *err)
+{
+    const size_t points = *(const size_t *)member;
+    if (points == 0 || points >= FEWEST)
+        return WT_OK;
+    wt_fail(err, WT_E_RANGE, "a parabola through so few points has no error");
+    wt_error_expected(err, "%d or more, or 0", FEWEST);
+    return WT_E_RANGE;
+}
+
+static const wt_param rows[] = {
+    {PARAM_LIST_OF("at", wt_ramp_job, temperature, n_temperatures, WT_Q_TEMPERATURE, ABOVE(0)),
+     .value = "T", .unset = "",
+     .help = "temperatures at which the moduli are told, such as 0degC,25degC,60degC"},
+    {PARAM("peak-points", wt_ramp_job, peak_points, WT_Q_NONE, FROM_TO(0, 10000)), .value = "N",
+     .check = check_points,
+     .help = "place peaks by a plain parabola through so many points; 0: by a smooth curve through "
+             "all that are higher than 60 % of the peak"},
+};
+PARAM_TABLE(wt_ramp_job_params, wt_ramp_job, rows, wt_ramp_job_defaults, NO_PARTS)
+
+void wt_ramp_tables_clear(wt_ramp_tables *tables)
+{
+    if (tables == NULL)
+        return;
+    wt_table_free(tables->ramp);
+    wt_table_free(tables->glass_transition);
+    wt_table_free(tables->moduli_at);
+    *tables = (wt_ramp_tables){0};
+}
+
+/* ---- isotherms by frequency ------------------------------------------------------------------ */
+
+typedef struct point {
+    double frequency, temperature, storage, loss, factor, strain;
+} point;
+
+static wt_status add_ramp(wt_sweep *sweep, const point *points, size_t n, wt_error *err)
+{
+    wt_ramp *ramp =
+        n >= FEWEST ? wt_sweep_add_ramp(sweep, n, WT_WITH_LOSS_FACTOR | WT_WITH_STRAIN) : NULL;
+    if (n < FEWEST)
+        return WT_OK;
+    if (ramp == NULL)
+        return wt_fail(err, WT_E_MEMORY, "out of memory");
+    double sum = 0;
+    for (size_t i = 0; i < n; i++) {
+        ramp->temperature[i] = points[i].temperature;
+        ramp->storage_modulus[i] = points[i].storage;
+        ramp->loss_modulus[i] = points[i].loss;
+        ramp->loss_factor[i] = points[i].factor;
+        ramp->strain[i] = points[i].strain;
+        sum += points[i].frequency;
+    }
+    ramp->angular_frequency = sum / (double)n;
+    snprintf(ramp->source, sizeof ramp->source, "%zu isotherms", n);
+    return WT_OK;
+}
+
+/* Adds the isotherms of a sweep as temperature sweeps, one for each frequency that they share. */
+static wt_status add_isotherms(wt_sweep *sweep, wt_error *err)
+{
+    size_t n = 0, all = 0;
+    for (size_t i = 0; i < sweep->n_isotherms; i++)
+        all += sweep->isotherms[i].n;
+    point *points = malloc((all + 1) * sizeof *points);
+    if (points == NULL)
+        return wt_fail(err, WT_E_MEMORY, "out of memory");
+    for (size_t i = 0; i < sweep->n_isotherms; i++) {
+        const wt_isotherm *t = &sweep->isotherms[i];
+        for (size_t k = 0; k < t->n; k++)
+            points[n++] = (point){t->angular_frequency[k],
+                                  t->temperature,
+                                  t->storage_modulus[k],
+                                  t->loss_modulus[k],
+                                  t->loss_factor != NULL ? t->loss_factor[k] : (double)NAN,
+                                  t->strain != NULL ? t->strain[k] : (double)NAN};
+    }
+    qsort(points, n, sizeof *points, numbers_compare);
+    wt_status status = WT_OK;
+    for (size_t first = 0, end; first < n && status == WT_OK; first = end) {
+        for (end = first + 1;
+             end < n && points[end].frequency < points[first].frequency * (1 + same_frequency);)
+            end++;
+        status = add_ramp(sweep, points + first, end - first, err);
+    }
+    free(points);
+    wt_sweep_sort(sweep);
+    return status;
+}
+
+/* ---- one temperature sweep ------------------------------------------------------------------- */
+
+typedef enum quantity { STORAGE, LOSS, FACTOR, QUANTITIES } quantity;
+
+/* The points of a ramp that have logarithms. */
+typedef struct usable {
+    size_t n;
+    double *temperature, *value[QUANTITIES];
+    bool has[QUANTITIES]; /* it was measured */
+} usable;
+
+/* Ratio of the moduli, or what was measured without them. */
+static double loss_factor(const wt_ramp *ramp, size_t i)
+{
+    const double storage = ramp->storage_modulus[i];
+    if (storage > 0)
+        return ramp->loss_modulus[i] / storage;
+    return ramp->loss_factor != NULL ? ramp->loss_factor[i] : (double)NAN;
+}
+
+static wt_status take_usable(const wt_ramp *ramp, pool *memory, wt_parselog *log, usable *u,
+                             wt_error *err)
+{
+    *u = (usable){.temperature = pool_numbers(memory, ramp->n)};
+    for (int q = 0; q < QUANTITIES; q++)
+        u->value[q] = pool_numbers(memory, ramp->n);
+    if (memory->failed)
+        return wt_fail(err, WT_E_MEMORY, "out of memory");
+    for (size_t i = 0; i < ramp->n; i++) {
+        u->has[STORAGE] = u->has[STORAGE] || !isnan(ramp->storage_modulus[i]);
+        u->has[LOSS] = u->has[LOSS] || !isnan(ramp->loss_modulus[i]);
+        u->has[FACTOR] = u->has[FACTOR] || !isnan(loss_factor(ramp, i));
+    }
+    for (size_t i = 0; i < ramp->n; i++) {
+        const double values[QUANTITIES] = {ramp->storage_modulus[i], ramp->loss_modulus[i],
+                                           loss_factor(ramp, i)};
+        bool good = true;
+        for (int q = 0; q < QUANTITIES; q++)
+            good = good && (!u->has[q] || (values[q] > 0 && isfinite(values[q])));
+        if (!good)
+            continue;
+        u->temperature[u->n] = ramp->temperature[i];
+        for (int q = 0; q < QUANTITIES; q++)
+            u->value[q][u->n] = values[q];
+        u->n++;
+    }
+    if (u->n < ramp->n)
+        wt_parselog_add(log, WT_WARNING, ramp->source, NULL,
+                        "temperature sweep at %.4g rad/s: %zu of %zu points left out, no positive "
+                        "modulus",
+                        ramp->angular_frequency, ramp->n - u->n, ramp->n);
+    return WT_OK;
+}
+
+TABLE_ROW(ramp, RAMP, double temperature, angular_frequency, storage_modulus, loss_modulus,
+          loss_factor, strain;
+          const char *source;)
+
+static void put_points(table_writer *t, const wt_ramp *r)
+{
+    table_block(t);
+    for (size_t i = 0; i < r->n; i++)
+        TABLE_ADD(ramp, t, r->temperature[i], r->angular_frequency, r->storage_modulus[i],
+                  r->loss_modulus[i], loss_factor(r, i),
+                  r->strain != NULL ? r->strain[i] : (double)NAN, r->source);
+}
+
+typedef struct shown_peak {
+    wt_interval at;
+    double height, points, misfit;
+    const char *why_not;
+} shown_peak;
+
+TABLE_ROW(glass_transition, GLASS_TRANSITION, shown_peak factor, loss; wt_interval onset;
+          const char *onset_note; double angular_frequency, temperature_min, temperature_max;
+          const char *source; bool other;)
+
+static const wt_interval not_known = {(double)NAN, (double)NAN, (double)NAN, (double)NAN};
+
+static shown_peak show_peak(const wt_peak *p)
+{
+    const double none = (double)NAN;
+    return p->found ? (shown_peak){p->at, p->height.value, (double)p->n, p->misfit, p->why_not}
+                    : (shown_peak){not_known, none, none, none, p->why_not};
+}
+
+typedef struct peaks {
+    wt_peak factor, loss;
+    wt_onset onset;
+} peaks;
+
+static wt_status find_peak(const wt_ramp_job *job, const usable *u, quantity q, wt_peak *peak,
+                           wt_error *err)
+{
+    if (u->has[q])
+        return wt_peak_find(u->temperature, u->value[q], u->n, job->peak_points, peak, err);
+    *peak = (wt_peak){.found = false, .why_not = "not measured"};
+    return WT_OK;
+}
+
+/* More transitions than these no rubber has; what is left is scatter. */
+enum { MOST_OTHERS = 8 };
+
+/* Lower peaks of one quantity, a row for each: of which transition of the other quantity it is
+ * nobody says. */
+static wt_status put_others(table_writer *t, const wt_ramp *ramp, const usable *u, quantity q,
+                            wt_error *err)
+{
+    wt_peak lower[MOST_OTHERS];
+    size_t n = 0;
+    const wt_status status =
+        wt_peaks_beside(u->temperature, u->value[q], u->n, MOST_OTHERS, lower, &n, err);
+    for (size_t i = 0; i < n; i++) {
+        const wt_peak none = {.found = false,
+                              .why_not = q == LOSS ? "of the loss modulus" : "of tan delta"};
+        TABLE_ADD(glass_transition, t, show_peak(q == FACTOR ? &lower[i] : &none),
+                  show_peak(q == LOSS ? &lower[i] : &none), not_known,
+                  "in the row of the largest peak", ramp->angular_frequency, ramp->temperature[0],
+                  ramp->temperature[ramp->n - 1], ramp->source, true);
+    }
+    return status;
+}
+
+static wt_status put_transition(table_writer *t, const wt_ramp_job *job, const wt_ramp *ramp,
+                                const usable *u, peaks *found, wt_error *err)
+{
+    wt_status status = find_peak(job, u, FACTOR, &found->factor, err);
+    if (status == WT_OK)
+        status = find_peak(job, u, LOSS, &found->loss, err);
+    found->onset = (wt_onset){.at = not_known, .why_not = "not measured"};
+    if (status == WT_OK && u->has[STORAGE])
+        status = wt_onset_find(u->temperature, u->value[STORAGE], u->n, &found->onset, err);
+    if (status != WT_OK)
+        return status;
+    TABLE_ADD(glass_transition, t, show_peak(&found->factor), show_peak(&found->loss),
+              found->onset.at, found->onset.why_not, ramp->angular_frequency, ramp->temperature[0],
+              ramp->temperature[ramp->n - 1], ramp->source, false);
+    for (quantity q = LOSS; q <= FACTOR && status == WT_OK && job->peak_points == 0; q++)
+        status = u->has[q] ? put_others(t, ramp, u, q, err) : WT_OK;
+    return status;
+}
+
+TABLE_ROW(moduli_at, MODULI_AT, double temperature, angular_frequency;
+          wt_interval modulus[QUANTITIES]; const char *note, *source;)
+
+static wt_status put_moduli(table_writer *t, const wt_ramp_job *job, const wt_ramp *ramp,
+                            const usable *u, wt_error *err)
+{
+    wt_status status = WT_OK;
+    for (size_t k = 0; status == WT_OK && k < job->n_temperatures; k++) {
+        const double at = job->temperature[k];
+        const bool within =
+            u->n >= FEWEST && at >= u->temperature[0] && at <= u->temperature[u->n - 1];
+        moduli_at_row row = {at,
+                             ramp->angular_frequency,
+                             {not_known, not_known, not_known},
+                             within           ? ""
+                             : u->n >= FEWEST ? "outside of the temperatures measured"
+                                              : "too few points",
+                             ramp->source};
+        for (int q = 0; within && status == WT_OK && q < QUANTITIES; q++)
+            if (u->has[q])
+                status =
+                    wt_value_between(u->temperature, u->value[q], u->n, at, &row.modulus[q], err);
+        moduli_at_add_row(t, &row);
+    }
+    return status;
+}
+
+/* ---- how a peak moves with frequency ----------------------------------------------------------
+ */
+
+/* Sums over the peaks at all frequencies: x = 1/T by its error, y = ln omega. */
+typedef struct motion {
+    size_t n;
+    double w, x, y, xx, xy, yy; /* about the first of them */
+    double x0, y0;
+} motion;
+
+static void add_motion(motion *m, const wt_peak *peak, double angular_frequency)
+{
+    const double temperature = peak->at.value,
+                 error = peak->at.standard_error / (temperature * temperature);
+    if (!peak->found || !(error > 0))
+        return;
+    if (m->n++ == 0) {
+        m->x0 = 1 / temperature;
+        m->y0 = log(angular_frequency);
+    }
+    const double w = 1 / (error * error), x = 1 / temperature - m->x0,
+                 y = log(angular_frequency) - m->y0;
+    m->w += w;
+    m->x += w * x;
+    m->y += w * y;
+    m->xx += w * x * x;
+    m->xy += w * x * y;
+    m->yy += w * y * y;
+}
+
+/* Apparent activation energy -R d ln omega / d (1/T), by the line of 1/T over ln omega, whose
+ * errors are those of the peaks, or what they scatter about it if that is more: a curve of WLF is
+ * such a scatter. A line through two frequencies has the errors of the peaks alone. */
+static wt_estimate activation_energy(const motion *m)
+{
+    const double none = (double)NAN, yy = m->yy - m->y * m->y / m->w,
+                 xy = m->xy - m->x * m->y / m->w, xx = m->xx - m->x * m->x / m->w, slope = xy / yy;
+    if (m->n < 2 || !(yy > 0) || !(slope < 0))
+        return (wt_estimate){none, none, none, "J/mol"};
+    const double energy = -GAS_CONSTANT / slope,
+                 scatter = m->n > 2 ? (xx - slope * xy) / (double)(m->n - 2) : 1;
+    return (wt_estimate){energy, energy * sqrt(fmax(scatter, 1) / yy) / -slope, 0, "J/mol"};
+}
+
+/* ---- the job --------------------------------------------------------------------------------- */
+
+typedef struct writers {
+    table_writer ramp, transition, moduli;
+} writers;
+
+/* Of the frequency nearest to 1 Hz that has a peak. */
+TABLE_KEYS(glass_transition, GLASS_TRANSITION, wt_interval factor_peak, loss_peak, onset;
+           wt_estimate factor_energy, loss_energy; double angular_frequency;
+           const char *deformation;)
+
+static wt_status put_all(const wt_ramp_job *job, const wt_job *work, const wt_sweep *sweep,
+                         writers *w, wt_error *err)
+{
+    double away = HUGE_VAL;
+    motion factors = {0}, losses = {0};
+    glass_transition_keys best = {.factor_peak = not_known,
+                                  .loss_peak = not_known,
+                                  .onset = not_known,
+                                  .angular_frequency = (double)NAN,
+                                  .deformation = flow_deformation_name(sweep->deformation)};
+    wt_status status = WT_OK;
+    for (size_t i = 0; i < sweep->n_ramps && status == WT_OK; i++) {
+        const wt_ramp *ramp = &sweep->ramps[i];
+        pool memory = {0};
+        usable u;
+        peaks found = {0};
+        put_points(&w->ramp, ramp);
+        status = take_usable(ramp, &memory, work->log, &u, err);
+        if (status == WT_OK && (work->left_out & WT_EXTRA_TRANSITION) == 0)
+            status = put_transition(&w->transition, job, ramp, &u, &found, err);
+        if (status == WT_OK)
+            status = put_moduli(&w->moduli, job, ramp, &u, err);
+        pool_free(&memory);
+        add_motion(&factors, &found.factor, ramp->angular_frequency);
+        add_motion(&losses, &found.loss, ramp->angular_frequency);
+        const double off = fabs(log(ramp->angular_frequency / (2 * M_PI)));
+        if (status == WT_OK && (found.factor.found || found.loss.found) && off < away) {
+            away = off;
+            best.angular_frequency = ramp->angular_frequency;
+            best.factor_peak = found.factor.found ? found.factor.at : not_known;
+            best.loss_peak = found.loss.found ? found.loss.at : not_known;
+            best.onset = found.onset.at;
+        }
+    }
+    best.factor_energy = activation_energy(&factors);
+    best.loss_energy = activation_energy(&losses);
+    glass_transition_set_keys(&w->transition, &best);
+    return status;
+}
+
+static wt_status make_tables(const wt_ramp_job *job, const wt_job *work, const wt_sweep *sweep,
+                             wt_ramp_tables *t, wt_error *err)
+{
+    const char *deformation = flow_deformation_name(sweep->deformation);
+    writers w = {table_begin(&ramp_schema, err), table_begin(&glass_transition_schema, err),
+                 table_begin(&moduli_at_schema, err)};
+    wt_status status = put_all(job, work, sweep, &w, err);
+    ramp_set_text(&w.ramp, RAMP_KEY_DEFORMATION, deformation);
+    moduli_at_set_text(&w.moduli, MODULI_AT_KEY_DEFORMATION, deformation);
+    const wt_status ended[] = {table_end(&w.ramp, &t->ramp),
+                               table_end(&w.transition, &t->glass_transition),
+                               table_end(&w.moduli, &t->moduli_at)};
+    for (size_t i = 0; i < COUNT_OF(ended) && status == WT_OK; i++)
+        status = ended[i];
+    if (job->n_temperatures == 0) {
+        wt_table_free(t->moduli_at);
+        t->moduli_at = NULL;
+    }
+    return status;
+}
+
+wt_status wt_ramp_make(const wt_ramp_job *job, const wt_job *work, wt_ramp_tables *tables,
+                       wt_error *err)
+{
+    if (job == NULL || work == NULL || tables == NULL)
+        return wt_fail(err, WT_E_ARG, "no job of temperature sweeps");
+    wt_sweep sweep = {0};
+    wt_ramp_tables t = {0};
+    wt_status status = param_check(wt_ramp_job_params(), job, err);
+    if (status == WT_OK)
+        status = flow_sweeps_read(job->sets, job->n_sets, work, &sweep, err);
+    if (status == WT_OK)
+        status = flow_one_sample(&sweep, job->sets, job->n_sets, work->log, err);
+    if (status == WT_OK)
+        status = flow_one_amplitude(&sweep, job->sets, job->n_sets, work->log, err);
+    const size_t isotherms = sweep.n_isotherms, strain_sweeps = sweep.n_strain_sweeps;
+    if (status == WT_OK)
+        status = flow_needs_oscillation(&sweep, "a temperature sweep", err);
+    if (status == WT_OK)
+        status = add_isotherms(&sweep, err);
+    if (status == WT_OK && sweep.n_ramps == 0) {
+        status = wt_fail(err, WT_E_EMPTY, "no temperature sweep could be read");
+        wt_error_expected(err, "moduli at one frequency at %d temperatures or more", FEWEST);
+        wt_error_found(err, "isotherms: %zu, strain sweeps: %zu", isotherms, strain_sweeps);
+        if (strain_sweeps > 0)
+            wt_error_advice(err, "`weartrack payne FILE` tells how the rubber softens with strain");
+    }
+    if (status == WT_OK)
+        status = make_tables(job, work, &sweep, &t, err);
+    if (status == WT_OK) {
+        cost_say(work, (cost_summary){.items = (double)sweep.n_ramps});
+        *tables = t;
+        t = (wt_ramp_tables){0};
+    }
+    wt_ramp_tables_clear(&t);
+    wt_sweep_clear(&sweep);
+    return status;
+}

@@ -1,0 +1,297 @@
+/* Temperature sweeps as isotherms: points of neighbouring temperatures make one, each brought to
+ * its temperature by the shift law, which is found with them.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#include "dma/ramp_windows.h"
+
+#include "core/base/array.h"
+#include "dma/sweep_input.h"
+
+#include "core/base/clocale.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+/* Windows are as many as describe a law well, ten for each of its constants, and are fitted
+ * quickly, for time goes with the cube of them; points of one, for each of its frequencies and in
+ * all, as SHIFT_MIN_POINTS. Of more points than tell anything, twenty in a window, neighbours are
+ * joined. Rounds in which the points come to where they belong, each by half of the rest or,
+ * foretold by two (Anderson's mixing), by up to eight times what one would. */
+enum {
+    MOST_WINDOWS = 30,
+    OF_FREQUENCY = 1,
+    LEAST_POINTS = 4,
+    MOST_POINTS = 600,
+    MOST_ROUNDS = 8,
+    MOST_AHEAD = 8
+};
+static const double same_frequency = 1e-3; /* exports of four digits differ by 5e-4 */
+/* Points are where they belong when a round moves none further than this [decade]: 1 %, as noise.
+ */
+static const double enough = 0.005;
+
+enum { STORAGE, LOSS, FACTOR, QUANTITIES };
+
+typedef struct point {
+    double temperature, frequency;
+    double
+        value[QUANTITIES]; /* storage and loss modulus, loss factor where it was measured alone */
+    double off;            /* what brings it to the temperature of its window [decade] */
+    double told, misses;   /* what the law last said of that, and how far `off` was from it */
+} point;
+
+typedef struct windows {
+    size_t n, n_points, n_left_out;
+    point *point;          /* by temperature */
+    size_t *first;         /* [n + 1] */
+    wt_isotherm *isotherm; /* [n] those of the sweep, whose arrays they borrow */
+} windows;
+
+static void windows_free(windows *w)
+{
+    free(w->point);
+    free(w->first);
+    free(w->isotherm);
+}
+
+/* Frequencies of the sweeps, which are in their order. */
+static size_t count_frequencies(const wt_sweep *sweep)
+{
+    size_t n = 0;
+    double last = 0;
+    for (size_t i = 0; i < sweep->n_ramps; i++) {
+        const double w = sweep->ramps[i].angular_frequency;
+        if (w > last * (1 + same_frequency)) {
+            last = w;
+            n++;
+        }
+    }
+    return n;
+}
+
+/* Cuts the points where a window is wide enough and has enough of them. */
+static void cut_points(windows *w, size_t n_frequencies)
+{
+    const size_t least =
+        OF_FREQUENCY * n_frequencies > LEAST_POINTS ? OF_FREQUENCY * n_frequencies : LEAST_POINTS;
+    const point *p = w->point;
+    const double width = (p[w->n_points - 1].temperature - p[0].temperature) / MOST_WINDOWS;
+    w->n = 0;
+    w->first[0] = 0;
+    for (size_t i = 1; i < w->n_points; i++) {
+        const size_t first = w->first[w->n];
+        if (i - first >= least && p[i].temperature - p[first].temperature >= width &&
+            w->n_points - i >= least)
+            w->first[++w->n] = i;
+    }
+    w->first[++w->n] = w->n_points;
+}
+
+static double value_of(const wt_ramp *r, int q, size_t k)
+{
+    const double *const values[QUANTITIES] = {r->storage_modulus, r->loss_modulus, r->loss_factor};
+    return values[q] != NULL ? values[q][k] : (double)NAN;
+}
+
+/* What a sweep has at some point. */
+static void find_measured(const wt_ramp *r, bool has[QUANTITIES])
+{
+    for (int q = 0; q < QUANTITIES; q++) {
+        has[q] = false;
+        for (size_t k = 0; k < r->n && !has[q]; k++)
+            has[q] = isfinite(value_of(r, q, k));
+    }
+}
+
+/* `each` neighbouring points of a sweep as one; those without logarithms count for nothing. */
+static void take_points(const wt_ramp *r, size_t each, windows *w)
+{
+    bool has[QUANTITIES];
+    find_measured(r, has);
+    for (size_t first = 0; first < r->n; first += each) {
+        double temperature = 0, sum[QUANTITIES] = {0};
+        size_t n = 0;
+        for (size_t k = first; k < first + each && k < r->n; k++) {
+            bool good = has[STORAGE] || has[LOSS] || has[FACTOR];
+            for (int q = 0; q < QUANTITIES; q++)
+                good = good && (!has[q] || value_of(r, q, k) > 0);
+            w->n_left_out += !good;
+            for (int q = 0; good && q < QUANTITIES; q++)
+                sum[q] += log(value_of(r, q, k));
+            temperature += good ? r->temperature[k] : 0;
+            n += good;
+        }
+        if (n == 0)
+            continue;
+        point *p = &w->point[w->n_points++];
+        *p = (point){.temperature = temperature / (double)n, .frequency = r->angular_frequency};
+        for (int q = 0; q < QUANTITIES; q++)
+            p->value[q] = exp(sum[q] / (double)n);
+    }
+}
+
+static wt_status make_windows(const wt_sweep *sweep, windows *w, wt_error *err)
+{
+    size_t n = 0;
+    for (size_t i = 0; i < sweep->n_ramps; i++)
+        n += sweep->ramps[i].n;
+    w->point = malloc((n + 1) * sizeof *w->point);
+    w->first = malloc((n + 2) * sizeof *w->first);
+    if (w->point == NULL || w->first == NULL)
+        return wt_fail(err, WT_E_MEMORY, "out of memory");
+    for (size_t i = 0; i < sweep->n_ramps; i++)
+        take_points(&sweep->ramps[i], (n + MOST_POINTS - 1) / MOST_POINTS, w);
+    if (w->n_points == 0)
+        return wt_fail(err, WT_E_RANGE, "no point of the temperature sweeps has positive moduli");
+    qsort(w->point, w->n_points, sizeof *w->point, numbers_compare);
+    cut_points(w, count_frequencies(sweep));
+    return WT_OK;
+}
+
+static wt_status add_isotherms(wt_sweep *sweep, windows *w, wt_error *err)
+{
+    w->isotherm = malloc(w->n * sizeof *w->isotherm);
+    if (w->isotherm == NULL)
+        return wt_fail(err, WT_E_MEMORY, "out of memory");
+    for (size_t i = 0; i < w->n; i++) {
+        const size_t first = w->first[i], n = w->first[i + 1] - first;
+        bool factor = false;
+        for (size_t k = 0; k < n; k++)
+            factor = factor || isfinite(w->point[first + k].value[FACTOR]);
+        wt_isotherm *t = wt_sweep_add(sweep, n, factor ? WT_WITH_LOSS_FACTOR : 0);
+        if (t == NULL)
+            return wt_fail(err, WT_E_MEMORY, "out of memory");
+        double sum = 0;
+        for (size_t k = 0; k < n; k++)
+            sum += w->point[first + k].temperature;
+        t->temperature = sum / (double)n;
+        clocale_print(t->source, sizeof t->source, "temperature sweeps, %.1f to %.1f degC",
+                      w->point[first].temperature - WT_ZERO_CELSIUS,
+                      w->point[first + n - 1].temperature - WT_ZERO_CELSIUS);
+        w->isotherm[i] = *t;
+    }
+    return WT_OK;
+}
+
+/* What the law says of the points, given where they lie, comes nearer to where they belong by the
+ * same share in each round; two rounds foretell where it ends (Anderson's mixing). The furthest
+ * that a point is off what the law says. */
+static double shift_by_fit(const windows *w, const wt_master *master, bool first)
+{
+    double most = 0, product = 0, square = 0;
+    for (size_t i = 0; i < w->n; i++) {
+        const double here = wt_master_law(master, w->isotherm[i].temperature).value;
+        for (size_t k = w->first[i]; k < w->first[i + 1]; k++) {
+            point *p = &w->point[k];
+            const double off = wt_master_law(master, p->temperature).value - here,
+                         told = isfinite(off) ? off : 0, misses = told - p->off;
+            product += misses * (misses - p->misses);
+            square += (misses - p->misses) * (misses - p->misses);
+            most = fmax(most, fabs(misses));
+            p->off = told - p->told; /* for the moment */
+            p->told = told;
+            p->misses = misses;
+        }
+    }
+    const double share = square > 0 && !first ? fmax(-MOST_AHEAD, fmin(0.5, product / square)) : 0;
+    for (size_t k = 0; k < w->n_points; k++)
+        w->point[k].off = w->point[k].told - share * w->point[k].off;
+    return most;
+}
+
+/* A law that is given needs not be listened to; nor are the shifts fitted. */
+static wt_status shift_by_law(const windows *w, const wt_shift_law *law, wt_sweep *sweep,
+                              wt_error *err)
+{
+    for (size_t i = 0; i < w->n; i++) {
+        const double here = wt_shift_law_log_a(law, w->isotherm[i].temperature);
+        for (size_t k = w->first[i]; k < w->first[i + 1]; k++)
+            w->point[k].off = wt_shift_law_log_a(law, w->point[k].temperature) - here;
+    }
+    return flow_shifts_give(law, NULL, WT_VERTICAL_NONE, sweep, NULL, err);
+}
+
+/* The points as they would have been at the temperature of their window. */
+static void bring_to_windows(const windows *w, bool vertical)
+{
+    for (size_t i = 0; i < w->n; i++) {
+        const wt_isotherm *t = &w->isotherm[i];
+        for (size_t k = 0; k < t->n; k++) {
+            const point *p = &w->point[w->first[i] + k];
+            const double b = vertical ? t->temperature / p->temperature : 1;
+            t->angular_frequency[k] = p->frequency * pow(10, p->off);
+            t->storage_modulus[k] = p->value[STORAGE] * b;
+            t->loss_modulus[k] = p->value[LOSS] * b;
+            if (t->loss_factor != NULL)
+                t->loss_factor[k] = p->value[FACTOR];
+        }
+    }
+}
+
+static wt_status check_isotherms(const wt_sweep *sweep, wt_error *err)
+{
+    if (sweep->n_isotherms > 0 || count_frequencies(sweep) > 1)
+        return WT_OK;
+    wt_fail(err, WT_E_MISSING, "a temperature sweep at one frequency has no shift of its own");
+    wt_error_expected(err, "sweeps at two frequencies or more, or isotherms beside it");
+    wt_error_advice(err, "give the law of the shifts (--shift-law wlf:...); `weartrack ramp FILE` "
+                         "tells the glass transition");
+    return WT_E_MISSING;
+}
+
+static void warn_of_windows(const wt_sweep *sweep, const windows *w, const wt_master *master,
+                            bool given, double moved, wt_parselog *log)
+{
+    const size_t frequencies = count_frequencies(sweep);
+    wt_parselog_add(log, WT_NOTE, sweep->ramps[0].source, NULL,
+                    "%zu temperature sweep%s at %zu frequenc%s %s fitted as %zu isotherms, each "
+                    "point brought to the temperature of its isotherm by the shift law%s",
+                    sweep->n_ramps, sweep->n_ramps > 1 ? "s" : "", frequencies,
+                    frequencies > 1 ? "ies" : "y", sweep->n_ramps > 1 ? "are" : "is", w->n,
+                    given ? " that is given" : "");
+    if (w->n_left_out > 0)
+        wt_parselog_add(log, WT_WARNING, sweep->ramps[0].source, NULL,
+                        "%zu points of the temperature sweeps left out, no positive modulus",
+                        w->n_left_out);
+    if (moved >= enough)
+        wt_parselog_add(log, WT_WARNING, sweep->ramps[0].source, NULL,
+                        "the shift law and what it makes of the temperature sweeps do not agree "
+                        "to better than %.2g decades",
+                        moved);
+    if (master->law.kind == WT_LAW_NONE)
+        wt_parselog_add(log, WT_WARNING, sweep->ramps[0].source, NULL,
+                        "no shift law brings the points of the temperature sweeps to one "
+                        "temperature: those of %.1f K count as an isotherm",
+                        w->point[w->first[1] - 1].temperature - w->point[0].temperature);
+}
+
+wt_status flow_ramps_fit(wt_sweep *sweep, const wt_master_options *options,
+                         const wt_shift_law *given, wt_parselog *log, wt_master *master,
+                         wt_error *err)
+{
+    windows w = {0};
+    const bool known = given->kind != WT_LAW_NONE;
+    wt_status status = known ? WT_OK : check_isotherms(sweep, err);
+    if (status == WT_OK)
+        status = make_windows(sweep, &w, err);
+    if (status == WT_OK)
+        status = add_isotherms(sweep, &w, err);
+    if (status == WT_OK && known)
+        status = shift_by_law(&w, given, sweep, err);
+    wt_master_options quick = *options;
+    if (quick.vertical != WT_VERTICAL_NONE)
+        quick.vertical = WT_VERTICAL_PHYSICAL; /* near enough for the law */
+    bool last = false;
+    double moved = 0;
+    for (int round = 0; status == WT_OK && !last; round++) {
+        moved = round > 0 ? shift_by_fit(&w, master, round == 1) : 0;
+        last = known || (round > 0 && (moved < enough || round == MOST_ROUNDS));
+        bring_to_windows(&w, options->vertical != WT_VERTICAL_NONE);
+        wt_sweep_sort(sweep);
+        wt_master_clear(master);
+        status = wt_master_fit(sweep, last ? options : &quick, last ? log : NULL, master, err);
+    }
+    if (status == WT_OK)
+        warn_of_windows(sweep, &w, master, known, moved, log);
+    windows_free(&w);
+    return status;
+}

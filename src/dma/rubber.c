@@ -1,0 +1,309 @@
+/* The rubber as the stages after the DMA know it, and its material law at a temperature.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#include "dma/rubber.h"
+#include "job/random_draws.h"
+
+#include "core/base/clocale.h"
+#include "core/data/prony_series.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+/* Without a shift law the material is used as it is up to this far from its reference [K]; a DMA
+ * oven holds its temperature no better. */
+#define SAME_TEMPERATURE 1.0
+
+void flow_rubber_drop_draws(wt_rubber *rubber)
+{
+    for (size_t i = 0; i < rubber->n_draws; i++) {
+        wt_prony_clear(&rubber->draws[i].prony);
+        free(rubber->draws[i].log_b);
+    }
+    free(rubber->draws);
+    rubber->draws = NULL;
+    rubber->n_draws = 0;
+}
+
+void wt_rubber_clear(wt_rubber *rubber)
+{
+    if (rubber == NULL)
+        return;
+    wt_prony_clear(&rubber->prony);
+    free(rubber->vertical_temperature);
+    free(rubber->vertical_log_b);
+    flow_rubber_drop_draws(rubber);
+    wt_sweep_clear(&rubber->sweep);
+    *rubber = (wt_rubber){0};
+}
+
+/* log10 b_T, or a change of it at the isotherms, by linear interpolation; held outside, which *held
+ * says, except that it is 0 at the reference temperature wherever that is. */
+static double vertical_shift(const wt_rubber *rubber, const double *b, double temperature,
+                             bool *held)
+{
+    const double *t = rubber->vertical_temperature;
+    size_t n = rubber->n_vertical;
+    *held = false;
+    if (n == 0)
+        return 0;
+    if (temperature <= t[0] || temperature >= t[n - 1]) {
+        size_t end = temperature <= t[0] ? 0 : n - 1;
+        double way = rubber->prony.reference_temperature - t[end], gone = temperature - t[end];
+        *held = gone != 0;
+        if ((end == 0 ? way < 0 : way > 0) && gone != 0)
+            return b[end] * (1 - fmin(gone / way, 1));
+        return b[end];
+    }
+    size_t i = 1;
+    while (t[i] < temperature)
+        i++;
+    if (!(t[i] > t[i - 1]))
+        return b[i];
+    return b[i - 1] + (b[i] - b[i - 1]) * (temperature - t[i - 1]) / (t[i] - t[i - 1]);
+}
+
+/* Further away times and frequencies are no numbers: a double ends at 308 decades. */
+static const double most_decades = 200;
+
+/* log10 a_T of a law. */
+static wt_status horizontal_shift(const wt_shift_law *law, double reference, double temperature,
+                                  double *log_a, wt_error *err)
+{
+    const double from = temperature - reference;
+    *log_a = 0;
+    if (isnan(from)) {
+        wt_fail(err, WT_E_MISSING, "the reference temperature of the material is not known");
+        wt_error_advice(err, "give --reference-temperature");
+        return WT_E_MISSING;
+    }
+    if (law->kind == WT_LAW_NONE) {
+        if (fabs(from) <= SAME_TEMPERATURE)
+            return WT_OK;
+        wt_fail(err, WT_E_MISSING, "no shift law takes the material to another temperature");
+        wt_error_expected(err, "a temperature within 1 K of %.2f degC",
+                          reference - WT_ZERO_CELSIUS);
+        wt_error_found(err, "%.2f degC", temperature - WT_ZERO_CELSIUS);
+        wt_error_advice(err, "give WLF constants, or DMA isotherms at several temperatures");
+        return WT_E_MISSING;
+    }
+    *log_a = wt_shift_law_log_a(law, temperature);
+    if (isnan(*log_a)) {
+        wt_fail(err, WT_E_RANGE, "the temperature is at or below the pole of the WLF law");
+        wt_error_expected(err, "more than %.2f degC",
+                          law->wlf.reference_temperature - law->wlf.c2 - WT_ZERO_CELSIUS);
+        wt_error_found(err, "%.2f degC", temperature - WT_ZERO_CELSIUS);
+        return WT_E_RANGE;
+    }
+    if (fabs(*log_a) > most_decades) {
+        wt_fail(err, WT_E_RANGE, "the temperature is out of reach of the shift law");
+        wt_error_expected(err, "one at which log10 aT is from -%g to %g", most_decades,
+                          most_decades);
+        wt_error_found(err, "%.2f degC, at which it is %.3g", temperature - WT_ZERO_CELSIUS,
+                       *log_a);
+        return WT_E_RANGE;
+    }
+    return WT_OK;
+}
+
+bool flow_rubber_reaches(const wt_rubber *rubber, double temperature, wt_error *why)
+{
+    double log_a;
+    return isnan(temperature) || horizontal_shift(&rubber->law, rubber->prony.reference_temperature,
+                                                  temperature, &log_a, why) == WT_OK;
+}
+
+/* Standard error of log10 a_T by those of the constants of a law that came with them. */
+static double law_error(const wt_rubber *rubber, double temperature)
+{
+    const wt_wlf *wlf = &rubber->law.wlf;
+    if (rubber->law.kind != WT_LAW_WLF)
+        return 0;
+    const double step = temperature - wlf->reference_temperature, sum = wlf->c2 + step;
+    const double by_c1 = -step / sum * rubber->c1_error;
+    const double by_c2 = wlf->c1 * step / (sum * sum) * rubber->c2_error;
+    const double variance =
+        by_c1 * by_c1 + by_c2 * by_c2 + 2 * rubber->c_correlation * by_c1 * by_c2;
+    return variance > 0 ? sqrt(variance) : 0;
+}
+
+static void make_statement(const wt_rubber *rubber, double temperature, bool held,
+                           char statement[256])
+{
+    statement[0] = '\0';
+    if (temperature < rubber->temperature_min || temperature > rubber->temperature_max)
+        clocale_print(statement, 256,
+                      "%.1f degC is outside the isotherms (%.1f to %.1f degC): the shift law is "
+                      "extrapolated%s",
+                      temperature - WT_ZERO_CELSIUS, rubber->temperature_min - WT_ZERO_CELSIUS,
+                      rubber->temperature_max - WT_ZERO_CELSIUS,
+                      held ? " and the vertical shift held" : "");
+}
+
+/* The draw behind a replicate: they are gone through in turn, by the default seed from the first
+ * one on, by the others from further on. NULL: the values as fitted. */
+static const wt_rubber_draw *draw_of(const wt_rubber *rubber, uint64_t seed, size_t replicate)
+{
+    if (replicate == WT_NO_REPLICATE || rubber->n_draws == 0)
+        return NULL;
+    const size_t first = (size_t)((seed - 1) * 64 % rubber->n_draws);
+    return &rubber->draws[(first + replicate) % rubber->n_draws];
+}
+
+wt_shift_law flow_rubber_law(const wt_rubber *rubber, uint64_t seed, size_t replicate)
+{
+    const wt_rubber_draw *draw = draw_of(rubber, seed, replicate);
+    return draw != NULL ? draw->law : rubber->law;
+}
+
+/* The series with times a and moduli 1/b times those at the reference temperature. */
+static wt_status shifted_series(const wt_rubber *rubber, const wt_rubber_draw *draw,
+                                double temperature, double a, double b, wt_prony *prony,
+                                wt_error *err)
+{
+    wt_status status = prony_copy(draw != NULL ? &draw->prony : &rubber->prony, prony, err);
+    if (status != WT_OK)
+        return status;
+    prony->reference_temperature = temperature;
+    prony->frequency_min /= a;
+    prony->frequency_max /= a;
+    prony->equilibrium_modulus /= b;
+    for (size_t i = 0; i < prony->n; i++) {
+        prony->relaxation_time[i] *= a;
+        prony->modulus[i] /= b;
+    }
+    return WT_OK;
+}
+
+static wt_status series_at(const wt_rubber *rubber, const wt_rubber_draw *draw, double temperature,
+                           double a, double b, wt_material **material, wt_error *err)
+{
+    wt_prony prony = {0};
+    wt_status status = shifted_series(rubber, draw, temperature, a, b, &prony, err);
+    if (status == WT_OK)
+        status = wt_material_prony(&prony, rubber->poisson_ratio, material, err);
+    wt_prony_clear(&prony);
+    return status;
+}
+
+static wt_status table_at(const wt_rubber *rubber, double a, double b, wt_material **material,
+                          wt_error *err)
+{
+    const wt_isotherm *points = &rubber->sweep.isotherms[0];
+    const size_t n = points->n;
+    const double to_young =
+        rubber->sweep.deformation == WT_SHEAR ? 2 * (1 + rubber->poisson_ratio) : 1;
+    double *omega = malloc((3 * n + 1) * sizeof *omega);
+    if (omega == NULL)
+        return wt_fail(err, WT_E_MEMORY, "out of memory");
+    double *storage = omega + n, *loss = storage + n;
+    for (size_t i = 0; i < n; i++) {
+        omega[i] = points->angular_frequency[i] / a;
+        storage[i] = to_young / b * points->storage_modulus[i];
+        loss[i] = to_young / b * points->loss_modulus[i];
+    }
+    const wt_status status = wt_material_table(omega, storage, loss, n, rubber->poisson_ratio,
+                                               rubber->extrapolation, material, err);
+    free(omega);
+    return status;
+}
+
+/* The law of the moduli with times a and moduli 1/b times those at the reference temperature. */
+static wt_status law_at(const wt_rubber *rubber, const wt_rubber_draw *draw, double temperature,
+                        double a, double b, wt_material **material, wt_error *err)
+{
+    const wt_zener *z = &rubber->zener;
+    switch (rubber->kind) {
+    case WT_RUBBER_TABLE:
+        return table_at(rubber, a, b, material, err);
+    case WT_RUBBER_ZENER:
+        return wt_material_fractional_zener(z->e0 / b, z->eg / b, z->tau * a, z->alpha,
+                                            rubber->poisson_ratio, material, err);
+    case WT_RUBBER_SERIES:
+        break;
+    }
+    return series_at(rubber, draw, temperature, a, b, material, err);
+}
+
+/* Factors of times and moduli at a temperature (NaN: the reference, which it then is); held: that
+ * of the moduli, beyond the isotherms. */
+static wt_status factors_at(const wt_rubber *rubber, const wt_rubber_draw *draw, uint64_t seed,
+                            size_t replicate, double *temperature, double *a, double *b, bool *held,
+                            wt_error *err)
+{
+    const double reference = rubber->prony.reference_temperature;
+    const wt_shift_law *law = draw != NULL ? &draw->law : &rubber->law;
+    const double *log_b = draw != NULL ? draw->log_b : rubber->vertical_log_b;
+    double log_a = 0;
+    wt_status status = WT_OK;
+    if (isnan(*temperature))
+        *temperature = reference;
+    else
+        status = horizontal_shift(law, reference, *temperature, &log_a, err);
+    if (status != WT_OK)
+        return status;
+    if (rubber->n_draws == 0 && *temperature != reference)
+        log_a += law_error(rubber, *temperature) *
+                 flow_draw_normal(seed, replicate, FLOW_DRAW_SHIFT_LAW);
+    *a = pow(10, log_a);
+    *b = pow(10, vertical_shift(rubber, log_b, *temperature, held));
+    return WT_OK;
+}
+
+wt_status flow_rubber_shift(const wt_rubber *rubber, double temperature, rubber_shift *shift,
+                            wt_error *err)
+{
+    bool held = false;
+    *shift = (rubber_shift){.a = 1, .b = 1};
+    const wt_status status = factors_at(rubber, NULL, 1, WT_NO_REPLICATE, &temperature, &shift->a,
+                                        &shift->b, &held, err);
+    if (status == WT_OK)
+        make_statement(rubber, temperature, held, shift->statement);
+    return status;
+}
+
+wt_status wt_rubber_at(const wt_rubber *rubber, double temperature, uint64_t seed, size_t replicate,
+                       wt_material **material, char statement[256], wt_error *err)
+{
+    if (rubber == NULL || material == NULL)
+        return wt_fail(err, WT_E_ARG, "no rubber");
+    const wt_rubber_draw *draw = draw_of(rubber, seed, replicate);
+    wt_material *made = NULL;
+    double a = 1, b = 1;
+    bool held = false;
+    wt_status status = factors_at(rubber, draw, seed, replicate, &temperature, &a, &b, &held, err);
+    if (status == WT_OK)
+        status = law_at(rubber, draw, temperature, a, b, &made, err);
+    if (status == WT_OK && rubber->is_transverse)
+        status = wt_material_transverse(made, NULL, NULL, &rubber->transverse,
+                                        rubber->poisson_ratio, &made, err);
+    if (status != WT_OK)
+        return status;
+    *material = made;
+    if (statement != NULL)
+        make_statement(rubber, temperature, held, statement);
+    return WT_OK;
+}
+
+wt_status flow_rubber_spectrum(const wt_rubber *rubber, double temperature, wt_prony *prony,
+                               char statement[256], wt_error *err)
+{
+    wt_material *checked = NULL;
+    double a = 1, b = 1;
+    bool held = false;
+    wt_status status =
+        factors_at(rubber, NULL, 1, WT_NO_REPLICATE, &temperature, &a, &b, &held, err);
+    if (status == WT_OK)
+        status = shifted_series(rubber, NULL, temperature, a, b, prony, err);
+    if (status == WT_OK)
+        status = wt_material_prony(prony, rubber->poisson_ratio, &checked, err);
+    wt_material_free(checked);
+    if (status != WT_OK)
+        return status;
+    make_statement(rubber, temperature, held, statement);
+    const double to_young = prony->deformation == WT_SHEAR ? 2 * (1 + rubber->poisson_ratio) : 1;
+    prony->deformation = WT_TENSION;
+    prony->equilibrium_modulus *= to_young;
+    for (size_t i = 0; i < prony->n; i++)
+        prony->modulus[i] *= to_young;
+    return WT_OK;
+}

@@ -1,0 +1,144 @@
+/* DMA sweeps of several samples: which there are, and those of one.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#include "dma/sweep_input.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+static const char no_name[] = "(without a name)";
+/* Kelvin within which two isotherms are of one temperature. */
+static const double same_temperature = 0.5;
+
+static bool is_of(const char *sample, const char *name)
+{
+    return strcmp(sample != NULL ? sample : "", name) == 0;
+}
+
+/* ---- which there are ------------------------------------------------------------------------- */
+
+static wt_status add_name(wt_samples *samples, const char *sample, wt_error *err)
+{
+    const char *name = sample != NULL ? sample : "";
+    for (size_t i = 0; i < samples->n; i++)
+        if (strcmp(samples->name[i], name) == 0)
+            return WT_OK;
+    char **names = realloc(samples->name, (samples->n + 1) * sizeof *names);
+    samples->name = names != NULL ? names : samples->name;
+    if (names == NULL || (names[samples->n] = strdup(name)) == NULL)
+        return wt_fail(err, WT_E_MEMORY, "out of memory");
+    samples->n++;
+    return WT_OK;
+}
+
+static int by_name(const void *a, const void *b)
+{
+    return strverscmp(*(char *const *)a, *(char *const *)b);
+}
+
+wt_status flow_samples_find(const wt_sweep *sweep, wt_samples *samples, wt_error *err)
+{
+    wt_status status = WT_OK;
+    for (size_t i = 0; i < sweep->n_isotherms && status == WT_OK; i++)
+        status = add_name(samples, sweep->isotherms[i].sample, err);
+    for (size_t i = 0; i < sweep->n_ramps && status == WT_OK; i++)
+        status = add_name(samples, sweep->ramps[i].sample, err);
+    if (samples->n > 1)
+        qsort(samples->name, samples->n, sizeof *samples->name, by_name);
+    return status;
+}
+
+void wt_samples_clear(wt_samples *samples)
+{
+    if (samples == NULL)
+        return;
+    for (size_t i = 0; i < samples->n; i++)
+        free(samples->name[i]);
+    free(samples->name);
+    *samples = (wt_samples){0, NULL};
+}
+
+/* ---- those of one ---------------------------------------------------------------------------- */
+
+static void list_names(const wt_samples *samples, char *text, size_t size)
+{
+    size_t used = 0;
+    for (size_t i = 0; i < samples->n && used < size; i++) {
+        const char *name = samples->name[i][0] != '\0' ? samples->name[i] : no_name;
+        if (used + strlen(name) + 8 > size) {
+            snprintf(text + used, size - used, ", ...");
+            return;
+        }
+        used += (size_t)snprintf(text + used, size - used, "%s%s", i > 0 ? ", " : "", name);
+    }
+}
+
+static wt_status not_there(const wt_sweep *sweep, const char *name, wt_error *err)
+{
+    char found[256] = "";
+    wt_samples samples = {0, NULL};
+    wt_status status = flow_samples_find(sweep, &samples, err);
+    for (size_t i = 0; i < sweep->n_strain_sweeps && status == WT_OK; i++)
+        status = add_name(&samples, sweep->strain_sweeps[i].sample, err);
+    list_names(&samples, found, sizeof found);
+    wt_samples_clear(&samples);
+    if (status != WT_OK)
+        return status;
+    wt_fail(err, WT_E_NOT_FOUND, "no sweep is of the sample \"%s\"", name);
+    wt_error_found(err, "%s", found);
+    return WT_E_NOT_FOUND;
+}
+
+wt_status flow_sample_take(wt_sweep *sweep, const char *name, wt_error *err)
+{
+    if (name == NULL || strcmp(name, "all") == 0)
+        return WT_OK;
+    bool there = false;
+    for (size_t i = 0; i < sweep->n_isotherms; i++)
+        there = there || is_of(sweep->isotherms[i].sample, name);
+    for (size_t i = 0; i < sweep->n_ramps; i++)
+        there = there || is_of(sweep->ramps[i].sample, name);
+    for (size_t i = 0; i < sweep->n_strain_sweeps; i++)
+        there = there || is_of(sweep->strain_sweeps[i].sample, name);
+    return there ? wt_sweep_keep_sample(sweep, name) : not_there(sweep, name, err);
+}
+
+/* Two files that measured at one temperature and say nothing of a sample. */
+static void warn_of_files(const wt_sweep *sweep, wt_parselog *log)
+{
+    for (size_t i = 1; i < sweep->n_isotherms; i++) {
+        const wt_isotherm *a = &sweep->isotherms[i - 1], *b = &sweep->isotherms[i];
+        const size_t length = strcspn(a->source, ",");
+        if (a->sample != NULL || b->sample != NULL ||
+            !(fabs(a->temperature - b->temperature) <= same_temperature) ||
+            (strcspn(b->source, ",") == length && strncmp(a->source, b->source, length) == 0))
+            continue;
+        wt_parselog_add(log, WT_WARNING, b->source, NULL,
+                        "measured at %.1f degC like %.*s: taken as one material measured again; if "
+                        "each file is of a material, give --sample-by file",
+                        b->temperature - WT_ZERO_CELSIUS, (int)length, a->source);
+        return;
+    }
+}
+
+wt_status flow_one_sample(const wt_sweep *sweep, const wt_file_set *sets, size_t n_sets,
+                          wt_parselog *log, wt_error *err)
+{
+    char found[256] = "";
+    wt_samples samples = {0, NULL};
+    if (n_sets > 0 && sets[0].read.sample != NULL)
+        return WT_OK;
+    warn_of_files(sweep, log);
+    wt_status status = flow_samples_find(sweep, &samples, err);
+    if (status == WT_OK && samples.n > 1) {
+        list_names(&samples, found, sizeof found);
+        status = wt_fail(err, WT_E_AMBIGUOUS, "sweeps of several samples");
+        wt_error_expected(err, "those of one");
+        wt_error_found(err, "%s", found);
+        wt_error_advice(err,
+                        "choose one with --sample NAME; --sample all if they are of one material");
+    }
+    wt_samples_clear(&samples);
+    return status;
+}

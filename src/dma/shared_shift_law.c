@@ -1,0 +1,222 @@
+/* The job of one law for several samples: the table, and whether they have one.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#include "job/inputs.h"
+
+#include "core/base/clocale.h"
+#include "core/table/table_rows.h"
+
+#include <math.h>
+#include <stdarg.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* Samples of one law are told apart by chance about so often: the customary level for what shall
+ * not be said lightly. */
+static const double level = 0.01;
+/* Letters that a sample takes beside its name, whatever its numbers are. */
+enum { MOST_WORDS = 160 };
+
+wt_common_law_job wt_common_law_job_defaults(void)
+{
+    return (wt_common_law_job){.reference = (double)NAN, .margin = 0.1};
+}
+
+static const wt_param rows[] = {
+    {PARAM_CHOICE_OF("common-law", wt_common_law_job, common, "none|same|moved"),
+     .flags = PARAM_NO_CASE,
+     .help = "of several samples fit one law of the shift factors, too, and say whether they have "
+             "one: same: the same constants at the same reference temperature; moved: the same "
+             "constants, each sample at a reference temperature of its own, as rubbers of one kind "
+             "whose glass transitions differ"},
+    {PARAM("common-law-margin", wt_common_law_job, margin, WT_Q_NONE, ABOVE(0)), .value = "X",
+     .flags = PARAM_NO_CASE,
+     .help = "decades of log a that do not matter: that samples have one law is said only if the "
+             "intervals of what their own laws differ from it lie within them"},
+};
+PARAM_TABLE(wt_common_law_job_params, wt_common_law_job, rows, wt_common_law_job_defaults, NO_PARTS)
+
+/* ---- the table ------------------------------------------------------------------------------- */
+
+TABLE_ROW(common_law, COMMON_LAW, const char *sample, *note; wt_interval moved;
+          wt_common_point point;)
+
+static void put_sample(const wt_common_law_job *job, const wt_common_law *law, size_t sample,
+                       table_writer *t)
+{
+    const double none = (double)NAN;
+    const wt_interval unknown = {none, none, none, none};
+    const wt_common_member *m = &law->members[sample];
+    const wt_interval moved = job->common == WT_COMMON_MOVED ? m->moved : unknown;
+    table_block(t);
+    if (!m->used)
+        TABLE_ADD(common_law, t, job->names[sample], m->why_not, unknown,
+                  {sample, none, none, none, unknown, unknown});
+    for (size_t i = 0; i < law->n; i++)
+        if (law->points[i].sample == sample)
+            TABLE_ADD(common_law, t, job->names[sample], NULL, moved, law->points[i]);
+}
+
+/* ---- words ----------------------------------------------------------------------------------- */
+
+/* The end of an interval of a difference that is furthest from 0; NaN: none is known. */
+static double furthest_difference(const wt_common_law *law, size_t *sample)
+{
+    double most = (double)NAN;
+    for (size_t i = 0; i < law->n; i++) {
+        const wt_interval *d = &law->points[i].difference;
+        const double far = fmax(fabs(d->low), fabs(d->high));
+        if (isfinite(d->low) && !(far <= most)) {
+            most = far;
+            *sample = law->points[i].sample;
+        }
+    }
+    return most;
+}
+
+static void set_verdict(const wt_common_law_job *job, const wt_common_law *law, table_writer *t)
+{
+    size_t sample = 0;
+    const double most = furthest_difference(law, &sample);
+    const char *const kind = job->common == WT_COMMON_MOVED ? ", moved along the temperature" : "";
+    common_law_set_print(t, COMMON_LAW_KEY_MARGIN, "%g", job->margin);
+    if (!isnan(most)) {
+        common_law_set_value(t, COMMON_LAW_KEY_FURTHEST, most, (double)NAN, (double)NAN);
+        common_law_set_print(t, COMMON_LAW_KEY_P, "%.3g", law->p);
+    }
+    if (isnan(most)) {
+        common_law_set_text(t, COMMON_LAW_KEY_AGREE,
+                            "cannot say: the isotherms do not tell a law of each sample");
+        common_law_set_text(t, COMMON_LAW_KEY_SETTLED_BY, "more isotherms of each sample");
+    } else if (most <= job->margin) {
+        common_law_set_print(t, COMMON_LAW_KEY_AGREE,
+                             "yes: the laws of the samples are one%s within %.2g decade, the "
+                             "margin set (p %.2g)%s",
+                             kind, job->margin, law->p,
+                             law->p < level ? "; they differ by more than their errors, but not by "
+                                              "more than that"
+                                            : "");
+    } else if (law->p < level) {
+        common_law_set_print(t, COMMON_LAW_KEY_AGREE,
+                             "no: the samples have not one law%s (p %.2g); that of %s is off by up "
+                             "to %.2g decade",
+                             kind, law->p, job->names[sample], most);
+    } else {
+        common_law_set_print(
+            t, COMMON_LAW_KEY_AGREE,
+            "cannot say: no difference is shown (p %.2g), but the law of %s may be "
+            "off by %.2g decade",
+            law->p, job->names[sample], most);
+        common_law_set_print(t, COMMON_LAW_KEY_SETTLED_BY,
+                             "more isotherms of %s, or temperatures known better than +- %.2g K",
+                             job->names[sample], law->spread);
+    }
+}
+
+/* As --shift-law takes it, at a reference temperature. */
+static void law_words(const wt_common_law *law, double reference, char *text, size_t size)
+{
+    if (law->kind == WT_LAW_WLF)
+        clocale_print(text, size, "wlf:reference-temperature=%.6gdegC,c1=%.6g,c2=%.6gK",
+                      reference - WT_ZERO_CELSIUS, law->c1.value, law->c2.value);
+    else
+        clocale_print(text, size, "arrhenius:activation-energy=%.6gkJ/mol",
+                      law->activation_energy.value / 1000);
+}
+
+/* A list with room for what is said of each sample. */
+typedef struct list {
+    char *text; /* NULL: out of memory */
+    size_t size, used;
+} list;
+
+static list make_list(const wt_common_law_job *job)
+{
+    list made = {.size = 1};
+    for (size_t i = 0; i < job->n; i++)
+        made.size += strlen(job->names[i]) + MOST_WORDS;
+    made.text = calloc(made.size, 1);
+    return made;
+}
+
+static void add_words(list *to, const char *format, ...) WT_PRINTF(2, 3);
+static void add_words(list *to, const char *format, ...)
+{
+    if (to->text == NULL)
+        return;
+    va_list words;
+    va_start(words, format);
+    clocale_vprint(to->text + to->used, to->size - to->used, format, words);
+    va_end(words);
+    to->used += strlen(to->text + to->used);
+}
+
+static void set_each(const wt_common_law_job *job, const wt_common_law *law, table_writer *t)
+{
+    char one[MOST_WORDS];
+    const bool each = job->common == WT_COMMON_MOVED;
+    list moved = make_list(job), given = make_list(job), without = make_list(job);
+    for (size_t i = 0; i < law->n_members; i++) {
+        const wt_common_member *m = &law->members[i];
+        if (!m->used) {
+            add_words(&without, "%s%s: %s", without.used > 0 ? ", " : "", job->names[i],
+                      m->why_not);
+            continue;
+        }
+        const double reference = law->reference + m->moved.value;
+        add_words(&moved, "%s%s %.2f °C", moved.used > 0 ? ", " : "", job->names[i],
+                  reference - WT_ZERO_CELSIUS);
+        if (m->moved.standard_error > 0)
+            add_words(&moved, " ± %.2g K", m->moved.standard_error);
+        law_words(law, reference, one, sizeof one);
+        if (each || given.used == 0)
+            add_words(&given, "%s%s%s%s", given.used > 0 ? "; " : "", each ? job->names[i] : "",
+                      each ? " " : "", one);
+    }
+    if (moved.text == NULL || given.text == NULL || without.text == NULL) {
+        t->status = wt_fail(t->err, WT_E_MEMORY, "out of memory");
+    } else {
+        common_law_set_text(t, COMMON_LAW_KEY_MOVED, moved.text);
+        common_law_set_text(t, COMMON_LAW_KEY_SHIFT_LAW, given.text);
+        if (without.used > 0)
+            common_law_set_text(t, COMMON_LAW_KEY_LEFT_OUT, without.text);
+    }
+    free(moved.text);
+    free(given.text);
+    free(without.text);
+}
+
+static void set_constants(const wt_common_law *law, table_writer *t)
+{
+    const bool wlf = law->kind == WT_LAW_WLF;
+    common_law_set_text(t, COMMON_LAW_KEY_LAW, wlf ? "WLF" : "Arrhenius");
+    common_law_set_value(t, COMMON_LAW_KEY_REFERENCE_TEMPERATURE, law->reference, 0, 0);
+    if (wlf) {
+        common_law_set_value(t, COMMON_LAW_KEY_WLF_C1, law->c1.value, law->c1.standard_error, 0);
+        common_law_set_value(t, COMMON_LAW_KEY_WLF_C2, law->c2.value, law->c2.standard_error, 0);
+        common_law_set_print(t, COMMON_LAW_KEY_WLF_CORRELATION, "%.6g", law->c_correlation);
+    } else {
+        common_law_set_value(t, COMMON_LAW_KEY_ACTIVATION_ENERGY, law->activation_energy.value,
+                             law->activation_energy.standard_error, 0);
+    }
+    common_law_set_value(t, COMMON_LAW_KEY_TEMPERATURE_SPREAD, law->spread, (double)NAN, 0);
+}
+
+wt_status wt_common_law_make(const wt_common_law_job *job, wt_table **table, wt_error *err)
+{
+    if (job == NULL || table == NULL || job->names == NULL)
+        return wt_fail(err, WT_E_ARG, "no samples for a common law");
+    wt_common_law law = {0};
+    wt_status status = param_check(wt_common_law_job_params(), job, err);
+    if (status == WT_OK)
+        status = wt_common_law_fit(job->fits, job->n, job->common, job->reference, &law, err);
+    if (status != WT_OK)
+        return status;
+    table_writer t = table_begin(&common_law_schema, err);
+    for (size_t i = 0; i < job->n; i++)
+        put_sample(job, &law, i, &t);
+    set_verdict(job, &law, &t);
+    set_constants(&law, &t);
+    set_each(job, &law, &t);
+    wt_common_law_clear(&law);
+    return table_end(&t, table);
+}

@@ -1,0 +1,276 @@
+/* Shifts that are given: by a law, or by a table that an earlier fit or another program made.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#include "core/base/spell_suggest.h"
+#include "dma/law_parse.h"
+#include "dma/sweep_input.h"
+#include "job/inputs.h"
+
+#include <math.h>
+#include <string.h>
+
+/* A row of the table is that of an isotherm this close [K]: what a chamber holds. */
+static const double same_temperature = 0.5;
+
+/* ---- a law in words -------------------------------------------------------------------------- */
+
+static wt_wlf no_wlf(void)
+{
+    return (wt_wlf){(double)NAN, (double)NAN, (double)NAN};
+}
+
+static const wt_param wlf_rows[] = {
+    {PARAM("reference-temperature", wt_wlf, reference_temperature, WT_Q_TEMPERATURE, ABOVE(0)),
+     .flags = PARAM_REQUIRED | PARAM_NO_OPTION, .help = "at which log aT is 0"},
+    {PARAM("c1", wt_wlf, c1, WT_Q_NONE, ABOVE(0)), .flags = PARAM_REQUIRED | PARAM_NO_OPTION,
+     .help = "constant C1, for log10"},
+    {PARAM("c2", wt_wlf, c2, WT_Q_TEMPERATURE_DIFFERENCE, ABOVE(0)),
+     .flags = PARAM_REQUIRED | PARAM_NO_OPTION, .help = "constant C2"},
+};
+PARAM_LOCAL_TABLE(wlf_params, wt_wlf, wlf_rows, no_wlf, NO_PARTS)
+
+typedef struct arrhenius {
+    double activation_energy; /* [J/mol] */
+} arrhenius;
+
+static arrhenius no_arrhenius(void)
+{
+    return (arrhenius){(double)NAN};
+}
+
+static const wt_param arrhenius_rows[] = {
+    {PARAM("activation-energy", arrhenius, activation_energy, WT_Q_MOLAR_ENERGY, ABOVE(0)),
+     .flags = PARAM_REQUIRED | PARAM_NO_OPTION, .help = "activation energy"},
+};
+PARAM_LOCAL_TABLE(arrhenius_params, arrhenius, arrhenius_rows, no_arrhenius, NO_PARTS)
+
+static const flow_law_text wlf_text = {.prefix = "wlf:",
+                                       .name = "WLF law",
+                                       .what = "the WLF law",
+                                       .example = "reference-temperature=20degC,c1=8.86,c2=101.6K",
+                                       .params = wlf_params};
+static const flow_law_text arrhenius_text = {.prefix = "arrhenius:",
+                                             .name = "law of Arrhenius",
+                                             .what = "the law of Arrhenius",
+                                             .example = "activation-energy=80kJ/mol",
+                                             .params = arrhenius_params};
+
+static void advise_law(const char *text, wt_error *err)
+{
+    static const flow_law_text *const laws[] = {&wlf_text, &arrhenius_text};
+    nearest_name near = nearest_to(text, strcspn(text, ":"));
+    for (size_t i = 0; i < sizeof laws / sizeof *laws; i++)
+        nearest_try(&near, laws[i]->prefix, strlen(laws[i]->prefix) - 1);
+    if (near.name != NULL)
+        wt_error_advice(err, "did you mean %.*s?", (int)near.name_length, near.name);
+}
+
+wt_status flow_shift_law(const char *text, wt_shift_law *law, wt_error *err)
+{
+    const double unknown = (double)NAN, room = 293.15;
+    *law = (wt_shift_law){.wlf = no_wlf(), .activation_energy = unknown, .joint = unknown};
+    if (text == NULL)
+        return WT_OK;
+    wt_status status;
+    if (flow_is_law(&wlf_text, text)) {
+        law->kind = WT_LAW_WLF;
+        status = flow_law_parse(&wlf_text, text, &law->wlf, err);
+    } else if (flow_is_law(&arrhenius_text, text)) {
+        arrhenius a = no_arrhenius();
+        law->kind = WT_LAW_ARRHENIUS;
+        law->wlf.reference_temperature = room; /* differences of shifts do not hang on it */
+        status = flow_law_parse(&arrhenius_text, text, &a, err);
+        law->activation_energy = a.activation_energy;
+    } else {
+        status = wt_fail(err, WT_E_ARG, "\"%s\" is no law of shifts", text);
+        wt_error_expected(err, "%s%s or %s%s", wlf_text.prefix, wlf_text.example,
+                          arrhenius_text.prefix, arrhenius_text.example);
+        advise_law(text, err);
+    }
+    return status;
+}
+
+/* ---- to the isotherms ------------------------------------------------------------------------ */
+
+static wt_status give_law(const wt_shift_law *law, wt_sweep *sweep, wt_error *err)
+{
+    for (size_t i = 0; i < sweep->n_isotherms; i++) {
+        wt_isotherm *t = &sweep->isotherms[i];
+        t->given_log_a = wt_shift_law_log_a(law, t->temperature);
+        t->shift_given = isfinite(t->given_log_a);
+        if (t->shift_given)
+            continue;
+        wt_fail(err, WT_E_RANGE, "an isotherm is at or below the pole of the law that is given");
+        wt_error_place(err, "shift-law");
+        wt_error_found(err, "%.2f degC", t->temperature - WT_ZERO_CELSIUS);
+        wt_error_advice(err, "leave it out, or give a law that reaches it");
+        return WT_E_RANGE;
+    }
+    return WT_OK;
+}
+
+/* The table of shifts, in kelvin. */
+typedef struct shift_rows {
+    const wt_table *table;
+    size_t temperature, log_a; /* columns */
+    double to_kelvin, zero;
+} shift_rows;
+
+static double row_kelvin(const shift_rows *r, size_t row)
+{
+    return wt_table_number(r->table, row, r->temperature) * r->to_kelvin + r->zero;
+}
+
+static bool has_shift(const shift_rows *r, size_t row)
+{
+    return isfinite(wt_table_number(r->table, row, r->log_a));
+}
+
+/* First row of those nearest to a temperature, or the number of rows; how many there are. */
+static size_t nearest_rows(const shift_rows *r, double t, size_t *n_alike)
+{
+    const size_t n = wt_table_n_rows(r->table);
+    size_t best = n;
+    double away = same_temperature;
+    *n_alike = 0;
+    for (size_t i = 0; i < n; i++) {
+        const double off = fabs(row_kelvin(r, i) - t);
+        if (off < away || (best == n && off <= away)) {
+            away = off;
+            best = i;
+            *n_alike = 0;
+        }
+        *n_alike += best < n && row_kelvin(r, i) == row_kelvin(r, best);
+    }
+    return best;
+}
+
+/* Row of an isotherm; runs at one temperature have theirs in their order. */
+static wt_status row_of(const shift_rows *r, const wt_sweep *sweep, size_t isotherm, size_t *row,
+                        wt_error *err)
+{
+    const double t = sweep->isotherms[isotherm].temperature;
+    size_t rank = 0, runs = 0, n_alike;
+    for (size_t i = 0; i < sweep->n_isotherms; i++) {
+        const bool same = sweep->isotherms[i].temperature == t;
+        runs += same;
+        rank += same && i < isotherm;
+    }
+    *row = nearest_rows(r, t, &n_alike);
+    if (n_alike <= 1)
+        return WT_OK;
+    if (n_alike != runs) {
+        wt_fail(err, WT_E_AMBIGUOUS, "the table has %zu shifts for one temperature", n_alike);
+        wt_error_place(err, "shifts");
+        wt_error_expected(err, "one, or one for each of the isotherms there (%zu)", runs);
+        wt_error_found(err, "%.2f degC", row_kelvin(r, *row) - WT_ZERO_CELSIUS);
+        return WT_E_AMBIGUOUS;
+    }
+    const double here = row_kelvin(r, *row);
+    while (rank > 0 || row_kelvin(r, *row) != here)
+        rank -= row_kelvin(r, (*row)++) == here;
+    return WT_OK;
+}
+
+/* Those that belong to no isotherm are likely to be of other files. */
+static size_t count_unused(const shift_rows *r, const wt_sweep *sweep)
+{
+    size_t n = 0;
+    for (size_t i = 0; i < wt_table_n_rows(r->table); i++) {
+        bool used = !has_shift(r, i);
+        for (size_t k = 0; k < sweep->n_isotherms && !used; k++)
+            used = fabs(row_kelvin(r, i) - sweep->isotherms[k].temperature) <= same_temperature;
+        n += !used;
+    }
+    return n;
+}
+
+/* The vertical shift of a row, if the table has one. */
+static wt_status give_vertical(const wt_table *table, size_t row, wt_vertical_shift vertical,
+                               wt_isotherm *t, wt_error *err)
+{
+    const long column = wt_table_find(table, "log_b");
+    t->vertical_given = false;
+    t->given_log_b = 0;
+    if (!t->shift_given || column < 0 ||
+        wt_table_column_kind(table, (size_t)column) == WT_COLUMN_TEXT)
+        return WT_OK;
+    const double b = wt_table_number(table, row, (size_t)column);
+    if (vertical == WT_VERTICAL_NONE && fabs(b) > 0) {
+        wt_fail(err, WT_E_ARG, "the table gives vertical shifts, and vertical-shift is none");
+        wt_error_place(err, "shifts");
+        wt_error_found(err, "log_b = %g at %.2f degC", b, t->temperature - WT_ZERO_CELSIUS);
+        wt_error_advice(err, "leave out its column log_b, or give another --vertical-shift");
+        return WT_E_ARG;
+    }
+    t->vertical_given = isfinite(b);
+    t->given_log_b = t->vertical_given ? b : 0;
+    return WT_OK;
+}
+
+static wt_status give_table(const wt_table *table, wt_vertical_shift vertical, wt_sweep *sweep,
+                            wt_parselog *log, wt_error *err)
+{
+    const long temperature = wt_table_find(table, "temperature"),
+               log_a = wt_table_find(table, "log_a");
+    shift_rows r = {.table = table, .to_kelvin = 1};
+    size_t given = 0, held = 0;
+    if (temperature < 0 || log_a < 0 ||
+        wt_table_column_kind(table, (size_t)temperature) == WT_COLUMN_TEXT ||
+        wt_table_column_kind(table, (size_t)log_a) == WT_COLUMN_TEXT) {
+        wt_fail(err, WT_E_MISSING, "the table of the shifts has not the columns it needs");
+        wt_error_place(err, "shifts");
+        wt_error_expected(err, "temperature[K] and log_a[1], as weartrack master --save-shifts "
+                               "writes them");
+        return WT_E_MISSING;
+    }
+    r.temperature = (size_t)temperature;
+    r.log_a = (size_t)log_a;
+    wt_status status = wt_unit_to_si(wt_table_column_unit(table, r.temperature), WT_Q_TEMPERATURE,
+                                     &r.to_kelvin, &r.zero, err);
+    if (status != WT_OK) {
+        wt_error_place(err, "shifts");
+        return status;
+    }
+    for (size_t i = 0; i < sweep->n_isotherms; i++) {
+        wt_isotherm *t = &sweep->isotherms[i];
+        size_t row;
+        status = row_of(&r, sweep, i, &row, err);
+        if (status != WT_OK)
+            return status;
+        t->shift_given = row < wt_table_n_rows(table) && has_shift(&r, row);
+        t->given_log_a = t->shift_given ? wt_table_number(table, row, r.log_a) : 0;
+        given += t->shift_given;
+        status = give_vertical(table, row, vertical, t, err);
+        if (status != WT_OK)
+            return status;
+        held += t->vertical_given;
+    }
+    if (given == 0) {
+        wt_fail(err, WT_E_MISSING, "the table has a shift of none of the isotherms");
+        wt_error_place(err, "shifts");
+        wt_error_expected(err, "log_a at temperatures within %g K of theirs", same_temperature);
+        return WT_E_MISSING;
+    }
+    wt_parselog_add(
+        log, WT_NOTE, NULL, NULL,
+        "%zu of %zu shifts are as given, %zu of them with their vertical shift, without "
+        "an error of their own; the others are fitted",
+        given, sweep->n_isotherms, held);
+    const size_t unused = count_unused(&r, sweep);
+    if (unused > 0)
+        wt_parselog_add(log, WT_WARNING, NULL, NULL,
+                        "%zu of the %zu given shifts are of no isotherm: no temperature within %g "
+                        "K of theirs was measured",
+                        unused, wt_table_n_rows(table), same_temperature);
+    return WT_OK;
+}
+
+wt_status flow_shifts_give(const wt_shift_law *law, const wt_table *table,
+                           wt_vertical_shift vertical, wt_sweep *sweep, wt_parselog *log,
+                           wt_error *err)
+{
+    wt_status status = law->kind != WT_LAW_NONE ? give_law(law, sweep, err) : WT_OK;
+    if (status == WT_OK && table != NULL)
+        status = give_table(table, vertical, sweep, log, err);
+    return status;
+}

@@ -1,0 +1,489 @@
+/* How the rubber softens with strain: from strain sweeps, or from a table that is given.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#include "dma/strain_softening.h"
+#include "job/random_draws.h"
+
+#include "core/base/array.h"
+#include "core/base/clocale.h"
+#include "core/base/range_text.h"
+#include "core/math/normal_quantile.h"
+#include "core/table/registry.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+static wt_status no_memory(wt_error *err)
+{
+    return wt_fail(err, WT_E_MEMORY, "out of memory for the softening with strain");
+}
+
+wt_softness_choice wt_softness_choice_defaults(void)
+{
+    return (wt_softness_choice){.temperature = (double)NAN};
+}
+
+void wt_softness_clear(wt_softness *softness)
+{
+    if (softness == NULL)
+        return;
+    free(softness->table.strain); /* the others stand behind it */
+    *softness = (wt_softness){0};
+}
+
+/* Room for n points, with errors or without. */
+static wt_status make_room(wt_softness *s, size_t n, bool errors, wt_error *err)
+{
+    double *numbers = calloc(5 * n, sizeof *numbers);
+    if (numbers == NULL)
+        return no_memory(err);
+    *s = (wt_softness){
+        .table = {.n = n, .strain = numbers, .storage = numbers + n, .loss = numbers + 2 * n},
+        .temperature = (double)NAN};
+    if (errors) {
+        s->storage_error = numbers + 3 * n;
+        s->loss_error = numbers + 4 * n;
+    }
+    return WT_OK;
+}
+
+static bool is_usable(double x)
+{
+    return isfinite(x) && x > 0;
+}
+
+/* ---- strain sweeps --------------------------------------------------------------------------- */
+
+/* One of them: rows of the table, without those that have no moduli. */
+typedef struct one_sweep {
+    size_t n;
+    double *log_strain, *f, *g;
+} one_sweep;
+
+/* Amplitudes that are closer than this [ln] are one: 5 %, between which the fall of Kraus's law is
+ * 1.5 % of its height at most. */
+static const double same_strain = 0.05;
+
+/* Kelvin within which two sweeps are of one temperature, as two runs of a chamber are, and beyond
+ * which the nearest one is not what was asked for. The second is chosen: it warns, no number
+ * changes. */
+static const double same_temperature = 1.5, other_temperature = 10;
+
+/* Whether a row has moduli and is of the temperature and sample that count; NaN, NULL: any. */
+static bool is_of(const table_view *v, size_t row, wt_softness_choice choice)
+{
+    const double temperature = payne_sweep_get(v, row, PAYNE_SWEEP_TEMPERATURE);
+    return is_usable(payne_sweep_get(v, row, PAYNE_SWEEP_STRAIN)) &&
+           is_usable(payne_sweep_get(v, row, PAYNE_SWEEP_STORAGE_RATIO)) &&
+           is_usable(payne_sweep_get(v, row, PAYNE_SWEEP_LOSS_RATIO)) &&
+           (isnan(choice.temperature) ||
+            fabs(temperature - choice.temperature) <= same_temperature) &&
+           (choice.sample == NULL ||
+            strcmp(payne_sweep_text(v, row, PAYNE_SWEEP_SAMPLE), choice.sample) == 0);
+}
+
+static wt_status refuse_several(const char *what, const char *one, const char *other,
+                                const char *advice, wt_error *err)
+{
+    wt_fail(err, WT_E_AMBIGUOUS, "strain sweeps of several %s are no repeats", what);
+    wt_error_expected(err, "those of one");
+    wt_error_found(err, "%s, %s", one[0] != '\0' ? one : "one without a name",
+                   other[0] != '\0' ? other : "one without a name");
+    wt_error_advice(err, "%s", advice);
+    return WT_E_AMBIGUOUS;
+}
+
+/* A sample that is named, if the table names any; one is enough that is named nowhere. */
+static wt_status choose_sample(const table_view *v, wt_softness_choice *choice, wt_error *err)
+{
+    const wt_softness_choice any = wt_softness_choice_defaults();
+    const char *first = NULL;
+    bool named = false, there = false;
+    for (size_t row = 0; row < v->n_rows; row++) {
+        const char *const here = payne_sweep_text(v, row, PAYNE_SWEEP_SAMPLE);
+        if (!is_of(v, row, any))
+            continue;
+        named = named || here[0] != '\0';
+        there = there || (choice->sample != NULL && strcmp(here, choice->sample) == 0);
+        first = first == NULL ? here : first;
+        if (choice->sample == NULL && strcmp(here, first) != 0)
+            return refuse_several("samples", first, here,
+                                  "choose one with --sample NAME, here "
+                                  "if the moduli are of that sample, else of weartrack payne",
+                                  err);
+    }
+    if (!named || (choice->sample != NULL && strcmp(choice->sample, "all") == 0)) {
+        choice->sample = NULL;
+    } else if (choice->sample != NULL && !there) {
+        wt_fail(err, WT_E_NOT_FOUND, "no strain sweep is of the sample \"%s\"", choice->sample);
+        wt_error_found(err, "%s", first);
+        wt_error_advice(err, "--sample is of moduli and strain sweeps alike");
+        return WT_E_NOT_FOUND;
+    }
+    return WT_OK;
+}
+
+static wt_status without_temperature(const char *what, wt_error *err)
+{
+    wt_fail(err, WT_E_MISSING, "%s", what);
+    wt_error_advice(err, "leave --softening-temperature out");
+    return WT_E_MISSING;
+}
+
+/* The temperature of a sweep that is nearest to the one that is asked for. */
+static wt_status choose_temperature(const table_view *v, wt_softness_choice *choice, wt_error *err)
+{
+    const wt_softness_choice of = {.temperature = (double)NAN, .sample = choice->sample};
+    double low = (double)NAN, high = (double)NAN, nearest = (double)NAN;
+    for (size_t row = 0; row < v->n_rows; row++) {
+        const double here = payne_sweep_get(v, row, PAYNE_SWEEP_TEMPERATURE);
+        if (!is_of(v, row, of) || isnan(here))
+            continue;
+        low = fmin(low, here);
+        high = fmax(high, here);
+        if (isnan(nearest) ||
+            fabs(here - choice->temperature) < fabs(nearest - choice->temperature))
+            nearest = here;
+    }
+    if (isnan(choice->temperature) && high - low > same_temperature) {
+        char one[32], other[32];
+        clocale_print(one, sizeof one, "%.1f", low - WT_ZERO_CELSIUS);
+        clocale_print(other, sizeof other, "%.1f degC", high - WT_ZERO_CELSIUS);
+        return refuse_several(
+            "temperatures", one, other,
+            "choose one with --softening-temperature T, such as that of the contact; in a "
+            "case give sweeps of one temperature",
+            err);
+    }
+    if (!isnan(choice->temperature) && isnan(nearest)) {
+        return without_temperature("the strain sweeps do not say their temperature", err);
+    }
+    choice->temperature = isnan(choice->temperature) ? choice->temperature : nearest;
+    return WT_OK;
+}
+
+static double mean_temperature(const table_view *v, wt_softness_choice choice)
+{
+    double sum = 0, n = 0;
+    for (size_t row = 0; row < v->n_rows; row++)
+        if (is_of(v, row, choice)) {
+            sum += payne_sweep_get(v, row, PAYNE_SWEEP_TEMPERATURE);
+            n++;
+        }
+    return n > 0 ? sum / n : (double)NAN;
+}
+
+static bool begins_sweep(const table_view *v, size_t row)
+{
+    return row == 0 || wt_table_block(v->table, row) != wt_table_block(v->table, row - 1) ||
+           payne_sweep_get(v, row, PAYNE_SWEEP_STRAIN) <=
+               payne_sweep_get(v, row - 1, PAYNE_SWEEP_STRAIN) ||
+           payne_sweep_get(v, row, PAYNE_SWEEP_ANGULAR_FREQUENCY) !=
+               payne_sweep_get(v, row - 1, PAYNE_SWEEP_ANGULAR_FREQUENCY);
+}
+
+/* The sweeps behind one another in the arrays of `room`. */
+static size_t take_sweeps(const table_view *v, wt_softness_choice choice, one_sweep room,
+                          one_sweep *sweeps)
+{
+    size_t n = 0, at = 0;
+    bool begins = false;
+    for (size_t row = 0; row < v->n_rows; row++) {
+        const double strain = payne_sweep_get(v, row, PAYNE_SWEEP_STRAIN),
+                     f = payne_sweep_get(v, row, PAYNE_SWEEP_STORAGE_RATIO),
+                     g = payne_sweep_get(v, row, PAYNE_SWEEP_LOSS_RATIO);
+        begins = begins || begins_sweep(v, row);
+        if (!is_of(v, row, choice))
+            continue;
+        if (begins)
+            sweeps[n++] =
+                (one_sweep){.log_strain = room.log_strain + at, .f = room.f + at, .g = room.g + at};
+        begins = false;
+        room.log_strain[at] = log(strain);
+        room.f[at] = f;
+        room.g[at++] = g;
+        sweeps[n - 1].n++;
+    }
+    return n;
+}
+
+/* Linear in ln strain, inside the sweep. */
+static double value_at(const one_sweep *s, const double *value, double log_strain)
+{
+    size_t k = 0;
+    while (k + 2 < s->n && s->log_strain[k + 1] < log_strain)
+        k++;
+    if (s->n < 2)
+        return value[0];
+    const double part = (log_strain - s->log_strain[k]) / (s->log_strain[k + 1] - s->log_strain[k]);
+    return value[k] + fmin(fmax(part, 0), 1) * (value[k + 1] - value[k]);
+}
+
+/* The strains that every sweep has reached, of all of them; how many. */
+static size_t common_strains(const one_sweep *sweeps, size_t n, double *x, wt_error *err)
+{
+    double low = -(double)INFINITY, high = (double)INFINITY;
+    size_t count = 0, kept = 0;
+    for (size_t i = 0; i < n; i++) {
+        low = fmax(low, sweeps[i].log_strain[0]);
+        high = fmin(high, sweeps[i].log_strain[sweeps[i].n - 1]);
+    }
+    for (size_t i = 0; i < n; i++)
+        for (size_t k = 0; k < sweeps[i].n; k++)
+            if (sweeps[i].log_strain[k] >= low && sweeps[i].log_strain[k] <= high)
+                x[count++] = sweeps[i].log_strain[k];
+    if (count == 0) {
+        wt_fail(err, WT_E_RANGE, "the strain sweeps have no strain in common");
+        wt_error_found(err, "%zu sweeps, one that begins at %.3g and one that ends at %.3g", n,
+                       exp(low), exp(high));
+        wt_error_advice(err, "give strain sweeps over the same amplitudes, or one of them");
+        return 0;
+    }
+    numbers_sort(x, count);
+    for (size_t k = 0; k < count; k++)
+        if (kept == 0 || x[k] - x[kept - 1] > same_strain)
+            x[kept++] = x[k];
+    return kept;
+}
+
+/* Mean of the sweeps, and what another one would scatter about it: so that 1.96 of it to each side
+ * hold 95 % of them, for the scatter of n sweeps is known no better (Student). */
+static void put_mean(const one_sweep *sweeps, size_t n, const double *x, bool loss, double *mean,
+                     double *error, size_t points)
+{
+    const double wider = n > 1 ? wt_student((double)(n - 1)) / NORMAL_95 : 1;
+    for (size_t k = 0; k < points; k++) {
+        double sum = 0, squares = 0;
+        for (size_t i = 0; i < n; i++)
+            sum += value_at(&sweeps[i], loss ? sweeps[i].g : sweeps[i].f, x[k]);
+        mean[k] = sum / (double)n;
+        for (size_t i = 0; error != NULL && i < n; i++) {
+            const double off =
+                value_at(&sweeps[i], loss ? sweeps[i].g : sweeps[i].f, x[k]) - mean[k];
+            squares += off * off;
+        }
+        if (error != NULL)
+            error[k] = wider * sqrt(squares / (double)(n - 1) * (1 + 1 / (double)n));
+    }
+}
+
+static wt_status mean_of(const one_sweep *sweeps, size_t n, double *x, wt_softness *s,
+                         wt_error *err)
+{
+    const size_t points = common_strains(sweeps, n, x, err);
+    wt_status status = points > 0 ? make_room(s, points, n > 1, err) : WT_E_RANGE;
+    if (status != WT_OK)
+        return status;
+    put_mean(sweeps, n, x, false, s->table.storage, s->storage_error, points);
+    put_mean(sweeps, n, x, true, s->table.loss, s->loss_error, points);
+    for (size_t k = 0; k < points; k++)
+        s->table.strain[k] = exp(x[k]);
+    s->n_sweeps = n;
+    return WT_OK;
+}
+
+static wt_status of_sweeps(const wt_table *table, wt_softness_choice choice, wt_softness *softness,
+                           wt_error *err)
+{
+    table_view v;
+    wt_status status = table_bind(table, &payne_sweep_schema, "", &v, err);
+    if (status == WT_OK)
+        status = choose_sample(&v, &choice, err);
+    if (status == WT_OK)
+        status = choose_temperature(&v, &choice, err);
+    if (status != WT_OK)
+        return status;
+    double *numbers = calloc(4 * v.n_rows + 1, sizeof *numbers);
+    one_sweep *sweeps = calloc(v.n_rows + 1, sizeof *sweeps);
+    size_t n = 0;
+    if (numbers == NULL || sweeps == NULL)
+        status = no_memory(err);
+    else
+        n = take_sweeps(&v, choice,
+                        (one_sweep){0, numbers, numbers + v.n_rows, numbers + 2 * v.n_rows},
+                        sweeps);
+    if (status == WT_OK && n == 0) {
+        status = wt_fail(err, WT_E_EMPTY, "no strain sweep has both moduli");
+        wt_error_expected(err, "storage_ratio and loss_ratio above 0 in the table payne_sweep");
+    }
+    if (status == WT_OK)
+        status = mean_of(sweeps, n, numbers + 3 * v.n_rows, softness, err);
+    if (status == WT_OK)
+        softness->temperature = mean_temperature(&v, choice);
+    free(numbers);
+    free(sweeps);
+    return status;
+}
+
+/* ---- a table that is given ------------------------------------------------------------------- */
+
+enum { STRAIN, F, G, F_ERROR, G_ERROR, GIVEN };
+static const char *const names[GIVEN] = {"strain", "f", "g", "f_error", "g_error"};
+
+static bool has_numbers(const wt_table *table, long column)
+{
+    return column >= 0 && wt_table_column_kind(table, (size_t)column) != WT_COLUMN_TEXT;
+}
+
+static wt_status refuse_table(wt_error *err)
+{
+    wt_fail(err, WT_E_MISSING, "the table is none of a softening with strain");
+    wt_error_expected(err, "columns strain, f and g, and f_error and g_error if they are known; "
+                           "or the table payne_sweep, as weartrack payne writes it");
+    return WT_E_MISSING;
+}
+
+static wt_status of_given(const wt_table *table, wt_softness *s, wt_error *err)
+{
+    const size_t n = wt_table_n_rows(table);
+    long column[GIVEN];
+    double factor[GIVEN], zero;
+    wt_status status = WT_OK;
+    for (size_t i = 0; i < GIVEN; i++) {
+        column[i] = wt_table_find(table, names[i]);
+        factor[i] = 1;
+        if (!has_numbers(table, column[i]) && (i <= G || column[i] >= 0))
+            return refuse_table(err);
+        if (column[i] >= 0 && status == WT_OK)
+            status = wt_unit_to_si(wt_table_column_unit(table, (size_t)column[i]), WT_Q_STRAIN,
+                                   &factor[i], &zero, err);
+    }
+    if (status != WT_OK || n == 0)
+        return status != WT_OK ? status : refuse_table(err);
+    if ((column[F_ERROR] >= 0) != (column[G_ERROR] >= 0)) {
+        wt_fail(err, WT_E_MISSING, "a softening with strain has the error of one ratio alone");
+        wt_error_expected(err, "f_error and g_error, 0 where there is none");
+        wt_error_found(err, "%s", names[column[F_ERROR] >= 0 ? F_ERROR : G_ERROR]);
+        return WT_E_MISSING;
+    }
+    status = make_room(s, n, column[F_ERROR] >= 0, err);
+    if (status != WT_OK)
+        return status;
+    double *const to[GIVEN] = {s->table.strain, s->table.storage, s->table.loss, s->storage_error,
+                               s->loss_error};
+    for (size_t i = 0; i < GIVEN; i++)
+        for (size_t k = 0; to[i] != NULL && k < n; k++)
+            to[i][k] = factor[i] * wt_table_number(table, k, (size_t)column[i]);
+    return WT_OK;
+}
+
+/* ---- both ------------------------------------------------------------------------------------ */
+
+static wt_status check_errors(const wt_softness *s, wt_error *err)
+{
+    for (size_t k = 0; s->storage_error != NULL && k < s->table.n; k++)
+        if (!(s->storage_error[k] >= 0 && isfinite(s->storage_error[k])) ||
+            !(s->loss_error[k] >= 0 && isfinite(s->loss_error[k]))) {
+            wt_fail(err, WT_E_RANGE, "an error of a softening with strain is no error");
+            wt_error_place(err, "point %zu of %zu", k + 1, s->table.n);
+            wt_error_expected(err, "f_error and g_error finite and >= 0");
+            return WT_E_RANGE;
+        }
+    return WT_OK;
+}
+
+wt_status wt_softness_from_table(const wt_table *table, wt_softness_choice choice,
+                                 wt_softness *softness, wt_error *err)
+{
+    if (table == NULL || softness == NULL)
+        return wt_fail(err, WT_E_ARG, "no table of a softening with strain");
+    wt_softness s = {0};
+    const bool swept = wt_table_find(table, "storage_ratio") >= 0;
+    wt_status status = WT_OK;
+    if (swept)
+        status = of_sweeps(table, choice, &s, err);
+    else if (!isnan(choice.temperature))
+        status = without_temperature("a table of strain, f and g has no temperature", err);
+    else
+        status = of_given(table, &s, err);
+    if (status == WT_OK)
+        status = wt_softening_check(&s.table, err);
+    if (status == WT_OK)
+        status = check_errors(&s, err);
+    if (status == WT_OK)
+        *softness = s;
+    else
+        wt_softness_clear(&s);
+    return status;
+}
+
+wt_status wt_softness_read(const char *path, const char *name, wt_softness_choice choice,
+                           const wt_job *work, wt_softness *softness, wt_error *err)
+{
+    static const wt_tables_role role = {
+        "softening", "softening",
+        "what weartrack payne wrote, or a text table that begins with a line such as "
+        "\"# strain[1]<TAB>f[1]<TAB>g[1]\""};
+    wt_result *tables = NULL;
+    wt_status status = wt_tables_read(path, name, work, role, &tables, err);
+    if (status == WT_OK) {
+        const wt_table *swept = wt_result_find(tables, "payne_sweep");
+        status = wt_softness_from_table(swept != NULL ? swept : wt_result_table(tables, 0), choice,
+                                        softness, err);
+    }
+    if (status != WT_OK)
+        wt_error_file(err, name);
+    else if (fabs(softness->temperature - choice.temperature) > other_temperature)
+        wt_parselog_add(work->log, WT_WARNING, name, NULL,
+                        "strain sweeps at %.1f °C are asked for; the nearest were measured at "
+                        "%.1f °C",
+                        choice.temperature - WT_ZERO_CELSIUS,
+                        softness->temperature - WT_ZERO_CELSIUS);
+    wt_result_free(tables);
+    return status;
+}
+
+bool softness_has_errors(const wt_softness *softness)
+{
+    bool any = false;
+    for (size_t k = 0; softness->storage_error != NULL && k < softness->table.n; k++)
+        any = any || softness->storage_error[k] > 0 || softness->loss_error[k] > 0;
+    return any;
+}
+
+void softness_describe(const wt_softness *s, char *text, size_t size)
+{
+    const double *strain = s->table.strain;
+    char from[64], at[32];
+    if (s->n_sweeps == 0)
+        snprintf(from, sizeof from, "given table");
+    else
+        snprintf(from, sizeof from, "%s%zu strain sweep%s", s->n_sweeps > 1 ? "mean of " : "",
+                 s->n_sweeps, s->n_sweeps > 1 ? "s" : "");
+    if (isnan(s->temperature))
+        at[0] = '\0';
+    else
+        clocale_print(at, sizeof at, " at %.1f °C", s->temperature - WT_ZERO_CELSIUS);
+    clocale_print(text, size, "%s%s, strain %s; %s", from, at,
+                  ends_of(strain[0], strain[s->table.n - 1], 3).text,
+                  softness_has_errors(s) ? s->n_sweeps > 1
+                                               ? "the scatter between the sweeps is drawn"
+                                               : "errors are drawn"
+                                         : "its error is not known and not in the standard errors");
+}
+
+/* All points move together: what differs between sweeps is the whole curve. */
+static void move_curve(double *value, const double *error, size_t n, double normal)
+{
+    for (size_t k = 0; error != NULL && k < n; k++)
+        value[k] *= exp(normal * error[k] / value[k]);
+}
+
+wt_status softness_draw(const wt_softness *softness, uint64_t seed, size_t replicate,
+                        wt_softness *drawn, wt_error *err)
+{
+    const wt_softening *t = &softness->table;
+    const wt_status status = make_room(drawn, t->n, false, err);
+    if (status != WT_OK)
+        return status;
+    memcpy(drawn->table.strain, t->strain, t->n * sizeof *t->strain);
+    memcpy(drawn->table.storage, t->storage, t->n * sizeof *t->storage);
+    memcpy(drawn->table.loss, t->loss, t->n * sizeof *t->loss);
+    if (replicate == WT_NO_REPLICATE)
+        return WT_OK;
+    move_curve(drawn->table.storage, softness->storage_error, t->n,
+               flow_draw_normal(seed, replicate, FLOW_DRAW_SOFT_STORAGE));
+    move_curve(drawn->table.loss, softness->loss_error, t->n,
+               flow_draw_normal(seed, replicate, FLOW_DRAW_SOFT_LOSS));
+    return WT_OK;
+}

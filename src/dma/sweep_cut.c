@@ -1,0 +1,193 @@
+/* Isotherms, temperature sweeps and points that are left out by temperature or frequency.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#include "dma/sweep_input.h"
+
+#include "core/data/sweep_points.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* One value stands for all that is so close: what a chamber holds [K], and a frequency as a person
+ * writes it, to 1 %. */
+static const double same_temperature = 0.5, same_frequency = 0.01;
+
+typedef struct cut {
+    bool of_frequency; /* or of time, which isotherms have as one over it */
+    bool of_time;
+    double low, high; /* [K] or [rad/s] */
+} cut;
+
+/* ---- words ----------------------------------------------------------------------------------- */
+
+static wt_status bad_text(const char *text, wt_error *err)
+{
+    wt_fail(err, WT_E_ARG, "\"%s\" does not say what to leave out", text);
+    wt_error_expected(err,
+                      "temperature:-40degC..-20degC, temperature:..-20degC, temperature:25degC, "
+                      "or frequency: and hertz, or time: and seconds, in the same way");
+    return WT_E_ARG;
+}
+
+static wt_status read_value(const cut *c, const char *text, double *value, wt_error *err)
+{
+    const wt_quantity quantity = c->of_time        ? WT_Q_TIME
+                                 : c->of_frequency ? WT_Q_FREQUENCY
+                                                   : WT_Q_TEMPERATURE;
+    const wt_status status = wt_quantity_parse(text, quantity, value, err);
+    if (status == WT_OK && c->of_time)
+        *value = 1 / *value;
+    else if (status == WT_OK && c->of_frequency)
+        *value *= 2 * M_PI;
+    return status;
+}
+
+static wt_status read_range(const char *text, cut *c, wt_error *err)
+{
+    const char *dots = strstr(text, "..");
+    if (dots == NULL) {
+        double at;
+        const wt_status status = read_value(c, text, &at, err);
+        c->low = c->of_frequency ? at / (1 + same_frequency) : at - same_temperature;
+        c->high = c->of_frequency ? at * (1 + same_frequency) : at + same_temperature;
+        return status;
+    }
+    char *low = strndup(text, (size_t)(dots - text));
+    wt_status status = low == NULL ? wt_fail(err, WT_E_MEMORY, "out of memory") : WT_OK;
+    double *const from = c->of_time ? &c->high : &c->low, *const to =
+                                                              c->of_time ? &c->low : &c->high;
+    c->low = -HUGE_VAL;
+    c->high = HUGE_VAL;
+    if (status == WT_OK && low[0] != '\0')
+        status = read_value(c, low, from, err);
+    if (status == WT_OK && dots[2] != '\0')
+        status = read_value(c, dots + 2, to, err);
+    free(low);
+    return status == WT_OK && !(c->low < c->high) ? bad_text(text, err) : status;
+}
+
+static wt_status read_cut(const char *text, cut *c, wt_error *err)
+{
+    static const char temperature[] = "temperature:", frequency[] = "frequency:", time[] = "time:";
+    *c = (cut){.of_time = strncmp(text, time, strlen(time)) == 0};
+    c->of_frequency = c->of_time || strncmp(text, frequency, strlen(frequency)) == 0;
+    const char *range = strchr(text, ':');
+    if ((!c->of_frequency && strncmp(text, temperature, strlen(temperature)) != 0) ||
+        strcmp(range, ":") == 0 || strcmp(range, ":..") == 0)
+        return bad_text(text, err);
+    return read_range(range + 1, c, err);
+}
+
+/* ---- taking out ------------------------------------------------------------------------------ */
+
+static bool is_cut(const cut *c, double x)
+{
+    return x >= c->low && x <= c->high;
+}
+
+/* Moves the points that stay to the front; how many. */
+static size_t keep_points(const cut *c, sweep_points p)
+{
+    size_t kept = 0;
+    for (size_t i = 0; i < p.n; i++) {
+        if (is_cut(c, p.array[SWEEP_FIRST][i]))
+            continue;
+        for (size_t k = 0; k < SWEEP_ARRAYS; k++)
+            if (p.array[k] != NULL)
+                p.array[k][kept] = p.array[k][i];
+        kept++;
+    }
+    return kept;
+}
+
+/* What goes: whole ones, and single points. */
+typedef struct gone {
+    wt_sweep sweep;
+    size_t points;
+} gone;
+
+static void cut_isotherms(const cut *c, wt_sweep *sweep, gone *g)
+{
+    size_t kept = 0;
+    for (size_t i = 0; i < sweep->n_isotherms; i++) {
+        wt_isotherm *t = &sweep->isotherms[i];
+        const size_t before = t->n;
+        if (c->of_frequency)
+            t->n = keep_points(c, points_of_isotherm(t));
+        if (t->n == 0 || (!c->of_frequency && is_cut(c, t->temperature))) {
+            g->sweep.isotherms[g->sweep.n_isotherms++] = *t;
+        } else {
+            g->points += before - t->n;
+            sweep->isotherms[kept++] = *t;
+        }
+    }
+    sweep->n_isotherms = kept;
+}
+
+static void cut_ramps(const cut *c, wt_sweep *sweep, gone *g)
+{
+    size_t kept = 0;
+    for (size_t i = 0; i < sweep->n_ramps; i++) {
+        wt_ramp *t = &sweep->ramps[i];
+        const size_t before = t->n;
+        if (!c->of_frequency)
+            t->n = keep_points(c, points_of_ramp(t));
+        if (t->n == 0 || (c->of_frequency && is_cut(c, t->angular_frequency))) {
+            g->sweep.ramps[g->sweep.n_ramps++] = *t;
+        } else {
+            g->points += before - t->n;
+            sweep->ramps[kept++] = *t;
+        }
+    }
+    sweep->n_ramps = kept;
+}
+
+static wt_status take_out(const char *text, wt_sweep *sweep, wt_parselog *log, wt_error *err)
+{
+    cut c;
+    wt_status status = read_cut(text, &c, err);
+    if (status == WT_OK && c.of_frequency && c.of_time != (sweep->loading != WT_OSCILLATION)) {
+        status = wt_fail(err, WT_E_ARG, "\"%s\" is of no point of this DMA", text);
+        wt_error_expected(err, c.of_time ? "frequency: for an oscillation"
+                                         : "time: for relaxation and creep");
+    }
+    gone g = {.sweep = {.isotherms = calloc(sweep->n_isotherms + 1, sizeof *sweep->isotherms),
+                        .ramps = calloc(sweep->n_ramps + 1, sizeof *sweep->ramps)}};
+    if (status == WT_OK && (g.sweep.isotherms == NULL || g.sweep.ramps == NULL))
+        status = wt_fail(err, WT_E_MEMORY, "out of memory");
+    if (status == WT_OK) {
+        cut_isotherms(&c, sweep, &g);
+        cut_ramps(&c, sweep, &g);
+        const size_t isotherms = g.sweep.n_isotherms, ramps = g.sweep.n_ramps;
+        const bool none = isotherms + ramps + g.points == 0;
+        wt_parselog_add(log, none ? WT_WARNING : WT_NOTE, NULL, NULL,
+                        "left out by %s: %zu isotherms, %zu temperature sweeps, %zu points of "
+                        "others%s",
+                        text, isotherms, ramps, g.points, none ? "; nothing lies there" : "");
+    }
+    wt_sweep_clear(&g.sweep);
+    return status;
+}
+
+wt_status flow_cuts_check(const char *const *texts, size_t n, wt_error *err)
+{
+    wt_status status = WT_OK;
+    cut c;
+    for (size_t i = 0; i < n && status == WT_OK; i++)
+        status = read_cut(texts[i], &c, err);
+    return status;
+}
+
+wt_status flow_sweep_cut(const char *const *texts, size_t n, wt_sweep *sweep, wt_parselog *log,
+                         wt_error *err)
+{
+    wt_status status = WT_OK;
+    for (size_t i = 0; i < n && status == WT_OK; i++)
+        status = take_out(texts[i], sweep, log, err);
+    if (status == WT_OK && n > 0 && sweep->n_isotherms + sweep->n_ramps == 0) {
+        status = wt_fail(err, WT_E_EMPTY, "no isotherm is left");
+        wt_error_place(err, "leave-out");
+        wt_error_advice(err, "leave out less");
+    }
+    return status;
+}

@@ -1,0 +1,157 @@
+/* The sweeps of a job: every file is read once in a run, and each stage has a copy of its own.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#include "dma/sweep_input.h"
+
+#include "core/data/sweep_points.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+const char *flow_deformation_name(wt_deformation deformation)
+{
+    return deformation == WT_SHEAR ? "shear" : "tension";
+}
+
+static unsigned arrays_of(sweep_points p)
+{
+    return (p.array[SWEEP_STRAIN] != NULL ? (unsigned)WT_WITH_STRAIN : 0) |
+           (p.array[SWEEP_LOSS_FACTOR] != NULL ? (unsigned)WT_WITH_LOSS_FACTOR : 0);
+}
+
+/* The name of the sample, too; false if there is no memory for it. */
+static bool copy_points(sweep_points to, sweep_points from, char **sample)
+{
+    for (size_t j = 0; j < SWEEP_ARRAYS; j++)
+        if (to.array[j] != NULL)
+            memcpy(to.array[j], from.array[j], from.n * sizeof(double));
+    *sample = from.sample != NULL ? strdup(from.sample) : NULL;
+    return from.sample == NULL || *sample != NULL;
+}
+
+static bool copy_isotherm(wt_sweep *to, const wt_isotherm *s)
+{
+    const sweep_points from = points_of_isotherm(s);
+    wt_isotherm *t = wt_sweep_add(to, s->n, arrays_of(from));
+    if (t == NULL)
+        return false;
+    t->temperature = s->temperature;
+    t->temperature_spread = s->temperature_spread;
+    memcpy(t->source, s->source, sizeof t->source);
+    return copy_points(points_of_isotherm(t), from, &t->sample);
+}
+
+static bool copy_ramp(wt_sweep *to, const wt_ramp *s)
+{
+    const sweep_points from = points_of_ramp(s);
+    wt_ramp *t = wt_sweep_add_ramp(to, s->n, arrays_of(from));
+    if (t == NULL)
+        return false;
+    t->angular_frequency = s->angular_frequency;
+    memcpy(t->source, s->source, sizeof t->source);
+    return copy_points(points_of_ramp(t), from, &t->sample);
+}
+
+static bool copy_strain_sweep(wt_sweep *to, const wt_strain_sweep *s)
+{
+    wt_strain_sweep *t = wt_sweep_add_strain_sweep(to, s->n);
+    if (t == NULL)
+        return false;
+    t->angular_frequency = s->angular_frequency;
+    t->temperature = s->temperature;
+    memcpy(t->source, s->source, sizeof t->source);
+    return copy_points(points_of_strain_sweep(t), points_of_strain_sweep(s), &t->sample);
+}
+
+/* `to` is empty. */
+static wt_status copy_sweep(wt_sweep *to, const wt_sweep *from, wt_error *err)
+{
+    bool good = true;
+    to->deformation = from->deformation;
+    to->loading = from->loading;
+    for (size_t i = 0; i < from->n_isotherms && good; i++)
+        good = copy_isotherm(to, &from->isotherms[i]);
+    for (size_t i = 0; i < from->n_ramps && good; i++)
+        good = copy_ramp(to, &from->ramps[i]);
+    for (size_t i = 0; i < from->n_strain_sweeps && good; i++)
+        good = copy_strain_sweep(to, &from->strain_sweeps[i]);
+    return good ? WT_OK : wt_fail(err, WT_E_MEMORY, "out of memory");
+}
+
+static size_t n_sweeps(const wt_sweep *sweep)
+{
+    return sweep->n_isotherms + sweep->n_ramps + sweep->n_strain_sweeps;
+}
+
+static wt_status read_sweeps(const wt_file_set *sets, size_t n_sets, const wt_job *work,
+                             wt_sweep *sweep, wt_error *err)
+{
+    if (work->dma != NULL && n_sweeps(work->dma) > 0)
+        return copy_sweep(sweep, work->dma, err);
+    flow_files files = {NULL, 0, NULL};
+    wt_status status = flow_files_list(sets, n_sets, work, &files, err);
+    for (size_t i = 0; status == WT_OK && i < files.n; i++) {
+        wt_input *input = NULL;
+        wt_error failure = WT_ERROR_INIT;
+        const wt_progress *progress = &work->progress;
+        if (progress->report != NULL &&
+            !progress->report(progress->user, "DMA file", i + 1, files.n)) {
+            status = wt_fail(err, WT_E_CANCELLED, "cancelled");
+            continue;
+        }
+        status = flow_open(work, &files.file[i], "dma", WT_KIND_SWEEP, &input, &failure);
+        if (status == WT_OK) {
+            const wt_read_options options = flow_read_options(&files.file[i]);
+            status = wt_sweep_read(work->formats, input, &options, work->log, sweep, &failure);
+        }
+        wt_input_close(input);
+        if (status != WT_OK)
+            status = flow_leave_out(work, &files.file[i], &failure)
+                         ? WT_OK
+                         : wt_job_failed(work, files.file[i].name, status, &failure, err);
+    }
+    if (status == WT_OK && n_sweeps(sweep) == 0) {
+        status = wt_fail(err, WT_E_EMPTY, "no DMA sweep could be read");
+        flow_tell_files(&files, 0, err);
+    }
+    if (status == WT_OK) {
+        wt_sweep_sort(sweep);
+        wt_sweep_drop_copies(sweep, work->log);
+        if (work->dma != NULL)
+            status = copy_sweep(work->dma, sweep, err);
+    }
+    flow_files_clear(&files);
+    return status;
+}
+
+wt_status flow_sweeps_read(const wt_file_set *sets, size_t n_sets, const wt_job *work,
+                           wt_sweep *sweep, wt_error *err)
+{
+    const wt_status status = read_sweeps(sets, n_sets, work, sweep, err);
+    return status == WT_OK && n_sets > 0 ? flow_sample_take(sweep, sets[0].read.sample, err)
+                                         : status;
+}
+
+wt_status flow_needs_oscillation(const wt_sweep *sweep, const char *what, wt_error *err)
+{
+    if (sweep->loading == WT_OSCILLATION)
+        return WT_OK;
+    wt_fail(err, WT_E_UNSUPPORTED, "%s needs an oscillation", what);
+    wt_error_found(err, "isotherms of %s",
+                   sweep->loading == WT_CREEP ? "creep" : "stress relaxation");
+    wt_error_advice(err, "`weartrack master` makes storage and loss modulus of them");
+    return WT_E_UNSUPPORTED;
+}
+
+wt_status wt_samples_read(const wt_file_set *sets, size_t n_sets, const wt_job *work,
+                          wt_samples *samples, wt_error *err)
+{
+    wt_sweep sweep = {0};
+    *samples = (wt_samples){0, NULL};
+    wt_status status = flow_sweeps_read(sets, n_sets, work, &sweep, err);
+    if (status == WT_OK)
+        status = flow_samples_find(&sweep, samples, err);
+    if (status != WT_OK)
+        wt_samples_clear(samples);
+    wt_sweep_clear(&sweep);
+    return status;
+}

@@ -1,0 +1,75 @@
+/* What the direction of sliding over anisotropic roughness does: friction, contact area and the
+ * force to the side with it, and the first two without. SPDX-License-Identifier: GPL-3.0-or-later
+ */
+#include "friction/anisotropy.h"
+#include "friction/friction_difference.h"
+#include "friction/numerics/angular_weight.h"
+
+#include "core/base/clocale.h"
+#include "core/table/table_rows.h"
+
+#include <math.h>
+#include <string.h>
+
+/* At one velocity. */
+TABLE_ROW(anisotropy, ANISOTROPY, wt_friction_point with, without;)
+
+TABLE_KEYS(anisotropy, ANISOTROPY, char texture[192], effect[320]; wt_estimate side;)
+
+void anisotropy_describe(const wt_anisotropy *anisotropy, char *text, size_t size)
+{
+    size_t used = 0;
+    text[0] = '\0';
+    for (size_t k = 0; k < WT_ANISOTROPY_ORDERS && used < size; k++)
+        if (anisotropy->amplitude[k] != 0) {
+            clocale_print(text + used, size - used, "%s%.4g cos %zu(phi - %.4g deg)",
+                          used > 0 ? " + " : "", anisotropy->amplitude[k], 2 * (k + 1),
+                          anisotropy->angle[k] * 180 / M_PI);
+            used = strlen(text);
+        }
+}
+
+static void say_effect(const wt_friction_point *with, const wt_friction_point *without, char *text,
+                       size_t size)
+{
+    char against[128];
+    clocale_print(against, sizeof against,
+                  "roughness that is the same in all directions; the force of the hysteresis turns "
+                  "by %.1f deg to the side",
+                  atan2(with->side.value, with->hysteresis.value) * 180 / M_PI);
+    contrast_words(with, without, against, text, size);
+}
+
+static wt_status make_table(const contrast *c, wt_table **table, wt_error *err)
+{
+    const size_t n = c->n - 1;
+    table_writer t = table_begin(&anisotropy_schema, err);
+    for (size_t i = 0; i < n; i++)
+        TABLE_ADD(anisotropy, &t, c->with[i], c->without[i]);
+    anisotropy_keys keys = {.side = c->with[n].side};
+    keys.side.standard_error = (double)NAN; /* no replicates are drawn here */
+    anisotropy_describe(&c->sliding->anisotropy, keys.texture, sizeof keys.texture);
+    say_effect(&c->with[n], &c->without[n], keys.effect, sizeof keys.effect);
+    anisotropy_set_keys(&t, &keys);
+    return table_end(&t, table);
+}
+
+wt_status wt_anisotropy_make(const wt_sliding *sliding, const wt_job *work, wt_table **table,
+                             wt_error *err)
+{
+    if (work == NULL || table == NULL)
+        return wt_fail(err, WT_E_ARG, "no anisotropy to compute");
+    wt_status status = flow_sliding_check(sliding, work, err);
+    if (status == WT_OK && !anisotropy_is_any(&sliding->anisotropy))
+        status = wt_fail(err, WT_E_ARG, "the roughness is the same in all directions");
+    if (status != WT_OK)
+        return status;
+    contrast c;
+    wt_sliding without = *sliding;
+    without.anisotropy = (wt_anisotropy){{0}, {0}};
+    status = contrast_make(sliding, &without, work, NULL, NULL, &c, err);
+    if (status == WT_OK)
+        status = make_table(&c, table, err);
+    contrast_clear(&c);
+    return status;
+}

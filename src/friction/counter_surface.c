@@ -1,0 +1,501 @@
+/* The counter surface: a self-affine law or a measured spectrum, with its stated error.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#include "friction/counter_surface.h"
+#include "dma/law_parse.h"
+#include "job/cost.h"
+#include "job/inputs.h"
+#include "job/random_draws.h"
+
+#include "core/base/array.h"
+#include "core/table/table_rows.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+void wt_surface_clear(wt_surface *surface)
+{
+    if (surface == NULL)
+        return;
+    wt_power_spectrum_clear(&surface->spectrum);
+    free(surface->modes_error);
+    free(surface->modes_tie);
+    free(surface->law_error);
+    free(surface->place_parts);
+    *surface = (wt_surface){0};
+}
+
+/* ---- from text ------------------------------------------------------------------------------- */
+
+wt_surface flow_surface_defaults(void)
+{
+    return (wt_surface){.q0 = (double)NAN,
+                        .qr = (double)NAN,
+                        .q1 = (double)NAN,
+                        .hurst = (double)NAN,
+                        .c0 = {(double)NAN, 0, 0, "m^4"}};
+}
+
+static const wt_param law_rows[] = {
+    {PARAM("q0", wt_surface, q0, WT_Q_WAVENUMBER, ABOVE(0)),
+     .flags = PARAM_REQUIRED | PARAM_NO_OPTION, .help = "smallest wavenumber"},
+    {PARAM("qr", wt_surface, qr, WT_Q_WAVENUMBER, ABOVE(0)), .unset = "q0",
+     .flags = PARAM_NO_OPTION, .help = "roll-off"},
+    {PARAM("q1", wt_surface, q1, WT_Q_WAVENUMBER, ABOVE(0)),
+     .flags = PARAM_REQUIRED | PARAM_NO_OPTION, .help = "largest wavenumber"},
+    {PARAM("hurst", wt_surface, hurst, WT_Q_NONE, ABOVE_TO(-1, 3)),
+     .flags = PARAM_REQUIRED | PARAM_NO_OPTION, .help = "Hurst exponent"},
+    {PARAM("c0", wt_surface, c0, WT_Q_POWER_SPECTRUM_2D, ABOVE(0)),
+     .flags = PARAM_REQUIRED | PARAM_NO_OPTION,
+     .help = "two-dimensional power spectrum from q0 to qr, with h_rms^2 = 2 pi int q C dq"},
+};
+PARAM_TABLE(flow_self_affine_params, wt_surface, law_rows, flow_surface_defaults, NO_PARTS)
+
+static const wt_param spectrum_rows[] = {
+    {PARAM("q0", wt_surface, q0, WT_Q_WAVENUMBER, ABOVE(0)), .unset = "that of the file",
+     .flags = PARAM_NO_OPTION, .help = "cut-off at small wavenumbers"},
+    {PARAM("q1", wt_surface, q1, WT_Q_WAVENUMBER, ABOVE(0)), .unset = "that of the file",
+     .flags = PARAM_NO_OPTION, .help = "cut-off at large wavenumbers"},
+    {PARAM("error", wt_surface, c0.standard_error, WT_Q_NONE, AT_LEAST(0)),
+     .flags = PARAM_NO_OPTION, .help = "relative error of the densities"},
+};
+PARAM_TABLE(flow_spectrum_params, wt_surface, spectrum_rows, flow_surface_defaults, NO_PARTS)
+
+wt_status flow_surface_check(wt_surface *surface, wt_error *err)
+{
+    wt_roughness *law = NULL;
+    if (isnan(surface->qr))
+        surface->qr = surface->q0; /* no roll-off */
+    wt_status status = wt_surface_roughness(surface, 1, &law, err);
+    wt_roughness_free(law);
+    return status;
+}
+
+static const flow_law_text self_affine = {
+    .prefix = "self-affine:",
+    .name = "self-affine law",
+    .what = "roughness",
+    .example = "q0=1e3rad/m,qr=5e3rad/m,q1=1e7rad/m,hurst=0.8,c0=1e-17m^4",
+    .params = flow_self_affine_params,
+};
+
+static wt_status parse_self_affine(const char *text, wt_surface *surface, wt_error *err)
+{
+    *surface = flow_surface_defaults();
+    surface->self_affine = true;
+    return flow_law_parse(&self_affine, text, surface, err);
+}
+
+static double positive_key(const wt_table *table, size_t key)
+{
+    wt_estimate value = {0};
+    return wt_table_estimate(table, power_spectrum_schema.keys[key].name, &value) &&
+                   value.value > 0 && isfinite(value.value)
+               ? value.value
+               : 0;
+}
+
+/* The errors in a column, 0 where it has none; a table without it has none. */
+static double *column_errors(const wt_table *table, power_spectrum_column which, size_t n)
+{
+    const long column = wt_table_find(table, power_spectrum_schema.columns[which].name);
+    const bool known =
+        column >= 0 && wt_table_column_kind(table, (size_t)column) == WT_COLUMN_NUMBER;
+    double *errors = malloc((n + 1) * sizeof *errors);
+    for (size_t i = 0; errors != NULL && i < n; i++) {
+        const double error = known ? wt_table_number(table, i, (size_t)column) : 0;
+        errors[i] = error > 0 && isfinite(error) ? error : 0;
+    }
+    return errors;
+}
+
+/* The size or the row in a row of the table of places, from 0. */
+static bool counted(const table_view *places, size_t row, place_errors_column column, size_t most,
+                    size_t *to)
+{
+    const double value = place_errors_get(places, row, column);
+    if (!(value >= 1) || !(value <= (double)most))
+        return false;
+    *to = (size_t)value - 1;
+    return true;
+}
+
+/* What the places of scans of several sizes give the rows of the spectrum; of one size there is no
+ * such table. */
+static wt_status take_places(const wt_table *table, wt_surface *surface, wt_error *err)
+{
+    table_view view = {.n_rows = 0};
+    wt_status status =
+        table != NULL ? table_bind(table, &place_errors_schema, "", &view, err) : WT_OK;
+    const size_t n = surface->spectrum.n, rows = view.n_rows;
+    if (status != WT_OK || rows == 0)
+        return status;
+    for (size_t i = 0, size; status == WT_OK && i < rows; i++)
+        if (counted(&view, i, PLACE_ERRORS_SIZE, rows, &size) && size >= surface->n_sizes)
+            surface->n_sizes = size + 1;
+    surface->place_parts = calloc(surface->n_sizes * n + 1, sizeof *surface->place_parts);
+    if (surface->place_parts == NULL)
+        status = wt_fail(err, WT_E_MEMORY, "out of memory");
+    for (size_t i = 0, size, at; status == WT_OK && i < rows; i++) {
+        const double error = place_errors_get(&view, i, PLACE_ERRORS_ERROR);
+        if (!counted(&view, i, PLACE_ERRORS_SIZE, surface->n_sizes, &size) ||
+            !counted(&view, i, PLACE_ERRORS_ROW, n, &at) || !(error >= 0) || !isfinite(error)) {
+            wt_fail(err, WT_E_RANGE, "row %zu of the table %s is of no row of the spectrum", i + 1,
+                    place_errors_schema.name);
+            wt_error_expected(err, "a size from 1, a row from 1 to %zu, an error of 0 or more", n);
+            status = WT_E_RANGE;
+        } else {
+            surface->place_parts[size * n + at] = error / surface->c0.standard_error;
+        }
+    }
+    return status;
+}
+
+/* The errors of the table power_spectrum and the ends of it, and those of its places, if there is
+ * such a table. *taken: its rows are the points that were read. */
+static wt_status take_errors(const wt_table *table, const wt_table *places, wt_surface *surface,
+                             bool *taken, wt_error *err)
+{
+    const wt_power_spectrum *s = &surface->spectrum;
+    const long column =
+        wt_table_find(table, power_spectrum_schema.columns[POWER_SPECTRUM_MODES_ERROR].name);
+    wt_estimate place = {0};
+    *taken = column >= 0 && wt_table_n_rows(table) == s->n &&
+             wt_table_column_kind(table, (size_t)column) == WT_COLUMN_NUMBER;
+    if (!*taken)
+        return WT_OK;
+    surface->modes_error = column_errors(table, POWER_SPECTRUM_MODES_ERROR, s->n);
+    surface->modes_tie = column_errors(table, POWER_SPECTRUM_MODES_TIE, s->n);
+    surface->law_error = column_errors(table, POWER_SPECTRUM_LAW_ERROR, s->n);
+    if (surface->modes_error == NULL || surface->modes_tie == NULL || surface->law_error == NULL)
+        return wt_fail(err, WT_E_MEMORY, "out of memory");
+    if (wt_table_estimate(table, power_spectrum_schema.keys[POWER_SPECTRUM_KEY_PLACES_ERROR].name,
+                          &place) &&
+        place.value >= 0 && isfinite(place.value)) {
+        surface->c0.standard_error = place.value;
+        surface->places_known = true;
+    }
+    surface->reliable_to = positive_key(table, POWER_SPECTRUM_KEY_TO);
+    surface->steep = positive_key(table, POWER_SPECTRUM_KEY_STEEP);
+    return surface->c0.standard_error > 0 ? take_places(places, surface, err) : WT_OK;
+}
+
+/* Of a file that this program wrote. One from a pipe is read once, and then friction has no error
+ * of the surface, which is said. */
+static wt_status read_errors(const flow_file *file, const wt_job *work, wt_surface *surface,
+                             wt_error *err)
+{
+    static const char *const own[] = {"weartrack-stream", "weartrack-hdf5"};
+    bool is_own = false;
+    for (size_t i = 0; i < COUNT_OF(own); i++)
+        is_own = is_own || (file->format != NULL && strcmp(file->format->id, own[i]) == 0);
+    if (!is_own)
+        return WT_OK;
+    wt_result *tables = NULL;
+    bool taken = false;
+    const bool piped = strcmp(file->path, "-") == 0;
+    wt_status status = piped ? WT_OK
+                             : wt_tables_read(file->path, file->name, NULL,
+                                              (wt_tables_role){NULL, NULL, NULL}, &tables, err);
+    const wt_table *table =
+        status == WT_OK && !piped ? wt_result_find(tables, power_spectrum_schema.name) : NULL;
+    if (table != NULL)
+        status = take_errors(table, wt_result_find(tables, place_errors_schema.name), surface,
+                             &taken, err);
+    if (status == WT_OK && !taken && (piped || table != NULL))
+        wt_parselog_add(work->log, WT_WARNING, file->name, NULL,
+                        "the errors of the spectrum are not read%s: no error holds the surface",
+                        piped ? " from a pipe; give a file" : "");
+    wt_result_free(tables);
+    return status;
+}
+
+/* C of the surface of the spectrum of a profile. */
+static wt_status take_profile(const char *name, const wt_job *work, wt_power_spectrum *spectrum,
+                              wt_error *err)
+{
+    double *c = malloc((spectrum->n + 1) * sizeof *c);
+    if (c == NULL)
+        return wt_fail(err, WT_E_MEMORY, "out of memory");
+    const wt_status status =
+        wt_surface_of_profile(spectrum->wavenumber, spectrum->density, spectrum->n, c, err);
+    if (status != WT_OK) {
+        free(c);
+        wt_error_file(err, name);
+        return status;
+    }
+    free(spectrum->density);
+    spectrum->density = c;
+    spectrum->kind = WT_SPECTRUM_2D;
+    wt_parselog_add(work->log, WT_WARNING, name, NULL,
+                    "the spectrum is that of a line (m^3): friction is for a surface that is the "
+                    "same in all directions");
+    return WT_OK;
+}
+
+wt_status flow_surface_read(flow_file *file, const wt_job *work, wt_surface *surface, wt_error *err)
+{
+    wt_input *input = NULL;
+    wt_status status = flow_open(work, file, "roughness", WT_KIND_SPECTRUM, &input, err);
+    const wt_read_options read = flow_read_options(file);
+    if (status == WT_OK)
+        status =
+            wt_power_spectrum_read(work->formats, input, &read, work->log, &surface->spectrum, err);
+    wt_input_close(input);
+    if (status == WT_OK && surface->spectrum.kind != WT_SPECTRUM_2D)
+        status = take_profile(file->name, work, &surface->spectrum, err);
+    surface->q0 = surface->q1 = (double)NAN;
+    surface->c0 = (wt_estimate){1, 0, 0, "1"};
+    return status == WT_OK ? read_errors(file, work, surface, err) : status;
+}
+
+/* ---- from height maps ------------------------------------------------------------------------ */
+
+static wt_status take_spectrum(const wt_topography_tables *made, wt_surface *surface, wt_error *err)
+{
+    const wt_table *const table = made->power_spectrum;
+    const size_t n = wt_table_n_rows(table);
+    wt_power_spectrum *const s = &surface->spectrum;
+    bool taken = false;
+    s->kind = WT_SPECTRUM_2D;
+    s->wavenumber = malloc((n + 1) * sizeof *s->wavenumber);
+    s->density = malloc((n + 1) * sizeof *s->density);
+    if (s->wavenumber == NULL || s->density == NULL)
+        return wt_fail(err, WT_E_MEMORY, "out of memory");
+    for (s->n = 0; s->n < n; s->n++) {
+        s->wavenumber[s->n] = wt_table_number(table, s->n, POWER_SPECTRUM_WAVENUMBER);
+        s->density[s->n] = wt_table_number(table, s->n, POWER_SPECTRUM_DENSITY);
+    }
+    return take_errors(table, made->place_errors, surface, &taken, err);
+}
+
+wt_status flow_surface_measure(const wt_topography_job *job, const wt_job *work,
+                               wt_surface *surface, wt_topography_tables *tables, wt_error *err)
+{
+    wt_topography_tables made = {.power_spectrum = NULL};
+    wt_status status = wt_topography_make(job, work, &made, err);
+    surface->q0 = surface->q1 = (double)NAN;
+    surface->c0 = (wt_estimate){1, 0, 0, "1"};
+    if (status == WT_OK)
+        status = take_spectrum(&made, surface, err);
+    if (status == WT_OK && tables != NULL) {
+        *tables = made;
+        return WT_OK;
+    }
+    wt_topography_tables_clear(&made);
+    return status;
+}
+
+/* Several files, or one that may be heights and is no spectrum. */
+static wt_status is_measured(const flow_files *files, const wt_job *work, bool *heights,
+                             wt_error *err)
+{
+    wt_input *input = NULL;
+    const wt_format_info *format = NULL;
+    *heights = files->n > 1;
+    if (files->n != 1 || strcmp(files->file[0].path, "-") == 0)
+        return WT_OK;
+    const wt_read_options *const read = &files->file[0].set->read;
+    wt_status status = wt_input_open(files->file[0].path, &input, err);
+    if (status == WT_OK && read->format == NULL)
+        status =
+            wt_detect(work->formats, input, read, WT_KIND_SPECTRUM | WT_KIND_IMAGE, &format, err);
+    else if (status == WT_OK)
+        format = wt_formats_find(work->formats, read->format);
+    const unsigned kinds = status == WT_OK && format != NULL ? format->kinds : 0;
+    *heights = (kinds & WT_KIND_IMAGE) != 0 && (kinds & WT_KIND_SPECTRUM) == 0;
+    wt_input_close(input);
+    return status;
+}
+
+/* A spectrum, or the heights of a file, of a folder or of a pattern. */
+static wt_status read_surface(const char *path, const wt_read_options *read, const wt_job *work,
+                              wt_surface *surface, wt_error *err)
+{
+    const wt_file_set set = {
+        .patterns = &path, .n_patterns = 1, .read = read != NULL ? *read : wt_read_defaults()};
+    flow_files files = {NULL, 0, NULL};
+    wt_topography_job job = wt_topography_job_defaults();
+    bool heights = false;
+    job.sets = &set;
+    job.n_sets = 1;
+    if (work->formats == NULL)
+        return wt_fail(err, WT_E_ARG, "no formats given to a job that reads files");
+    wt_status status = flow_files_list(&set, 1, work, &files, err);
+    if (status == WT_OK)
+        status = is_measured(&files, work, &heights, err);
+    if (status == WT_OK && !heights)
+        status = flow_surface_read(&files.file[0], work, surface, err);
+    else if (status == WT_OK)
+        status = flow_surface_measure(&job, work, surface, NULL, err);
+    flow_files_clear(&files);
+    return status;
+}
+
+void flow_surface_cost(const wt_surface *surface, const wt_job *work)
+{
+    const size_t items = surface->self_affine ? COUNT_OF(law_rows) : surface->spectrum.n;
+    cost_say(work, (cost_summary){.items = (double)items});
+}
+
+wt_status wt_surface_open(const char *text, const wt_read_options *read, const wt_job *work,
+                          wt_surface *surface, wt_error *err)
+{
+    if (text == NULL || surface == NULL || work == NULL)
+        return wt_fail(err, WT_E_ARG, "no roughness");
+    wt_surface s = {0};
+    wt_status status = flow_is_law(&self_affine, text) ? parse_self_affine(text, &s, err)
+                                                       : read_surface(text, read, work, &s, err);
+    status = flow_law_meant(&self_affine, text, status, err);
+    if (status == WT_OK)
+        status = flow_surface_check(&s, err);
+    if (status != WT_OK) {
+        wt_surface_clear(&s);
+        return status;
+    }
+    *surface = s;
+    flow_surface_cost(&s, work);
+    return WT_OK;
+}
+
+/* ---- the law --------------------------------------------------------------------------------- */
+
+/* The measured densities from q0 to q1, the ends interpolated in log-log. */
+static wt_status spectrum_roughness(const wt_surface *surface, double factor,
+                                    wt_roughness **roughness, wt_error *err)
+{
+    const wt_power_spectrum *s = &surface->spectrum;
+    if (s->n < 2)
+        return wt_fail(err, WT_E_EMPTY, "a spectrum needs two points or more");
+    double q0 = isnan(surface->q0) ? s->wavenumber[0] : surface->q0;
+    double q1 = isnan(surface->q1) ? s->wavenumber[s->n - 1] : surface->q1;
+    if (!(q0 >= s->wavenumber[0]) || !(q1 <= s->wavenumber[s->n - 1]) || !(q0 < q1)) {
+        wt_fail(err, WT_E_RANGE, "the cut-offs lie outside the spectrum");
+        wt_error_expected(err, "%g <= q0 < q1 <= %g rad/m", s->wavenumber[0],
+                          s->wavenumber[s->n - 1]);
+        wt_error_found(err, "q0 = %g, q1 = %g rad/m", q0, q1);
+        return WT_E_RANGE;
+    }
+    double *q = malloc(2 * (s->n + 2) * sizeof *q);
+    if (q == NULL)
+        return wt_fail(err, WT_E_MEMORY, "out of memory");
+    double *c = q + s->n + 2;
+    size_t n = 0;
+    for (size_t i = 0; i < s->n; i++) {
+        double ends[2] = {q0, q1};
+        for (int e = 0; e < 2; e++) {
+            if (i == 0 || !(ends[e] > s->wavenumber[i - 1]) || !(ends[e] < s->wavenumber[i]))
+                continue;
+            double t =
+                log(ends[e] / s->wavenumber[i - 1]) / log(s->wavenumber[i] / s->wavenumber[i - 1]);
+            q[n] = ends[e];
+            c[n++] = factor * exp((1 - t) * log(s->density[i - 1]) + t * log(s->density[i]));
+        }
+        if (s->wavenumber[i] < q0 || s->wavenumber[i] > q1)
+            continue;
+        q[n] = s->wavenumber[i];
+        c[n++] = factor * s->density[i];
+    }
+    wt_status status = wt_roughness_table(q, c, n, roughness, err);
+    free(q);
+    return status;
+}
+
+wt_status wt_surface_roughness(const wt_surface *surface, double factor, wt_roughness **roughness,
+                               wt_error *err)
+{
+    if (surface == NULL || roughness == NULL || !(factor > 0) || !isfinite(factor))
+        return wt_fail(err, WT_E_ARG, "no surface, or a factor that is not positive");
+    if (surface->self_affine)
+        return wt_roughness_self_affine(surface->q0, surface->qr, surface->q1, surface->hurst,
+                                        factor * surface->c0.value, roughness, err);
+    return spectrum_roughness(surface, factor, roughness, err);
+}
+
+/* Normal deviates of which each is correlated with the one before and the next alone: from
+ * independent ones by the Cholesky factor of their correlations. */
+typedef struct chain {
+    double tie, own, before; /* correlation with the next; part of, and the last independent one */
+} chain;
+
+static double chain_next(chain *c, double tie, double independent)
+{
+    const double shared = c->own > 0 ? c->tie / c->own : 0, own = sqrt(1 - shared * shared);
+    const double z = shared * c->before + own * independent;
+    *c = (chain){fmin(tie, POWER_SPECTRUM_MOST_TIE), own, independent};
+    return z;
+}
+
+wt_status flow_surface_draw(const wt_surface *surface, double factor, uint64_t seed,
+                            size_t replicate, wt_roughness **roughness, wt_error *err)
+{
+    const wt_power_spectrum *s = &surface->spectrum;
+    if (replicate == WT_NO_REPLICATE || surface->modes_error == NULL || surface->self_affine)
+        return wt_surface_roughness(surface, factor, roughness, err);
+    wt_surface drawn = *surface;
+    drawn.spectrum.density = malloc((s->n + 1) * sizeof *s->density);
+    if (drawn.spectrum.density == NULL)
+        return wt_fail(err, WT_E_MEMORY, "out of memory");
+    /* each point has a draw of its own, behind all others, of which it shares a part with the next;
+     * the law that of one more point, and the places of each size but the first, which are drawn
+     * with the factor, that of another */
+    const double law = flow_draw_normal(seed, replicate, (flow_draw)(FLOW_DRAW_MODES + s->n));
+    const bool sizes = surface->place_parts != NULL;
+    const double places = surface->c0.standard_error / surface->c0.value;
+    chain scatter = {0};
+    for (size_t i = 0; i < s->n; i++) {
+        const double z =
+            chain_next(&scatter, surface->modes_tie != NULL ? surface->modes_tie[i] : 0,
+                       flow_draw_normal(seed, replicate, (flow_draw)(FLOW_DRAW_MODES + i)));
+        const double by_law = surface->law_error != NULL ? surface->law_error[i] * law : 0;
+        drawn.spectrum.density[i] = s->density[i] * exp(surface->modes_error[i] * z + by_law);
+    }
+    for (size_t size = 0; size < surface->n_sizes; size++) {
+        const flow_draw what = (flow_draw)(FLOW_DRAW_MODES + s->n + size);
+        const double by =
+            size == 0 ? log(factor) : places * flow_draw_normal(seed, replicate, what);
+        for (size_t i = 0; i < s->n; i++)
+            drawn.spectrum.density[i] *= exp(by * surface->place_parts[size * s->n + i]);
+    }
+    const wt_status status = wt_surface_roughness(&drawn, sizes ? 1 : factor, roughness, err);
+    free(drawn.spectrum.density);
+    return status;
+}
+
+/* ---- the table ------------------------------------------------------------------------------- */
+
+/* As a figure shows well. */
+#define POINTS_PER_DECADE 20
+
+TABLE_ROW(roughness, ROUGHNESS, double wavenumber, density;)
+
+wt_status wt_surface_table(const wt_surface *surface, wt_table **table, wt_error *err)
+{
+    wt_roughness *roughness = NULL;
+    wt_status status = wt_surface_roughness(surface, 1, &roughness, err);
+    if (status != WT_OK)
+        return status;
+    table_writer t = table_begin(&roughness_schema, err);
+    double decades = log10(roughness->q1 / roughness->q0);
+    size_t n = 2 + (size_t)ceil(decades * POINTS_PER_DECADE);
+    for (size_t i = 0; i < n; i++) {
+        double density = (double)NAN;
+        double q = i + 1 == n ? roughness->q1
+                              : roughness->q0 * pow(10, decades * (double)i / (double)(n - 1));
+        roughness->law->density(roughness, &q, 1, &density);
+        TABLE_ADD(roughness, &t, q, density);
+    }
+    /* rms height goes with the square root of C, so its relative error is half */
+    const wt_estimate c0 = flow_as_stated(surface->c0);
+    double share = c0.standard_error / c0.value / 2;
+    double height = wt_roughness_rms_height(roughness), slope = wt_roughness_rms_slope(roughness);
+    roughness_set_value(&t, ROUGHNESS_KEY_RMS_HEIGHT, height, share * height, 0);
+    roughness_set_value(&t, ROUGHNESS_KEY_RMS_SLOPE, slope, share * slope, 0);
+    if (surface->self_affine) {
+        roughness_set_print(&t, ROUGHNESS_KEY_HURST, "%g", surface->hurst);
+        roughness_set(&t, ROUGHNESS_KEY_C0, c0);
+        roughness_set_value(&t, ROUGHNESS_KEY_ROLL_OFF, surface->qr, 0, 0);
+    }
+    wt_roughness_free(roughness);
+    return table_end(&t, table);
+}

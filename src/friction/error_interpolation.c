@@ -1,0 +1,40 @@
+/* Standard errors at many velocities. SPDX-License-Identifier: GPL-3.0-or-later */
+#include "friction/error_interpolation.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+wt_status error_nodes_make(const double *v, size_t n, double **nodes, size_t *m, wt_error *err)
+{
+    const size_t last = n - 1;
+    *nodes = NULL;
+    *m = n;
+    if (n <= ERROR_NODES + 1)
+        return WT_OK;
+    double *const made = malloc((ERROR_NODES + 1) * sizeof *made);
+    if (made == NULL)
+        return wt_fail(err, WT_E_MEMORY, "out of memory");
+    const double from = log(v[0]), to = log(v[last - 1]);
+    for (size_t i = 0; i < ERROR_NODES; i++)
+        made[i] = exp(from + (to - from) * (double)i / (ERROR_NODES - 1));
+    made[0] = v[0];
+    made[ERROR_NODES - 1] = v[last - 1];
+    made[ERROR_NODES] = v[last];
+    *nodes = made;
+    *m = ERROR_NODES + 1;
+    return WT_OK;
+}
+
+void error_nodes_spread(const double *nodes, size_t m, const double *at_nodes, const double *v,
+                        size_t n, double *error)
+{
+    size_t k = 0; /* v lies between the nodes k and k + 1 */
+    for (size_t i = 0; i + 1 < n; i++) {
+        while (k + 3 < m && v[i] > nodes[k + 1])
+            k++;
+        const double width = log(nodes[k + 1] / nodes[k]);
+        const double share = width > 0 ? log(v[i] / nodes[k]) / width : 0;
+        error[i] = at_nodes[k] + share * (at_nodes[k + 1] - at_nodes[k]);
+    }
+    error[n - 1] = at_nodes[m - 1];
+}

@@ -1,0 +1,266 @@
+/* Figures of the sliding contact: power spectrum, friction, contact area, length scales.
+ *
+ * SPDX-License-Identifier: GPL-3.0-or-later
+ */
+#include "report/drawing.h"
+
+#include "core/base/array.h"
+
+#include <math.h>
+
+static void caption_spectrum(figure_drawing *d)
+{
+    const wt_estimate height = roughness_value(d->table, ROUGHNESS_KEY_RMS_HEIGHT),
+                      slope = roughness_value(d->table, ROUGHNESS_KEY_RMS_SLOPE);
+    text_say(&d->caption, " Root-mean-square height %s. Root-mean-square slope %s.",
+             ESTIMATE(d->language, &height), ESTIMATE(d->language, &slope));
+}
+
+/* ---- friction against velocity --------------------------------------------------------------- */
+
+static void prepare_friction(figure_drawing *d)
+{
+    value_span total = SPAN_EMPTY;
+    span_add_column(&total, d->table, FRICTION_TOTAL, false);
+    if (span_empty(&total))
+        d->y_label = "Hysteresis friction coefficient";
+    span_add(&d->y[0], 0, false);
+    span_add(&d->y[0], 1.1 * d->y[0].high, false); // room for the bands
+}
+
+/* The largest numerical error relative to its value; NaN if none is known. */
+static double largest_error(const table_view *friction)
+{
+    double largest = (double)NAN;
+    for (size_t row = 0; row < friction->n_rows; row++)
+        largest =
+            fmax(largest, fabs(friction_get(friction, row, FRICTION_HYSTERESIS_NUMERICAL_ERROR) /
+                               friction_get(friction, row, FRICTION_HYSTERESIS)));
+    return largest;
+}
+
+static void caption_friction(figure_drawing *d)
+{
+    value_span layer = SPAN_EMPTY, share = SPAN_EMPTY;
+    const char *includes = friction_words(d->table, FRICTION_KEY_ERROR_INCLUDES);
+    span_add_column(&layer, d->table, FRICTION_WITH_LAYER, false);
+    span_add_column(&share, d->table, FRICTION_EXTRAPOLATED_SHARE, false);
+
+    if (includes != NULL && includes[0] != '\0')
+        text_say(&d->caption, " (from %s)", includes);
+    text_words(&d->caption, ".");
+    if (!span_empty(&layer)) {
+        wt_estimate thickness = friction_value(d->table, FRICTION_KEY_LAYER_THICKNESS);
+        text_words(&d->caption, " Dashed: with the modified layer on the surface");
+        if (!isnan(thickness.value))
+            text_say(&d->caption, ", thickness %s", ESTIMATE(d->language, &thickness));
+        text_words(&d->caption, ".");
+    }
+    text_say(&d->caption, " Conditions: nominal pressure %s, temperature %s",
+             VALUE(d->language, WT_Q_PRESSURE, NULL,
+                   friction_value(d->table, FRICTION_KEY_PRESSURE).value),
+             VALUE(d->language, WT_Q_TEMPERATURE, NULL,
+                   friction_value(d->table, FRICTION_KEY_TEMPERATURE).value));
+    const double least = 1e-3; /* of a share: less is said so */
+    double shear = friction_value(d->table, FRICTION_KEY_SHEAR_STRESS).value;
+    if (isfinite(shear))
+        text_say(&d->caption, ", shear stress of the real contact %s",
+                 VALUE(d->language, WT_Q_PRESSURE, NULL, shear));
+    text_words(&d->caption, ".");
+    double numerical = largest_error(d->table);
+    if (isfinite(numerical))
+        text_say(&d->caption,
+                 " Largest numerical error of the hysteresis part: %s %%, not in the bands.",
+                 NUMBER(d->language, 100 * numerical, 2));
+    if (!span_empty(&share) && share.high > 0)
+        text_say(&d->caption,
+                 " %s %s %% of the hysteresis part comes from frequencies outside the measured "
+                 "ones.",
+                 say(d->language, share.high < least ? "Less than" : "Up to"),
+                 NUMBER(d->language, 100 * fmax(share.high, least), share.high < least ? 1 : 2));
+}
+
+/* ---- softening with strain ------------------------------------------------------------------- */
+
+static void caption_softening(figure_drawing *d)
+{
+    text_say(&d->caption, " Softening: %s. Largest strain met: %s. %s.",
+             softening_words(d->table, SOFTENING_KEY_SOURCE),
+             NUMBER(d->language, softening_value(d->table, SOFTENING_KEY_STRAIN).value, 2),
+             softening_words(d->table, SOFTENING_KEY_EFFECT));
+}
+
+/* ---- flash temperature ----------------------------------------------------------------------- */
+
+static void caption_flash(figure_drawing *d)
+{
+    const char *two = flash_words(d->table, FLASH_KEY_BRANCHES),
+               *none = flash_words(d->table, FLASH_KEY_UNSETTLED);
+    text_say(&d->caption, " Surroundings at %s; %s.",
+             VALUE(d->language, WT_Q_TEMPERATURE, NULL,
+                   flash_value(d->table, FLASH_KEY_SURROUNDINGS).value),
+             flash_words(d->table, FLASH_KEY_EFFECT));
+    if (two != NULL)
+        text_say(&d->caption, " Two solutions: %s.", two);
+    if (none != NULL)
+        text_say(&d->caption, " Without one: %s.", none);
+}
+
+/* ---- directions ------------------------------------------------------------------------------ */
+
+static void draw_directions(figure_drawing *d)
+{
+    static const struct {
+        const char *factors, *title;
+        int style;
+    } kept[] = {{"none", "isotropic", 23},
+                {"loss", "factors on E″ alone", 22},
+                {"storage", "factors on E′ alone", 21},
+                {"both", "both", 24}};
+    static const struct {
+        directions_column column;
+        const char *label;
+    } panels[] = {{DIRECTIONS_HYSTERESIS, "Hysteresis friction coefficient"},
+                  {DIRECTIONS_AREA_RATIO, "Real over nominal contact area"}};
+    static const unsigned columns[] = {DIRECTIONS_VELOCITY, DIRECTIONS_HYSTERESIS,
+                                       DIRECTIONS_AREA_RATIO};
+    const schema_field *field = d->table->schema->columns;
+    int section[COUNT_OF(kept)];
+    value_span velocity = SPAN_EMPTY, friction = SPAN_EMPTY;
+    span_add_column(&velocity, d->table, DIRECTIONS_VELOCITY, true);
+    span_add_column(&friction, d->table, DIRECTIONS_HYSTERESIS, false);
+    if (span_empty(&velocity) || span_empty(&friction))
+        return;
+    d->height = 1.5;
+    text_add(&d->script, "set multiplot layout 2,1\n");
+    for (size_t k = 0; k < COUNT_OF(kept); k++) {
+        const row_filter rows = {{DIRECTIONS_FACTORS, 0}, {kept[k].factors, NULL}, false};
+        section[k] = drawing_section(d, d->table, kept[k].factors, &rows, columns, 3, 3);
+    }
+    axis_log(d, "x", "Sliding velocity", &field[DIRECTIONS_VELOCITY], velocity);
+    for (size_t p = 0; p < COUNT_OF(panels); p++) {
+        value_span span = SPAN_EMPTY;
+        span_add(&span, 0, false);
+        span_add_column(&span, d->table, panels[p].column, false);
+        axis_linear(d, "y", panels[p].label, &field[panels[p].column], span);
+        for (size_t k = 0; k < COUNT_OF(kept); k++)
+            plot_item(d, section[k], "($1*x_unit):($%zu*y_unit) with lines ls %d title '%s'", p + 2,
+                      kept[k].style, say(d->language, kept[k].title));
+        plot_end(d);
+        text_add(&d->script, "unset key\n");
+    }
+    text_add(&d->script, "unset multiplot\n");
+}
+
+const figure_description figures_friction[] = {
+    {.name = "power_spectrum",
+     .in_depth = true,
+     .title = "Power spectrum of the counter surface",
+     .table = &roughness_schema,
+     .data_title = "power spectrum",
+     .x = {ROUGHNESS_WAVENUMBER, AXIS_LOG, "Wavenumber q"},
+     .y = {{ROUGHNESS_DENSITY, AXIS_LOG, "Power spectrum C(q)"}},
+     .curves = {CURVE(ROUGHNESS_DENSITY, LINE, .style = 21)},
+     .nothing = "no density above zero",
+     .words = "Power spectrum of the counter surface over the wavenumbers that enter the friction.",
+     .caption = caption_spectrum},
+    {.name = "friction",
+     .title = "Friction against sliding velocity",
+     .table = &friction_schema,
+     .data_title = "friction",
+     .x = {FRICTION_VELOCITY, AXIS_LOG, "Sliding velocity"},
+     .y = {{FRICTION_TOTAL, AXIS_NUMBER, "Friction coefficient μ"}},
+     .curves = {CURVE(FRICTION_TOTAL, LINE, .style = 21, .title = "total", .band = 71),
+                CURVE(FRICTION_HYSTERESIS, LINE, .style = 22, .title = "hysteresis", .band = 72),
+                CURVE(FRICTION_ADHESION, LINE, .style = 23, .title = "shearing"),
+                CURVE(FRICTION_WITH_LAYER, LINE, .style = 24, .title = "total with layer",
+                      .band = 74)},
+     .nothing = "no friction coefficient is a number",
+     .words = "Friction coefficient and its parts against sliding velocity. Bands: one standard "
+              "error",
+     .prepare = prepare_friction,
+     .caption = caption_friction},
+    {
+        .name = "contact_area",
+        .in_depth = true,
+        .title = "Real contact area against magnification",
+        .table = &contact_area_schema,
+        .data_title = "area_ratio",
+        .x = {CONTACT_AREA_MAGNIFICATION, AXIS_LOG, "Magnification ζ = q/q₀"},
+        .y = {{CONTACT_AREA_AREA_RATIO, AXIS_LOG, "Contact area A/A₀"}},
+        .colour = {CONTACT_AREA_VELOCITY, AXIS_LOG, "Sliding velocity"},
+        .curves = {CURVE(CONTACT_AREA_AREA_RATIO, LINE, .style = 21)},
+        .nothing = "no number to draw",
+        .words = "Share of the nominal contact area that is in contact when roughness up to the "
+                 "magnification is seen; one line for each sliding velocity.",
+    },
+    {
+        .name = "friction_scales",
+        .in_depth = true,
+        .title = "Which length scales make the friction",
+        .table = &contact_area_schema,
+        .data_title = "hysteresis",
+        .x = {CONTACT_AREA_MAGNIFICATION, AXIS_LOG, "Magnification ζ = q/q₀"},
+        .y = {{CONTACT_AREA_HYSTERESIS, AXIS_FROM_ZERO, "Hysteresis friction up to ζ"}},
+        .colour = {CONTACT_AREA_VELOCITY, AXIS_LOG, "Sliding velocity"},
+        .curves = {CURVE(CONTACT_AREA_HYSTERESIS, LINE, .style = 21)},
+        .nothing = "no number to draw",
+        .words =
+            "Hysteresis part of the friction coefficient from roughness up to the magnification: "
+            "where a line rises, those length scales make the friction. A line that still rises "
+            "at its right end depends on the upper cut-off of the spectrum.",
+    },
+    {.name = "directions",
+     .title = "What the directions of the material do",
+     .table = &directions_schema,
+     .nothing = "no friction of the material with its directions",
+     .words = "Hysteresis friction and contact area of the transversely isotropic material against "
+              "velocity: with its factors on the moduli, with those on one modulus alone and as "
+              "the isotropic material.",
+     .draw = draw_directions},
+    {.name = "softening",
+     .title = "What softening with strain does",
+     .table = &softening_schema,
+     .data_title = "hysteresis",
+     .x = {SOFTENING_VELOCITY, AXIS_LOG, "Sliding velocity"},
+     .y = {{SOFTENING_HYSTERESIS, AXIS_FROM_ZERO, "Hysteresis friction coefficient"}},
+     .curves = {CURVE(SOFTENING_HYSTERESIS, LINE, .style = 21,
+                      .title = "moduli soften with strain"),
+                CURVE(SOFTENING_HYSTERESIS_WITHOUT, LINE, .style = 24,
+                      .title = "moduli at small strain")},
+     .nothing = "no hysteresis friction is a number",
+     .words =
+         "Hysteresis part of the friction coefficient against sliding velocity with the moduli "
+         "that soften with strain, and with those at small strain. The strain at a length "
+         "scale is taken from the rms slope of the roughness down to it.",
+     .caption = caption_softening},
+    {.name = "flash_temperature",
+     .title = "Flash temperature",
+     .table = &flash_schema,
+     .data_title = "temperature",
+     .x = {FLASH_VELOCITY, AXIS_LOG, "Sliding velocity"},
+     .y = {{FLASH_TEMPERATURE, AXIS_LINEAR, "Temperature at the finest scale"}},
+     .curves = {CURVE(FLASH_TEMPERATURE, LINE, .style = 21, .title = "from cold"),
+                CURVE(FLASH_HOT_TEMPERATURE, LINE, .style = 24,
+                      .title = "of a contact that stays hot")},
+     .nothing = "no temperature is a number",
+     .words = "Temperature of the rubber at the finest scale of the contact against sliding "
+              "velocity: the heat of friction at every length scale warms it there.",
+     .caption = caption_flash},
+    {.name = "flash_friction",
+     .title = "What the flash temperature does to friction",
+     .table = &flash_schema,
+     .data_title = "hysteresis",
+     .x = {FLASH_VELOCITY, AXIS_LOG, "Sliding velocity"},
+     .y = {{FLASH_HYSTERESIS, AXIS_FROM_ZERO, "Hysteresis friction coefficient"}},
+     .curves = {CURVE(FLASH_HYSTERESIS, LINE, .style = 21, .title = "with flash temperature"),
+                CURVE(FLASH_HYSTERESIS_WITHOUT, LINE, .style = 23,
+                      .title = "as warm as the surroundings"),
+                CURVE(FLASH_HOT_HYSTERESIS, LINE, .style = 24,
+                      .title = "of a contact that stays hot")},
+     .nothing = "no hysteresis friction is a number",
+     .words = "Hysteresis part of the friction coefficient against sliding velocity with the "
+              "temperatures that sliding makes, and with rubber as warm as its surroundings.",
+     .caption = caption_flash},
+    {.name = NULL},
+};

@@ -1,0 +1,346 @@
+/* Figures of what friction is seen against: temperature and its collapse, maps over temperature and
+ * pressure, decades of the wavenumber, the direction of sliding.
+ *
+ * SPDX-License-Identifier: GPL-3.0-or-later
+ */
+#include "report/drawing.h"
+
+#include "core/base/array.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* Room for the scale of colour beside the picture, as described figures have it. */
+static const double with_scale = 1.15;
+
+/* ---- several temperatures -------------------------------------------------------------------- */
+
+/* The total friction where it is known. */
+static unsigned shown_friction(const table_view *table)
+{
+    value_span total = SPAN_EMPTY;
+    span_add_column(&total, table, FRICTION_MAP_TOTAL, false);
+    return span_empty(&total) ? FRICTION_MAP_HYSTERESIS : FRICTION_MAP_TOTAL;
+}
+
+static const char *label_of(unsigned column)
+{
+    return column == FRICTION_MAP_TOTAL ? "Friction coefficient μ"
+                                        : "Hysteresis friction coefficient";
+}
+
+/* Rows of the temperatures or of the pressures. */
+static int map_section(figure_drawing *d, const char *against, const unsigned *columns, size_t n)
+{
+    const row_filter rows = {{FRICTION_MAP_AGAINST, 0}, {against, NULL}, false};
+    return drawing_section(d, d->table, against, &rows, columns, n, n);
+}
+
+/* In the columns of a section: velocity, reduced velocity, friction, what colours a line. */
+enum { AT_VELOCITY = 1, AT_REDUCED, AT_FRICTION, AT_COLOUR };
+
+static void draw_lines(figure_drawing *d, int section, int x, const char *label,
+                       const schema_field *field)
+{
+    value_span span = SPAN_EMPTY;
+    span_add_section(&span, d, section, (size_t)x - 1, true);
+    axis_log(d, "x", label, field, span);
+    plot_item(d, section,
+              "($%d*x_unit):%d:($%d*cb_unit+cb_offset) with lines lw 1.8 lc palette notitle", x,
+              AT_FRICTION, AT_COLOUR);
+    plot_end(d);
+}
+
+static void draw_collapse(figure_drawing *d)
+{
+    const unsigned friction = shown_friction(d->table);
+    const unsigned columns[] = {FRICTION_MAP_VELOCITY, FRICTION_MAP_REDUCED_VELOCITY, friction,
+                                FRICTION_MAP_TEMPERATURE};
+    const schema_field *field = d->table->schema->columns;
+    const int section = map_section(d, "temperature", columns, COUNT_OF(columns));
+    value_span height = SPAN_EMPTY, colour = SPAN_EMPTY;
+    if (section < 0)
+        return;
+    span_add(&height, 0, false);
+    span_add_section(&height, d, section, AT_FRICTION - 1, false);
+    span_add_section(&colour, d, section, AT_COLOUR - 1, false);
+    d->width = with_scale;
+    d->height = 1.7;
+    axis_linear(d, "cb", "Temperature", &field[FRICTION_MAP_TEMPERATURE], colour);
+    text_add(&d->script, "set cblabel offset 1.5,0\nset multiplot layout 2,1\nunset key\n");
+    axis_linear(d, "y", label_of(friction), &field[friction], height);
+    draw_lines(d, section, AT_VELOCITY, "Sliding velocity v", &field[FRICTION_MAP_VELOCITY]);
+    draw_lines(d, section, AT_REDUCED, "Reduced velocity v a_T",
+               &field[FRICTION_MAP_REDUCED_VELOCITY]);
+    text_add(&d->script, "unset multiplot\n");
+}
+
+static void caption_collapse(figure_drawing *d)
+{
+    text_say(&d->caption, " Nominal pressure %s; a_T is 1 at %s.",
+             VALUE(d->language, WT_Q_PRESSURE, NULL,
+                   friction_map_value(d->table, FRICTION_MAP_KEY_PRESSURE).value),
+             VALUE(d->language, WT_Q_TEMPERATURE, NULL,
+                   friction_map_value(d->table, FRICTION_MAP_KEY_REFERENCE_TEMPERATURE).value));
+    const char *beyond = friction_map_words(d->table, FRICTION_MAP_KEY_MATERIAL_STATEMENT);
+    if (beyond != NULL && beyond[0] != '\0')
+        text_say(&d->caption, " Note: %s.", beyond);
+}
+
+/* ---- maps ------------------------------------------------------------------------------------ */
+
+/* A place of a map is a box from half-way to the one before it to half-way to the next. */
+enum { BOX_FROM_X, BOX_TO_X, BOX_FROM_Y, BOX_TO_Y, BOX_VALUE, BOX_COLUMNS };
+static const char *const box_names[] = {"velocity_from", "velocity_to", "from", "to",
+                                        "value",         NULL};
+
+typedef struct map_side {
+    unsigned column;
+    bool is_log;
+    const char *label;
+} map_side;
+
+static double half_way(double a, double b, bool is_log)
+{
+    return is_log ? sqrt(a * b) : 0.5 * (a + b);
+}
+
+/* The end of a box towards a neighbour; beside the last one it is as wide as on its other side. */
+static double box_end(double here, double neighbour, double other, bool is_log)
+{
+    if (isfinite(neighbour))
+        return half_way(here, neighbour, is_log);
+    const double end = half_way(here, other, is_log);
+    return is_log ? here * here / end : 2 * here - end;
+}
+
+/* Value of the same column `step` rows away, if that is a row of the same map; the velocity is that
+ * of the same block. */
+static double value_near(const table_view *t, size_t row, long step, unsigned column, bool in_block)
+{
+    const long there = (long)row + step;
+    if (there < 0 || there >= (long)t->n_rows ||
+        strcmp(friction_map_text(t, row, FRICTION_MAP_AGAINST),
+               friction_map_text(t, (size_t)there, FRICTION_MAP_AGAINST)) != 0 ||
+        (in_block && wt_table_block(t->table, row) != wt_table_block(t->table, (size_t)there)))
+        return (double)NAN;
+    return view_number(t, t->schema, (size_t)there, column);
+}
+
+/* Rows of a block: the velocities. */
+static size_t rows_of_block(const table_view *t)
+{
+    size_t n = 1;
+    while (n < t->n_rows && wt_table_block(t->table, n) == wt_table_block(t->table, 0))
+        n++;
+    return n;
+}
+
+static void fill_box(const table_view *t, size_t row, const map_side *up, unsigned friction,
+                     double box[BOX_COLUMNS])
+{
+    const long velocities = (long)rows_of_block(t);
+    const double x = friction_map_get(t, row, FRICTION_MAP_VELOCITY);
+    const double left = value_near(t, row, -1, FRICTION_MAP_VELOCITY, true),
+                 right = value_near(t, row, 1, FRICTION_MAP_VELOCITY, true);
+    const double y = view_number(t, t->schema, row, up->column);
+    const double below = value_near(t, row, -velocities, up->column, false),
+                 above = value_near(t, row, velocities, up->column, false);
+    box[BOX_FROM_X] = box_end(x, left, right, true);
+    box[BOX_TO_X] = box_end(x, right, left, true);
+    box[BOX_FROM_Y] = box_end(y, below, above, up->is_log);
+    box[BOX_TO_Y] = box_end(y, above, below, up->is_log);
+    box[BOX_VALUE] = view_number(t, t->schema, row, friction);
+}
+
+/* No section where a side has one place only: that is no map. */
+static int box_section(figure_drawing *d, const char *against, const map_side *up,
+                       unsigned friction)
+{
+    const table_view *t = d->table;
+    const schema_field *field = t->schema->columns;
+    const char *const speed = schema_unit(&field[FRICTION_MAP_VELOCITY]),
+                      *const upward = schema_unit(&field[up->column]);
+    const char *const units[] = {speed, speed, upward, upward, "1"};
+    double *boxes = calloc(t->n_rows * BOX_COLUMNS, sizeof *boxes);
+    size_t n = 0;
+    if (boxes == NULL) {
+        d->status = wt_fail(d->err, WT_E_MEMORY, "out of memory");
+        return NO_SECTION;
+    }
+    for (size_t row = 0; row < t->n_rows; row++) {
+        double *box = boxes + n * BOX_COLUMNS;
+        if (strcmp(friction_map_text(t, row, FRICTION_MAP_AGAINST), against) != 0)
+            continue;
+        fill_box(t, row, up, friction, box);
+        n += isfinite(box[BOX_TO_X]) && isfinite(box[BOX_TO_Y]) && isfinite(box[BOX_VALUE]);
+    }
+    const int section = drawing_numbers(d, against, box_names, units, boxes, n);
+    free(boxes);
+    return section;
+}
+
+static void draw_map(figure_drawing *d, const char *against, const map_side *up)
+{
+    const unsigned friction = shown_friction(d->table);
+    const schema_field *field = d->table->schema->columns;
+    const int section = box_section(d, against, up, friction);
+    value_span x = SPAN_EMPTY, y = SPAN_EMPTY, colour = SPAN_EMPTY;
+    if (section < 0)
+        return;
+    for (size_t i = BOX_FROM_X; i <= BOX_TO_X; i++)
+        span_add_section(&x, d, section, i, true);
+    for (size_t i = BOX_FROM_Y; i <= BOX_TO_Y; i++)
+        span_add_section(&y, d, section, i, up->is_log);
+    span_add_section(&colour, d, section, BOX_VALUE, false);
+    axis_log(d, "x", "Sliding velocity", &field[FRICTION_MAP_VELOCITY], x);
+    (up->is_log ? axis_log : axis_linear)(d, "y", up->label, &field[up->column], y);
+    axis_linear(d, "cb", label_of(friction), &field[friction], colour);
+    d->width = with_scale;
+    text_add(&d->script, "set cblabel offset 1.5,0\nunset key\nset border 15\n");
+    const char *const offset = up->is_log ? "" : "+y_offset";
+    plot_item(d, section,
+              "(sqrt($1*$2)*x_unit):(($3+$4)/2*y_unit%s):($1*x_unit):($2*x_unit):($3*y_unit%s):"
+              "($4*y_unit%s):5 with boxxyerror fc palette fs solid noborder notitle",
+              offset, offset, offset);
+    plot_end(d);
+}
+
+static void draw_temperature_map(figure_drawing *d)
+{
+    static const map_side up = {FRICTION_MAP_TEMPERATURE, false, "Temperature"};
+    draw_map(d, "temperature", &up);
+}
+
+static void draw_pressure_map(figure_drawing *d)
+{
+    static const map_side up = {FRICTION_MAP_PRESSURE, true, "Nominal pressure"};
+    draw_map(d, "pressure", &up);
+}
+
+static void caption_pressure_map(figure_drawing *d)
+{
+    const double temperature = friction_map_value(d->table, FRICTION_MAP_KEY_TEMPERATURE).value;
+    if (isfinite(temperature))
+        text_say(&d->caption, " Temperature %s.",
+                 VALUE(d->language, WT_Q_TEMPERATURE, NULL, temperature));
+}
+
+/* ---- decades --------------------------------------------------------------------------------- */
+
+/* Three velocities at most, one block each. */
+enum { MOST_VELOCITIES = 3 };
+
+static size_t find_velocities(const table_view *table, double velocity[MOST_VELOCITIES])
+{
+    size_t n = 0;
+    for (size_t row = 0; row < table->n_rows; row++) {
+        const double v = friction_decades_get(table, row, FRICTION_DECADES_VELOCITY);
+        if ((n == 0 || v != velocity[n - 1]) && n < MOST_VELOCITIES)
+            velocity[n++] = v;
+    }
+    return n;
+}
+
+static void draw_decades(figure_drawing *d)
+{
+    static const unsigned columns[] = {FRICTION_DECADES_FROM, FRICTION_DECADES_TO,
+                                       FRICTION_DECADES_HYSTERESIS, FRICTION_DECADES_VELOCITY};
+    const schema_field *field = d->table->schema->columns;
+    double velocity[MOST_VELOCITIES];
+    value_span x = SPAN_EMPTY, y = SPAN_EMPTY;
+    const size_t n = find_velocities(d->table, velocity);
+    const int section = drawing_section(d, d->table, "decades", NULL, columns, COUNT_OF(columns),
+                                        COUNT_OF(columns));
+    if (section < 0)
+        return;
+    span_add_section(&x, d, section, 0, true);
+    span_add_section(&x, d, section, 1, true);
+    span_add(&y, 0, false);
+    span_add_section(&y, d, section, 2, false);
+    axis_log(d, "x", "Wavenumber q", &field[FRICTION_DECADES_FROM], x);
+    axis_linear(d, "y", "Hysteresis friction by the decade", &field[FRICTION_DECADES_HYSTERESIS],
+                y);
+    for (size_t k = 0; k < n; k++) {
+        char title[48];
+        wt_format_si(velocity[k], "m/s", 2, title, sizeof title);
+        language_decimals(d->language, title);
+        /* side by side within the decade, from the first velocity to the last */
+        plot_item(
+            d, section,
+            "(column(-1) == %zu ? sqrt($1*$2)*x_unit : NaN):($3/2):"
+            "($1*($2/$1)**%.3f*x_unit):($1*($2/$1)**%.3f*x_unit):(0):3 with boxxyerror ls %zu "
+            "fs solid 0.8 noborder",
+            k, ((double)k + 0.1) / (double)n, ((double)k + 0.9) / (double)n, 21 + k);
+        plot_title(d, title);
+    }
+    plot_end(d);
+}
+
+static void caption_decades(figure_drawing *d)
+{
+    text_say(&d->caption, " The most: %s.",
+             friction_decades_words(d->table, FRICTION_DECADES_KEY_STRONGEST));
+}
+
+/* ---- direction of sliding -------------------------------------------------------------------- */
+
+static void caption_anisotropy(figure_drawing *d)
+{
+    text_say(&d->caption,
+             " Power spectrum over its mean at an angle phi from the velocity: 1 + "
+             "%s. %s.",
+             anisotropy_words(d->table, ANISOTROPY_KEY_TEXTURE),
+             anisotropy_words(d->table, ANISOTROPY_KEY_EFFECT));
+}
+
+const figure_description figures_friction_maps[] = {
+    {.name = "friction_collapse",
+     .title = "Friction at several temperatures",
+     .table = &friction_map_schema,
+     .words = "Friction against sliding velocity at each temperature and, below, against the "
+              "velocity times the shift factor a_T of the material: where moduli follow "
+              "time-temperature superposition without a vertical shift, the hysteresis friction of "
+              "all temperatures is one curve.",
+     .draw = draw_collapse,
+     .caption = caption_collapse},
+    {.name = "friction_temperature_map",
+     .title = "Friction over velocity and temperature",
+     .table = &friction_map_schema,
+     .words = "Friction coefficient over sliding velocity and temperature of the rubber.",
+     .draw = draw_temperature_map,
+     .caption = caption_collapse},
+    {.name = "friction_pressure_map",
+     .title = "Friction over velocity and pressure",
+     .table = &friction_map_schema,
+     .words = "Friction coefficient over sliding velocity and nominal pressure.",
+     .draw = draw_pressure_map,
+     .caption = caption_pressure_map},
+    {.name = "friction_decades",
+     .title = "Which decades of the wavenumber make the friction",
+     .table = &friction_decades_schema,
+     .nothing = "no hysteresis friction of a decade is a number",
+     .words =
+         "What the roughness of each decade of the wavenumber makes of the hysteresis friction "
+         "coefficient, at the slowest, the reference and the fastest velocity. The first and "
+         "the last decade may be cut by the ends of the power spectrum.",
+     .draw = draw_decades,
+     .caption = caption_decades},
+    {.name = "anisotropy",
+     .title = "What the direction of sliding does",
+     .table = &anisotropy_schema,
+     .data_title = "hysteresis",
+     .x = {ANISOTROPY_VELOCITY, AXIS_LOG, "Sliding velocity"},
+     .y = {{ANISOTROPY_HYSTERESIS, AXIS_FROM_ZERO, "Hysteresis friction coefficient"}},
+     .curves = {CURVE(ANISOTROPY_HYSTERESIS, LINE, .style = 21, .title = "against the velocity"),
+                CURVE(ANISOTROPY_SIDE, LINE, .style = 22, .title = "to the side"),
+                CURVE(ANISOTROPY_HYSTERESIS_WITHOUT, LINE, .style = 24,
+                      .title = "the same roughness in all directions")},
+     .nothing = "no hysteresis friction is a number",
+     .words = "Hysteresis part of the friction coefficient against sliding velocity on roughness "
+              "with a preferred direction, the force to its side over the load, and the friction "
+              "on roughness that is the same in all directions.",
+     .caption = caption_anisotropy},
+    {.name = NULL},
+};

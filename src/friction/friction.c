@@ -1,0 +1,509 @@
+/* The friction job: hysteresis, contact area and total friction at every velocity, with and without
+ * the modified layer, with standard errors from replicates.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#include "core/base/shared_params.h"
+#include "dma/strain_softening.h"
+#include "friction/anisotropy.h"
+#include "friction/error_interpolation.h"
+#include "friction/flash.h"
+#include "friction/replicates.h"
+#include "friction/sliding_contact.h"
+#include "job/cost.h"
+#include "job/random_draws.h"
+
+#include "core/base/clocale.h"
+#include "core/base/quantity.h"
+#include "core/table/table_rows.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* What one replicate gives at the velocities. */
+enum { HYSTERESIS, AREA, TOTAL, LAYERED, CHANGE, RELATIVE, N_KINDS };
+
+typedef struct friction_task {
+    const wt_sliding *sliding;
+    const wt_layer_known *layer; /* NULL = none */
+    const wt_job *work;
+    size_t n;                  /* velocities, and the reference if it is not the only one */
+    double *velocity;          /* [n] the reference is the last */
+    double *centre;            /* [N_KINDS * n] */
+    double worst;              /* relative numerical error where the tolerance is not reached */
+    double strain;             /* the largest, of a softening */
+    double numerical[2];       /* of the total friction at the reference: without, with the layer */
+    wt_friction_point *points; /* [n] at the values themselves, without a layer */
+    wt_friction_sensitivity by; /* likewise; NaN: not asked for */
+    replicates replicates;
+    size_t drawn; /* velocities of all replicates */
+    double
+        layer_outside; /* of the hysteresis on a layer with moduli of its own, at the reference */
+    double layer_gain[2]; /* where their loss modulus is taken as 0 [rad/s]; NaN: nowhere */
+} friction_task;
+
+static double *numbers_of_kind(double *values, size_t n, int kind)
+{
+    return values + (size_t)kind * n;
+}
+
+static wt_layer_state layer_of(const friction_task *task, size_t replicate)
+{
+    return sliding_layer(task->layer, task->work->seed, replicate);
+}
+
+static wt_status compute_bulk(const friction_task *task, size_t replicate,
+                              wt_friction_point *points, double *out, sliding_contact *c,
+                              wt_error *err)
+{
+    const wt_layer_state none = {.modulus_ratio = 1};
+    wt_status status = sliding_contact_make(task->sliding, task->work, replicate,
+                                            task->replicates.drawn, none, c, err);
+    if (status == WT_OK)
+        status =
+            wt_friction_compute(c->workspace, c->pressure, task->velocity, task->n, points, err);
+    for (size_t i = 0; status == WT_OK && i < task->n; i++) {
+        numbers_of_kind(out, task->n, HYSTERESIS)[i] = points[i].hysteresis.value;
+        numbers_of_kind(out, task->n, AREA)[i] = points[i].area_ratio.value;
+        numbers_of_kind(out, task->n, TOTAL)[i] =
+            points[i].hysteresis.value +
+            sliding_layer_shear(task->layer, sliding_shear(task->sliding, c, &points[i]), none,
+                                points[i].area_ratio.value) *
+                points[i].area_ratio.value / c->pressure;
+        numbers_of_kind(out, task->n, LAYERED)[i] = (double)NAN;
+        numbers_of_kind(out, task->n, CHANGE)[i] = (double)NAN;
+        numbers_of_kind(out, task->n, RELATIVE)[i] = (double)NAN;
+    }
+    return status;
+}
+
+static wt_status compute_layered(const friction_task *task, size_t replicate,
+                                 wt_friction_point *points, double *out, wt_error *err)
+{
+    wt_layer_state layer = layer_of(task, replicate);
+    sliding_contact c = {0};
+    wt_status status = sliding_contact_make(task->sliding, task->work, replicate,
+                                            task->replicates.drawn, layer, &c, err);
+    if (status == WT_OK)
+        status = wt_friction_compute(c.workspace, c.pressure, task->velocity, task->n, points, err);
+    for (size_t i = 0; status == WT_OK && i < task->n; i++) {
+        const wt_layer_state sheared = sliding_layer_sheared(&c, layer, task->velocity[i]);
+        double with = points[i].hysteresis.value +
+                      sliding_layer_shear(task->layer, sliding_shear(task->sliding, &c, &points[i]),
+                                          sheared, points[i].area_ratio.value) *
+                          points[i].area_ratio.value / c.pressure;
+        double without = numbers_of_kind(out, task->n, TOTAL)[i];
+        numbers_of_kind(out, task->n, LAYERED)[i] = with;
+        numbers_of_kind(out, task->n, CHANGE)[i] = with - without;
+        numbers_of_kind(out, task->n, RELATIVE)[i] = with / without - 1;
+    }
+    sliding_contact_clear(&c);
+    return status;
+}
+
+static wt_status one_replicate(const void *user, size_t i, double *out, wt_error *err)
+{
+    const friction_task *task = user;
+    sliding_contact c = {0};
+    wt_friction_point *points = malloc(task->n * sizeof *points);
+    if (points == NULL)
+        return WT_E_MEMORY;
+    wt_status status = compute_bulk(task, i, points, out, &c, err);
+    if (status == WT_OK && task->layer != NULL)
+        status = compute_layered(task, i, points, out, err);
+    sliding_contact_clear(&c);
+    free(points);
+    return status;
+}
+
+/* Not known where the measured range is not. */
+static double extrapolated_share(const wt_rubber *rubber, const wt_friction_point *p)
+{
+    const wt_prony *prony = &rubber->prony;
+    return isnan(prony->frequency_min) || isnan(prony->frequency_max) ? (double)NAN
+                                                                      : p->extrapolated_share;
+}
+
+/* ---- tables ---------------------------------------------------------------------------------- */
+
+TABLE_ROW(friction, FRICTION, double velocity, adhesion, extrapolated_share;
+          wt_estimate total, hysteresis, area, with_layer;)
+
+TABLE_KEYS(friction, FRICTION, double gamma, reference_velocity;
+           wt_estimate pressure, temperature, shear_stress, total, hysteresis, area, strain;
+           wt_estimate layer_thickness, layer_modulus_ratio, with_layer, change;
+           wt_estimate layer_slope, layer_outside; char layer_moduli[512];
+           wt_estimate relative_change, relative_change_low, relative_change_high;
+           size_t replicates; const char *includes, *lacks, *statement;
+           wt_estimate by_modulus, by_density, by_pressure, by_cutoff, shear_at_reference;
+           char material[512], softening[512], anisotropy[192], numerical[512], flash[256];
+           char area_law[128], shear_law[256], layer_shear[256];)
+
+/* Of the values themselves, with what the replicates scatter. */
+static wt_estimate with_error(friction_task *task, int kind, size_t i, double numerical_error)
+{
+    return (wt_estimate){numbers_of_kind(task->centre, task->n, kind)[i],
+                         numbers_of_kind(task->replicates.error, task->n, kind)[i], numerical_error,
+                         NULL};
+}
+
+static void add_rows(friction_task *task, const sliding_contact *c, table_writer *t)
+{
+    const wt_sliding *s = task->sliding;
+    for (size_t i = 0; i < s->n_velocity; i++) {
+        const wt_friction_point *p = &task->points[i];
+        const wt_layer_state none = {.modulus_ratio = 1};
+        const wt_estimate shear = {
+            sliding_layer_shear(task->layer, sliding_shear(s, c, p), none, p->area_ratio.value), 0,
+            0, "Pa"};
+        friction_row row = {
+            .velocity = p->velocity,
+            .extrapolated_share = extrapolated_share(s->rubber, p),
+            .hysteresis = {p->hysteresis.value, 0, p->hysteresis.numerical_error, "1"},
+            .area = {p->area_ratio.value, 0, p->area_ratio.numerical_error, "1"},
+            .with_layer = with_error(task, LAYERED, i, 0)};
+        row.total = wt_friction_total(row.hysteresis, row.area, shear, s->pressure.value);
+        row.adhesion = row.total.value - row.hysteresis.value;
+        row.total.standard_error = with_error(task, TOTAL, i, 0).standard_error;
+        row.hysteresis.standard_error = with_error(task, HYSTERESIS, i, 0).standard_error;
+        row.area.standard_error = with_error(task, AREA, i, 0).standard_error;
+        friction_add_row(t, &row);
+    }
+}
+
+static const wt_estimate not_known = {(double)NAN, (double)NAN, (double)NAN, NULL};
+
+static void find_layer_keys(friction_task *task, friction_keys *keys)
+{
+    const size_t last = task->n - 1;
+    const double *relative = numbers_of_kind(task->centre, task->n, RELATIVE);
+    const double both = task->numerical[0] + task->numerical[1];
+    keys->relative_change_low = keys->relative_change_high = not_known;
+    keys->relative_change_low.value = keys->relative_change_high.value = relative[0];
+    for (size_t i = 1; i < last; i++) {
+        keys->relative_change_low.value = fmin(keys->relative_change_low.value, relative[i]);
+        keys->relative_change_high.value = fmax(keys->relative_change_high.value, relative[i]);
+    }
+    keys->layer_thickness = flow_as_stated(task->layer->thickness);
+    sliding_layer_describe(task->sliding, task->layer, task->layer_gain, task->work->log,
+                           keys->layer_moduli, sizeof keys->layer_moduli);
+    if (task->sliding->layer_rubber == NULL)
+        keys->layer_modulus_ratio = flow_as_stated(task->layer->modulus_ratio);
+    if (keys->layer_moduli[0] != '\0') {
+        keys->layer_outside.value = task->layer_outside;
+        if (keys->layer_modulus_ratio.value > 0)
+            keys->layer_slope = flow_as_stated(task->layer->ratio_slope);
+    }
+    keys->with_layer = with_error(task, LAYERED, last, task->numerical[1]);
+    keys->change = with_error(task, CHANGE, last, both);
+    keys->relative_change = with_error(task, RELATIVE, last,
+                                       both / numbers_of_kind(task->centre, task->n, TOTAL)[last]);
+}
+
+/* What is not of the plain theory, in words. */
+static void describe_options(const friction_task *task, const sliding_contact *c,
+                             friction_keys *keys)
+{
+    static const char *const areas[] = {"", "Yang and Persson 2008 (yp08): S = 0.42 + 0.58 P^2",
+                                        "Wang and Mueser 2017 (wm17): S = 5/9 - 2/9 P^2 + 2/3 P^4",
+                                        "Xu 2024 (xu24): P = erf(1/(2 sqrt((0.42 + 0.58 P) G)))"};
+    const wt_sliding *s = task->sliding;
+    const wt_shear_law *law = &s->shear_law;
+    snprintf(keys->area_law, sizeof keys->area_law, "%s", areas[s->area_law]);
+    flash_describe(s, task->points, task->n, keys->flash);
+    if (!isnan(s->shear_stress.value) && task->layer != NULL && task->layer->shear != NULL) {
+        const wt_layer_shear shear = sliding_layer_shear_of(task->layer);
+        if (!sliding_layer_shear_is_plain(&shear))
+            sliding_layer_shear_describe(&shear, keys->layer_shear, sizeof keys->layer_shear);
+    }
+    if (isnan(s->shear_stress.value) || law->kind == WT_SHEAR_CONSTANT)
+        return;
+    clocale_print(keys->shear_law, sizeof keys->shear_law,
+                  "log-normal about %.4g m/s at %.1f degC, %.3g per decade squared, activation "
+                  "energy %.3g eV",
+                  law->peak_velocity, law->reference_temperature - WT_ZERO_CELSIUS, law->width,
+                  law->activation_energy / ELECTRONVOLT);
+    keys->shear_at_reference.value = sliding_shear(s, c, &task->points[task->n - 1]);
+}
+
+/* The reference velocity is the last one. */
+static void set_keys(friction_task *task, const sliding_contact *c, table_writer *t)
+{
+    const wt_sliding *s = task->sliding;
+    const size_t last = task->n - 1;
+    const wt_friction_point *reference = &task->points[last];
+    friction_keys keys = {
+        .gamma = s->gamma,
+        .reference_velocity = task->velocity[last],
+        .pressure = flow_as_stated(s->pressure),
+        .temperature = s->temperature,
+        .shear_stress = flow_as_stated(s->shear_stress),
+        .total = with_error(task, TOTAL, last, task->numerical[0]),
+        .hysteresis = with_error(task, HYSTERESIS, last, reference->hysteresis.numerical_error),
+        .area = with_error(task, AREA, last, reference->area_ratio.numerical_error),
+        .strain = not_known,
+        .shear_at_reference = not_known,
+        .by_modulus = flow_as_stated((wt_estimate){.value = task->by.modulus}),
+        .by_density = flow_as_stated((wt_estimate){.value = task->by.density}),
+        .by_pressure = flow_as_stated((wt_estimate){.value = task->by.pressure}),
+        .by_cutoff = flow_as_stated((wt_estimate){.value = task->by.cutoff}),
+        .layer_thickness = not_known,
+        .layer_modulus_ratio = not_known,
+        .layer_slope = not_known,
+        .layer_outside = not_known,
+        .with_layer = not_known,
+        .change = not_known,
+        .relative_change = not_known,
+        .relative_change_low = not_known,
+        .relative_change_high = not_known,
+        .replicates = task->replicates.n,
+        .includes = replicates_include(&task->replicates),
+        .lacks = task->replicates.lacks,
+        .statement = c->statement};
+    describe_options(task, c, &keys);
+    if (isnan(keys.temperature.value))
+        keys.temperature.value = s->rubber->prony.reference_temperature;
+    keys.temperature = flow_as_stated(keys.temperature);
+    if (wt_rubber_describe(s->rubber, keys.material, sizeof keys.material) == 0)
+        keys.material[0] = '\0';
+    if (s->softness != NULL) {
+        softness_describe(s->softness, keys.softening, sizeof keys.softening);
+        keys.strain.value = task->strain;
+    }
+    anisotropy_describe(&s->anisotropy, keys.anisotropy, sizeof keys.anisotropy);
+    if (task->worst > 0)
+        clocale_print(keys.numerical, sizeof keys.numerical, TOLERANCE_STATEMENT,
+                      task->work->tolerance, task->worst);
+    if (task->layer != NULL)
+        find_layer_keys(task, &keys);
+    friction_set_keys(t, &keys);
+    if (isnan(s->shear_stress.value))
+        friction_set_text(t, FRICTION_KEY_SHEAR_STRESS,
+                          "not given: only the hysteresis part is known");
+}
+
+static wt_status friction_table(friction_task *task, const sliding_contact *c, wt_table **out,
+                                wt_error *err)
+{
+    table_writer t = table_begin(&friction_schema, err);
+    add_rows(task, c, &t);
+    set_keys(task, c, &t);
+    return table_end(&t, out);
+}
+
+/* ---- the job --------------------------------------------------------------------------------- */
+
+static bool is_reference_alone(const wt_sliding *sliding)
+{
+    return sliding->n_velocity == 1 && sliding->velocity[0] == flow_reference_velocity(sliding);
+}
+
+static wt_status allocate_numbers(friction_task *task, wt_error *err)
+{
+    task->velocity = malloc(task->n * sizeof *task->velocity);
+    task->centre = malloc(N_KINDS * task->n * sizeof *task->centre);
+    task->points = malloc(task->n * sizeof *task->points);
+    if (task->velocity == NULL || task->centre == NULL || task->points == NULL)
+        return wt_fail(err, WT_E_MEMORY, "out of memory");
+    memcpy(task->velocity, task->sliding->velocity,
+           task->sliding->n_velocity * sizeof *task->velocity);
+    task->velocity[task->n - 1] = flow_reference_velocity(task->sliding);
+    return WT_OK;
+}
+
+static void release_numbers(friction_task *task)
+{
+    free(task->velocity);
+    free(task->centre);
+    free(task->points);
+    replicates_clear(&task->replicates);
+}
+
+static wt_status check_layer(const wt_layer_known *layer, wt_error *err)
+{
+    if (layer != NULL && isinf(layer->thickness.value)) {
+        wt_fail(err, WT_E_RANGE, "friction needs a layer of finite thickness");
+        wt_error_found(err, "%g m", layer->thickness.value);
+        wt_error_advice(err, "without wear, or where it ages, the layer grows without end: give a "
+                             "specific wear rate or an observed thickness, or leave out ageing");
+        return WT_E_RANGE;
+    }
+    return sliding_layer_check(layer, err);
+}
+
+/* Numerical error of hysteresis + shear x area. */
+static double total_error(const wt_friction_point *point, double shear)
+{
+    return point->hysteresis.numerical_error + shear * point->area_ratio.numerical_error;
+}
+
+static double relative_error(wt_estimate e)
+{
+    return e.numerical_error > 0 ? e.numerical_error / fabs(e.value) : 0;
+}
+
+static void summarise_friction(const friction_task *task, wt_friction_tables *t)
+{
+    const bool total = !isnan(task->sliding->shear_stress.value);
+    const int kind = total ? TOTAL : HYSTERESIS;
+    const size_t contacts = task->layer != NULL ? 2 : 1;
+    cost_summary cost = {
+        .items = (double)((task->n + task->drawn) * contacts),
+        .tolerance_asked = task->work->tolerance,
+        .number = {.value = numbers_of_kind(task->centre, task->n, kind)[task->n - 1],
+                   .standard_error =
+                       numbers_of_kind(task->replicates.error, task->n, kind)[task->n - 1]}};
+    for (size_t i = 0; i < task->n; i++) {
+        const wt_friction_point *p = &task->points[i];
+        cost.error_estimated = fmax(cost.error_estimated, relative_error(p->hysteresis));
+        if (p->extrapolated_share > t->extrapolated_share)
+            t->extrapolated_share = p->extrapolated_share;
+    }
+    cost_say(task->work, cost);
+}
+
+static void note_not_reached(friction_task *task, const wt_friction_point *points)
+{
+    for (size_t i = 0; i < task->n; i++) {
+        const wt_friction_point *p = &points[i];
+        if (!p->reached && !p->unsettled)
+            task->worst =
+                fmax(task->worst,
+                     fmax(relative_error(p->hysteresis),
+                          fmax(relative_error(p->area_ratio), relative_error(p->stress_variance))));
+    }
+}
+
+/* The values themselves; `c` is their contact without a layer. */
+static wt_status compute_centre(friction_task *task, sliding_contact *c, wt_error *err)
+{
+    const size_t last = task->n - 1;
+    wt_status status = compute_bulk(task, WT_NO_REPLICATE, task->points, task->centre, c, err);
+    if (status == WT_OK && task->sliding->sensitivities)
+        status = wt_friction_sensitivities(c->workspace, c->pressure, task->velocity[last],
+                                           &task->by, err);
+    if (status != WT_OK)
+        return status;
+    const double pressure = task->sliding->pressure.value,
+                 shear = sliding_shear(task->sliding, c, &task->points[last]);
+    task->strain = wt_friction_strain(c->workspace, c->roughness->q1);
+    task->numerical[0] = total_error(&task->points[last], shear / pressure);
+    note_not_reached(task, task->points);
+    if (task->layer == NULL)
+        return WT_OK;
+    wt_friction_point *layered = malloc(task->n * sizeof *layered);
+    if (layered == NULL)
+        return wt_fail(err, WT_E_MEMORY, "out of memory");
+    status = compute_layered(task, WT_NO_REPLICATE, layered, task->centre, err);
+    if (status == WT_OK)
+        status = sliding_layer_gain(task->sliding, task->layer, task->work, task->layer_gain, err);
+    if (status == WT_OK) {
+        const wt_rubber *const own = task->sliding->layer_rubber;
+        task->layer_outside = own != NULL ? extrapolated_share(own, &layered[last])
+                                          : layered[last].extrapolated_share;
+        task->numerical[1] = total_error(
+            &layered[last], sliding_layer_shear(task->layer, shear, layer_of(task, WT_NO_REPLICATE),
+                                                layered[last].area_ratio.value) /
+                                pressure);
+        note_not_reached(task, layered);
+    }
+    free(layered);
+    return status;
+}
+
+/* The replicates, whose errors then stand for all velocities. */
+static wt_status draw_at_nodes(friction_task *task, wt_error *err)
+{
+    replicates *r = &task->replicates;
+    const friction_task all = *task;
+    double *nodes = NULL, *error = NULL;
+    wt_status status = error_nodes_make(all.velocity, all.n, &nodes, &task->n, err);
+    if (status == WT_OK && nodes != NULL) {
+        task->velocity = nodes;
+        error = malloc(N_KINDS * all.n * sizeof *error);
+        if (error == NULL)
+            status = wt_fail(err, WT_E_MEMORY, "out of memory");
+    }
+    if (status == WT_OK)
+        status = replicates_draw(r, N_KINDS * task->n, one_replicate, task, err);
+    for (int kind = 0; status == WT_OK && nodes != NULL && kind < N_KINDS; kind++)
+        error_nodes_spread(nodes, task->n, numbers_of_kind(r->error, task->n, kind), all.velocity,
+                           all.n, numbers_of_kind(error, all.n, kind));
+    if (status == WT_OK && nodes != NULL) {
+        free(r->error);
+        r->error = error;
+        error = NULL;
+    }
+    task->drawn = r->n * task->n;
+    task->n = all.n;
+    task->velocity = all.velocity;
+    free(error);
+    free(nodes);
+    return status;
+}
+
+/* What varies with the layer alone leaves no error of what is without it. */
+static wt_status draw_replicates(friction_task *task, wt_error *err)
+{
+    replicates *r = &task->replicates;
+    const wt_layer_known *layer = task->layer;
+    if (!isnan(task->sliding->shear_stress.value))
+        replicates_add(r, task->sliding->shear_stress.standard_error, FLOW_DRAW_SHEAR_STRESS,
+                       "shear stress");
+    const bool bulk_varies = r->varies;
+    if (layer != NULL) {
+        replicates_add(r, layer->thickness.standard_error, FLOW_DRAW_THICKNESS,
+                       "thickness of the layer");
+        replicates_add_layer(r, task->sliding, layer, "modulus ratio of the layer");
+    }
+    wt_status status = draw_at_nodes(task, err);
+    for (size_t i = 0; status == WT_OK && !bulk_varies && i < task->n; i++)
+        numbers_of_kind(r->error, task->n, HYSTERESIS)[i] =
+            numbers_of_kind(r->error, task->n, AREA)[i] =
+                numbers_of_kind(r->error, task->n, TOTAL)[i] = (double)NAN;
+    return status;
+}
+
+wt_status wt_friction_make(const wt_sliding *sliding, const wt_layer_known *layer,
+                           const wt_job *work, wt_friction_tables *tables, wt_error *err)
+{
+    if (work == NULL || tables == NULL)
+        return wt_fail(err, WT_E_ARG, "no friction job");
+    wt_status status = flow_sliding_check(sliding, work, err);
+    if (status == WT_OK)
+        status = check_layer(layer, err);
+    if (status != WT_OK)
+        return status;
+    friction_task task = {.sliding = sliding,
+                          .layer = layer,
+                          .work = work,
+                          .n = sliding->n_velocity + !is_reference_alone(sliding),
+                          .by = {(double)NAN, (double)NAN, (double)NAN, (double)NAN},
+                          .layer_gain = {(double)NAN, (double)NAN},
+                          .replicates = replicates_of(sliding, work, "friction")};
+    wt_friction_tables t = {0};
+    sliding_contact c = {0};
+    status = allocate_numbers(&task, err);
+    if (status == WT_OK)
+        status = compute_centre(&task, &c, err);
+    if (status == WT_OK)
+        status = draw_replicates(&task, err);
+    if (status == WT_OK)
+        status = friction_table(&task, &c, &t.friction, err);
+    if (status == WT_OK) {
+        summarise_friction(&task, &t);
+        *tables = t;
+        t = (wt_friction_tables){0};
+    }
+    sliding_contact_clear(&c);
+    wt_friction_tables_clear(&t);
+    release_numbers(&task);
+    return status;
+}
+
+void wt_friction_tables_clear(wt_friction_tables *tables)
+{
+    if (tables == NULL)
+        return;
+    wt_table_free(tables->friction);
+    *tables = (wt_friction_tables){0};
+}

@@ -1,0 +1,148 @@
+/* What the roughness of each decade of the wavenumber makes of the hysteresis friction.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#include "friction/sliding_contact.h"
+#include "job/cost.h"
+
+#include "core/base/clocale.h"
+#include "core/base/range_text.h"
+#include "core/table/table_rows.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+TABLE_ROW(friction_decades, FRICTION_DECADES, double velocity, from, to, share;
+          wt_estimate hysteresis, area_ratio; double shearing, cracks, total;)
+
+TABLE_KEYS(friction_decades, FRICTION_DECADES, char strongest[160];)
+
+/* The edges of the decades: q0, the powers of ten between, q1. */
+typedef struct decades {
+    const wt_sliding *sliding;
+    const wt_layer_known *known; /* with the cracks; NULL: none */
+    size_t n;
+    double *q;               /* [n] */
+    wt_friction_node *nodes; /* [n] */
+    char strongest[160];
+} decades;
+
+static wt_status find_edges(const wt_roughness *road, decades *d, wt_error *err)
+{
+    /* an edge at an end, but for rounding, is that end */
+    const double slack = 1e-9;
+    const int first = (int)floor(log10(road->q0) + slack) + 1,
+              last = (int)ceil(log10(road->q1) - slack) - 1;
+    const size_t inner = last >= first ? (size_t)(last - first + 1) : 0;
+    d->q = malloc((inner + 2) * sizeof *d->q);
+    d->nodes = malloc((inner + 2) * sizeof *d->nodes);
+    if (d->q == NULL || d->nodes == NULL)
+        return wt_fail(err, WT_E_MEMORY, "out of memory");
+    d->q[d->n++] = road->q0;
+    for (int k = first; k <= last; k++)
+        d->q[d->n++] = pow(10, k);
+    d->q[d->n++] = road->q1;
+    return WT_OK;
+}
+
+static void say_strongest(decades *d, double velocity, size_t i, double share)
+{
+    char speed[32];
+    wt_format_si(velocity, "m/s", 3, speed, sizeof speed);
+    clocale_print(d->strongest, sizeof d->strongest,
+                  "%s rad/m, wavelengths of %s um, at %s: %.0f %% of the "
+                  "hysteresis friction",
+                  ends_of(d->q[i - 1], d->q[i], 3).text,
+                  ends_of(2e6 * M_PI / d->q[i], 2e6 * M_PI / d->q[i - 1], 3).text, speed,
+                  100 * share);
+}
+
+/* What shearing costs if the roughness ends at a node, and what of it the cracks: on bare rubber.
+ */
+static void add_shearing(const sliding_contact *c, const decades *d, double velocity,
+                         const wt_friction_node *node, friction_decades_row *row)
+{
+    const wt_layer_state none = {.modulus_ratio = 1};
+    const wt_friction_point point = {.velocity = velocity,
+                                     .temperature = {.value = node->temperature}};
+    const double bulk = sliding_shear(d->sliding, c, &point), area = node->area_ratio;
+    const double all = sliding_layer_shear(d->known, bulk, none, area);
+    row->shearing = all * area / c->pressure;
+    row->cracks = (all - bulk) * area / c->pressure;
+    row->total = node->hysteresis + row->shearing;
+}
+
+static void add_decades(const sliding_contact *c, decades *d, double velocity, bool is_reference,
+                        table_writer *t, cost_summary *cost)
+{
+    double most = -1;
+    if (t->status == WT_OK)
+        t->status =
+            wt_friction_profile(c->workspace, c->pressure, velocity, d->q, d->n, d->nodes, t->err);
+    table_block(t);
+    for (size_t i = 1; t->status == WT_OK && i < d->n; i++) {
+        const wt_friction_node *a = &d->nodes[i - 1], *b = &d->nodes[i];
+        const double all = d->nodes[d->n - 1].hysteresis;
+        const double part = b->hysteresis - a->hysteresis;
+        const double share = all > 0 ? part / all : (double)NAN; /* of nothing there is none */
+        friction_decades_row row = {
+            .velocity = velocity,
+            .from = d->q[i - 1],
+            .to = d->q[i],
+            .share = share,
+            .hysteresis = {part, (double)NAN, a->hysteresis_error + b->hysteresis_error, "1"},
+            .area_ratio = {b->area_ratio, (double)NAN, b->numerical_error, "1"}};
+        add_shearing(c, d, velocity, b, &row);
+        friction_decades_add_row(t, &row);
+        cost->items++;
+        if (all > 0)
+            cost->error_estimated = fmax(cost->error_estimated, b->hysteresis_error / all);
+        if (is_reference && share > most) {
+            most = share;
+            say_strongest(d, velocity, i, share);
+        }
+    }
+}
+
+static void add_velocities(const wt_sliding *sliding, const sliding_contact *c, decades *d,
+                           table_writer *t, cost_summary *cost)
+{
+    const double first = sliding->velocity[0], last = sliding->velocity[sliding->n_velocity - 1],
+                 reference = flow_reference_velocity(sliding);
+    if (first < reference)
+        add_decades(c, d, first, false, t, cost);
+    add_decades(c, d, reference, true, t, cost);
+    if (last > reference)
+        add_decades(c, d, last, false, t, cost);
+}
+
+wt_status wt_friction_decades_make(const wt_sliding *sliding, const wt_layer_known *known,
+                                   const wt_job *work, wt_table **table, wt_error *err)
+{
+    if (work == NULL || table == NULL)
+        return wt_fail(err, WT_E_ARG, "no decades to make");
+    const wt_layer_state none = {.modulus_ratio = 1};
+    sliding_contact c = {0};
+    decades d = {.sliding = sliding, .known = known};
+    wt_status status = flow_sliding_check(sliding, work, err);
+    if (status != WT_OK)
+        return status;
+    wt_job own = *work;
+    own.left_out = WT_EXTRAS;
+    status = sliding_contact_make(sliding, &own, WT_NO_REPLICATE, NULL, none, &c, err);
+    if (status == WT_OK)
+        status = find_edges(c.roughness, &d, err);
+    if (status == WT_OK) {
+        table_writer t = table_begin(&friction_decades_schema, err);
+        cost_summary cost = {.tolerance_asked = work->tolerance};
+        add_velocities(sliding, &c, &d, &t, &cost);
+        friction_decades_keys keys;
+        snprintf(keys.strongest, sizeof keys.strongest, "%s",
+                 d.strongest[0] != '\0' ? d.strongest : "none: there is no hysteresis friction");
+        friction_decades_set_keys(&t, &keys);
+        cost_say(work, cost);
+        status = table_end(&t, table);
+    }
+    sliding_contact_clear(&c);
+    free(d.q);
+    free(d.nodes);
+    return status;
+}

@@ -1,0 +1,79 @@
+/* Two contacts of one list of velocities. SPDX-License-Identifier: GPL-3.0-or-later */
+#include "friction/friction_difference.h"
+
+#include "job/cost.h"
+
+#include "core/base/clocale.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+static wt_status compute(const contrast *c, const wt_sliding *sliding, const wt_job *work,
+                         wt_friction_point *points, sliding_contact *contact, wt_error *err)
+{
+    const wt_layer_state none = {.modulus_ratio = 1};
+    wt_job own = *work;
+    own.left_out = WT_EXTRAS;
+    wt_status status =
+        sliding_contact_make(sliding, &own, WT_NO_REPLICATE, NULL, none, contact, err);
+    if (status == WT_OK)
+        status = wt_friction_compute(contact->workspace, contact->pressure, c->velocity, c->n,
+                                     points, err);
+    return status;
+}
+
+static void say_cost(const contrast *c, const wt_job *work)
+{
+    cost_summary cost = {.tolerance_asked = work->tolerance, .items = 2 * (double)c->n};
+    for (size_t i = 0; i < c->n; i++) {
+        const wt_estimate *h = &c->with[i].hysteresis;
+        if (h->value > 0)
+            cost.error_estimated = fmax(cost.error_estimated, h->numerical_error / h->value);
+    }
+    cost_say(work, cost);
+}
+
+wt_status contrast_make(const wt_sliding *with, const wt_sliding *without, const wt_job *work,
+                        contrast_more *more, void *user, contrast *c, wt_error *err)
+{
+    sliding_contact contact = {0}, other = {0};
+    *c = (contrast){.sliding = with, .n = with->n_velocity + 1};
+    c->velocity = malloc(c->n * sizeof *c->velocity);
+    c->with = calloc(c->n, sizeof *c->with);
+    c->without = calloc(c->n, sizeof *c->without);
+    if (c->velocity == NULL || c->with == NULL || c->without == NULL)
+        return wt_fail(err, WT_E_MEMORY, "out of memory");
+    for (size_t i = 0; i < with->n_velocity; i++)
+        c->velocity[i] = with->velocity[i];
+    c->velocity[c->n - 1] = flow_reference_velocity(with);
+    wt_status status = compute(c, with, work, c->with, &contact, err);
+    c->temperature = contact.temperature;
+    if (status == WT_OK && more != NULL)
+        status = more(user, c, &contact, err);
+    sliding_contact_clear(&contact);
+    if (status == WT_OK)
+        status = compute(c, without, work, c->without, &other, err);
+    sliding_contact_clear(&other);
+    if (status == WT_OK)
+        say_cost(c, work);
+    return status;
+}
+
+void contrast_clear(contrast *c)
+{
+    free(c->velocity);
+    free(c->with);
+    free(c->without);
+    *c = (contrast){.n = 0};
+}
+
+void contrast_words(const wt_friction_point *with, const wt_friction_point *without,
+                    const char *against, char *text, size_t size)
+{
+    char velocity[32];
+    wt_format_si(with->velocity, "m/s", 3, velocity, sizeof velocity);
+    clocale_print(text, size,
+                  "at %s hysteresis friction %+.1f %%, contact area %+.1f %% against %s", velocity,
+                  100 * (with->hysteresis.value / without->hysteresis.value - 1),
+                  100 * (with->area_ratio.value / without->area_ratio.value - 1), against);
+}

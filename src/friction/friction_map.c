@@ -1,0 +1,242 @@
+/* Friction against velocity and temperature, and against velocity and pressure. The moduli at a
+ * temperature are E(w) = E_reference(w a_T) / b_T, and friction knows moduli over pressure at q v
+ * alone: so mu(v, T, p) is that of the reference temperature at v a_T and p b_T, and one
+ * preparation of the kernel serves all. Not so with a flash temperature, which is counted from that
+ * of the surroundings. SPDX-License-Identifier: GPL-3.0-or-later */
+#include "dma/rubber.h"
+#include "friction/sliding_contact.h"
+#include "job/cost.h"
+#include "job/random_draws.h"
+
+#include "core/base/clocale.h"
+#include "core/table/table_rows.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+TABLE_ROW(friction_map, FRICTION_MAP, const char *against;
+          double temperature, pressure, velocity, reduced_velocity, shift_factor;
+          double extrapolated_share; wt_estimate total, hysteresis, area_ratio;)
+
+TABLE_KEYS(friction_map, FRICTION_MAP, wt_estimate pressure, temperature, reference_temperature,
+           shear_stress;
+           char material[512], statement[920], numerical[160];)
+
+/* One temperature and pressure. */
+typedef struct map_line {
+    const char *against;
+    double temperature, pressure;
+    rubber_shift shift;
+} map_line;
+
+typedef struct friction_map {
+    const wt_sliding *sliding;
+    const wt_layer_known *known; /* NULL: none */
+    const wt_job *work;
+    size_t n_lines;
+    map_line *lines;           /* [n_lines] */
+    double *velocity;          /* [n_velocity] of a line, reduced */
+    wt_friction_point *points; /* [n_velocity] */
+    double lowest, highest;    /* reduced velocities of all */
+    double worst;              /* relative numerical error where the tolerance is not reached */
+    size_t n_unsettled;        /* points without a flash temperature, which are NaN */
+    size_t n_extrapolated;     /* temperatures beyond what was measured, */
+    char statement[320];       /* and what is to be said of them */
+} friction_map;
+
+static wt_status add_line(friction_map *m, const char *against, double temperature, double pressure,
+                          wt_error *err)
+{
+    map_line *line = &m->lines[m->n_lines++];
+    *line = (map_line){.against = against, .temperature = temperature, .pressure = pressure};
+    const double *v = m->sliding->velocity;
+    const wt_status status = flow_rubber_shift(m->sliding->rubber, temperature, &line->shift, err);
+    if (status != WT_OK)
+        return status;
+    m->lowest = fmin(m->lowest, v[0] * line->shift.a);
+    m->highest = fmax(m->highest, v[m->sliding->n_velocity - 1] * line->shift.a);
+    if (line->shift.statement[0] != '\0') {
+        m->n_extrapolated++;
+        snprintf(m->statement, sizeof m->statement, "%s", line->shift.statement);
+    }
+    return WT_OK;
+}
+
+static wt_status find_lines(friction_map *m, wt_error *err)
+{
+    const wt_sliding *s = m->sliding;
+    wt_status status = WT_OK;
+    for (size_t i = 0; status == WT_OK && i < s->n_temperatures; i++)
+        status = add_line(m, "temperature", s->temperatures[i], s->pressure.value, err);
+    for (size_t i = 0; status == WT_OK && i < s->n_pressures; i++)
+        status = add_line(m, "pressure", s->temperature.value, s->pressures[i], err);
+    if (m->n_extrapolated > 1)
+        clocale_print(m->statement, sizeof m->statement,
+                      "at %zu of %zu temperatures and pressures the shift law is extrapolated "
+                      "beyond the isotherms",
+                      m->n_extrapolated, m->n_lines);
+    return status;
+}
+
+/* Of the surroundings of a line. */
+static wt_status open_line(const friction_map *m, const map_line *line, sliding_contact *c,
+                           wt_error *err)
+{
+    const wt_layer_state none = {.modulus_ratio = 1};
+    wt_sliding sliding = *m->sliding;
+    wt_job work = *m->work;
+    sliding.temperature.value = line->temperature;
+    work.drawn = NULL; /* of another temperature */
+    return sliding_contact_make(&sliding, &work, WT_NO_REPLICATE, NULL, none, c, err);
+}
+
+/* At the reference temperature, at all reduced velocities. */
+static wt_status open_contact(const friction_map *m, double range[2], sliding_contact *c,
+                              wt_error *err)
+{
+    const wt_layer_state none = {.modulus_ratio = 1};
+    wt_sliding sliding = *m->sliding;
+    wt_job work = *m->work;
+    range[0] = m->lowest;
+    range[1] = m->highest;
+    sliding.temperature = (wt_estimate){(double)NAN, 0, 0, "K"};
+    sliding.velocity = range;
+    sliding.n_velocity = m->highest > m->lowest ? 2 : 1;
+    sliding.reference_velocity = m->lowest;
+    work.drawn = NULL; /* of another temperature */
+    return sliding_contact_make(&sliding, &work, WT_NO_REPLICATE, NULL, none, c, err);
+}
+
+static void add_rows(friction_map *m, const map_line *line, table_writer *t, cost_summary *cost)
+{
+    const wt_sliding *s = m->sliding;
+    const double reference = s->rubber->prony.reference_temperature;
+    for (size_t i = 0; i < s->n_velocity; i++) {
+        const wt_friction_point *p = &m->points[i];
+        const double temperature = isnan(line->temperature) ? reference : line->temperature;
+        const double warm = isnan(p->temperature.value) ? temperature : p->temperature.value;
+        const double factor = wt_shear_factor(&s->shear_law, s->velocity[i], warm);
+        const double bare =
+            sliding_layer_shear(m->known, s->shear_stress.value * factor,
+                                (wt_layer_state){.modulus_ratio = 1}, p->area_ratio.value);
+        const wt_estimate shear = {bare, 0, 0, "Pa"};
+        friction_map_row row = {
+            .against = line->against,
+            .temperature = temperature,
+            .pressure = line->pressure,
+            .velocity = s->velocity[i],
+            .reduced_velocity = m->velocity[i],
+            .shift_factor = line->shift.a,
+            .extrapolated_share = p->extrapolated_share,
+            .total = wt_friction_total(p->hysteresis, p->area_ratio, shear, line->pressure),
+            .hysteresis = p->hysteresis,
+            .area_ratio = p->area_ratio};
+        friction_map_add_row(t, &row);
+        const double relative =
+            p->hysteresis.value > 0 ? p->hysteresis.numerical_error / p->hysteresis.value : 0;
+        cost->items++;
+        m->n_unsettled += p->unsettled ? 1 : 0;
+        cost->error_estimated = fmax(cost->error_estimated, relative);
+        if (!p->reached)
+            m->worst = fmax(m->worst, relative);
+    }
+}
+
+static wt_status compute_warmed(const friction_map *m, const map_line *line, wt_error *err)
+{
+    sliding_contact c = {0};
+    wt_status status = open_line(m, line, &c, err);
+    if (status == WT_OK)
+        status = wt_friction_compute(c.workspace, line->pressure, m->sliding->velocity,
+                                     m->sliding->n_velocity, m->points, err);
+    sliding_contact_clear(&c);
+    return status;
+}
+
+static void add_lines(friction_map *m, const sliding_contact *c, table_writer *t,
+                      cost_summary *cost)
+{
+    const wt_sliding *s = m->sliding;
+    for (size_t k = 0; t->status == WT_OK && k < m->n_lines; k++) {
+        const map_line *line = &m->lines[k];
+        for (size_t i = 0; i < s->n_velocity; i++)
+            m->velocity[i] = s->velocity[i] * line->shift.a;
+        t->status = s->flash.on
+                        ? compute_warmed(m, line, t->err)
+                        : wt_friction_compute(c->workspace, line->pressure * line->shift.b,
+                                              m->velocity, s->n_velocity, m->points, t->err);
+        table_block(t);
+        if (t->status == WT_OK)
+            add_rows(m, line, t, cost);
+    }
+}
+
+static void set_keys(const friction_map *m, const sliding_contact *c, table_writer *t)
+{
+    const wt_sliding *s = m->sliding;
+    const double reference = s->rubber->prony.reference_temperature;
+    friction_map_keys keys = {.pressure = flow_as_stated(s->pressure),
+                              .temperature = flow_as_stated(s->temperature),
+                              .reference_temperature = {reference, (double)NAN, (double)NAN, NULL},
+                              .shear_stress = flow_as_stated(s->shear_stress)};
+    if (isnan(keys.temperature.value))
+        keys.temperature.value = reference;
+    (void)wt_rubber_describe(s->rubber, keys.material, sizeof keys.material);
+    snprintf(keys.statement, sizeof keys.statement, "%s%s%s", m->statement,
+             m->statement[0] != '\0' && c->statement[0] != '\0' ? "; " : "", c->statement);
+    const size_t used = strlen(keys.statement);
+    if (m->n_unsettled > 0)
+        snprintf(keys.statement + used, sizeof keys.statement - used,
+                 "%sno flash temperature is found at %zu points, which are nan",
+                 used > 0 ? "; " : "", m->n_unsettled);
+    if (m->worst > 0)
+        clocale_print(keys.numerical, sizeof keys.numerical, TOLERANCE_STATEMENT,
+                      m->work->tolerance, m->worst);
+    friction_map_set_keys(t, &keys);
+}
+
+static wt_status make_table(friction_map *m, wt_table **table, wt_error *err)
+{
+    double range[2];
+    sliding_contact c = {0};
+    const wt_status status = open_contact(m, range, &c, err);
+    if (status != WT_OK)
+        return status;
+    table_writer t = table_begin(&friction_map_schema, err);
+    cost_summary cost = {.tolerance_asked = m->work->tolerance};
+    add_lines(m, &c, &t, &cost);
+    if (t.status == WT_OK)
+        set_keys(m, &c, &t);
+    cost_say(m->work, cost);
+    sliding_contact_clear(&c);
+    return table_end(&t, table);
+}
+
+wt_status wt_friction_map_make(const wt_sliding *sliding, const wt_layer_known *known,
+                               const wt_job *work, wt_table **table, wt_error *err)
+{
+    if (work == NULL || table == NULL)
+        return wt_fail(err, WT_E_ARG, "no friction map to make");
+    wt_status status = flow_sliding_check(sliding, work, err);
+    if (status != WT_OK)
+        return status;
+    const size_t n = sliding->n_temperatures + sliding->n_pressures;
+    if (n == 0)
+        return wt_fail(err, WT_E_ARG, "a friction map needs temperatures or pressures");
+    friction_map m = {
+        .sliding = sliding, .known = known, .work = work, .lowest = (double)INFINITY, .highest = 0};
+    m.lines = calloc(n, sizeof *m.lines);
+    m.velocity = malloc(sliding->n_velocity * sizeof *m.velocity);
+    m.points = malloc(sliding->n_velocity * sizeof *m.points);
+    if (m.lines == NULL || m.velocity == NULL || m.points == NULL)
+        status = wt_fail(err, WT_E_MEMORY, "out of memory");
+    if (status == WT_OK)
+        status = find_lines(&m, err);
+    if (status == WT_OK)
+        status = make_table(&m, table, err);
+    free(m.lines);
+    free(m.velocity);
+    free(m.points);
+    return status;
+}

@@ -1,0 +1,261 @@
+/* What is known of a layer. SPDX-License-Identifier: GPL-3.0-or-later */
+#include "friction/layer_observation.h"
+#include "core/base/shared_params.h"
+#include "dma/rubber.h"
+#include "friction/numerics/layered_moduli.h"
+#include "job/random_draws.h"
+
+#include "core/base/clocale.h"
+#include "core/base/quantity.h"
+#include "core/base/range_text.h"
+
+#include <math.h>
+#include <string.h>
+
+wt_layer_known wt_layer_known_defaults(void)
+{
+    const double unknown = (double)NAN;
+    return (wt_layer_known){.thickness = {0, 0, 0, "m"},
+                            .modulus_ratio = {1, 0, 0, "1"},
+                            .ratio_slope = {0, 0, 0, "1"},
+                            .ratio_frequency = unknown,
+                            .ratio_lowest = unknown,
+                            .ratio_highest = unknown,
+                            .ratio_temperature = unknown};
+}
+
+static const wt_param rows[] = {
+    LAYER_STATE_ROWS(wt_layer_known, ),
+    {PARAM("modulus-ratio-df", wt_layer_known, modulus_ratio_df, WT_Q_NONE, AT_LEAST(0)),
+     .value = "N",
+     .help = "degrees of freedom of the error of the modulus ratio, as weartrack compare gives "
+             "them; 0: a normal error"},
+    /* Beyond 1 the phase alone turns a storage modulus negative. */
+    {PARAM("ratio-slope", wt_layer_known, ratio_slope, WT_Q_NONE, FROM_TO(-1, 1)), .value = "S",
+     .help =
+         "of ln modulus ratio against ln frequency, such as \"0.06 +- 0.02\"; the ratio is then "
+         "complex, with the phase that causality asks for (reconstructed); 0: one ratio"},
+    {PARAM("ratio-frequency", wt_layer_known, ratio_frequency, WT_Q_ANGULAR_FREQUENCY, AT_LEAST(0)),
+     .value = "W", .unset = "needed with a slope",
+     .help = "angular frequency at which the modulus ratio is as given"},
+    {PARAM("ratio-lowest", wt_layer_known, ratio_lowest, WT_Q_ANGULAR_FREQUENCY, AT_LEAST(0)),
+     .value = "W", .unset = "needed with a slope",
+     .help = "lowest angular frequency measured; below it the ratio is constant"},
+    {PARAM("ratio-highest", wt_layer_known, ratio_highest, WT_Q_ANGULAR_FREQUENCY, AT_LEAST(0)),
+     .value = "W", .unset = "needed with a slope", .help = "likewise, the highest one"},
+    {PARAM("ratio-temperature", wt_layer_known, ratio_temperature, WT_Q_TEMPERATURE, AT_LEAST(0)),
+     .value = "T", .unset = "that of the sliding",
+     .help =
+         "of these frequencies; another one needs the shift law of the bulk, which the layer is "
+         "taken to have"},
+    {PARAM_FLAG_OF("ratio-by-rate", wt_layer_known, by_rate), .flags = PARAM_NO_OPTION,
+     .help = "the modulus ratio goes with the frequency as the comparison finds it at several "
+             "indentation rates"},
+    {PARAM_FLAG_OF("bulk-shear", wt_layer_known, bulk_shear),
+     .help = "shear stress of the bulk for the layer, too, not times the modulus ratio"},
+};
+PARAM_TABLE(wt_layer_known_params, wt_layer_known, rows, wt_layer_known_defaults, NO_PARTS)
+
+/* What a slope needs beside itself. */
+static wt_status check_slope(const wt_layer_known *k, wt_error *err)
+{
+    if (k->ratio_slope.value == 0 && !(k->ratio_slope.standard_error > 0))
+        return WT_OK;
+    if (!(k->ratio_frequency > 0 && k->ratio_lowest > 0 && k->ratio_highest > 0)) {
+        wt_fail(err, WT_E_MISSING, "the slope of a modulus ratio needs the frequencies of it");
+        wt_error_expected(err, "ratio-frequency, ratio-lowest and ratio-highest");
+        return WT_E_MISSING;
+    }
+    if (k->ratio_lowest <= k->ratio_frequency && k->ratio_frequency <= k->ratio_highest)
+        return WT_OK;
+    wt_fail(err, WT_E_RANGE, "the frequency of a modulus ratio is not among those measured");
+    wt_error_expected(err, "ratio-frequency from ratio-lowest to ratio-highest");
+    wt_error_found(err, "%g rad/s, measured from %g to %g rad/s", k->ratio_frequency,
+                   k->ratio_lowest, k->ratio_highest);
+    return WT_E_RANGE;
+}
+
+wt_status sliding_layer_check(const wt_layer_known *known, wt_error *err)
+{
+    if (known == NULL)
+        return WT_OK;
+    const wt_status status = param_check(wt_layer_known_params(), known, err);
+    return status == WT_OK ? check_slope(known, err) : status;
+}
+
+wt_ratio_slope sliding_layer_slope(const wt_layer_known *known, uint64_t seed, size_t replicate)
+{
+    wt_ratio_slope slope = {.exponent = 0};
+    if (known == NULL || !(known->ratio_frequency > 0))
+        return slope;
+    slope.exponent = flow_draw_value(known->ratio_slope, seed, replicate, FLOW_DRAW_RATIO_SLOPE);
+    slope.reference = known->ratio_frequency;
+    slope.low = known->ratio_lowest;
+    slope.high = known->ratio_highest;
+    const double at = known->ratio_temperature;
+    slope.temperature = at > 0 ? at : (double)NAN;
+    return slope;
+}
+
+/* Draws of two materials may come from the same numbers: not those at the same place. */
+static size_t own_replicate(const wt_rubber *rubber, size_t replicate)
+{
+    return replicate != WT_NO_REPLICATE ? replicate + rubber->n_draws / 2 : replicate;
+}
+
+wt_status sliding_layer_rubber(const wt_sliding *sliding, double temperature, uint64_t seed,
+                               size_t replicate, wt_material **material, wt_error *err)
+{
+    const wt_rubber *rubber = sliding->layer_rubber;
+    const wt_status status = wt_rubber_at(rubber, temperature, seed,
+                                          own_replicate(rubber, replicate), material, NULL, err);
+    if (status != WT_OK)
+        wt_error_place(err, "material of the layer");
+    return status;
+}
+
+wt_shift_law sliding_layer_law(const wt_sliding *sliding, uint64_t seed, size_t replicate)
+{
+    const wt_rubber *rubber = sliding->layer_rubber;
+    return flow_rubber_law(rubber, seed, own_replicate(rubber, replicate));
+}
+
+/* The slowest wave of a contact, across the sliding, is as slow as any: from what was measured on,
+ * or from the longest wave along it. */
+static void widen_by_gain(const wt_sliding *sliding, const wt_roughness *roughness,
+                          const layer_moduli *moduli, double range[2])
+{
+    double slowest = HUGE_VAL, fastest = 0, found[2];
+    for (size_t i = 0; i < sliding->n_velocity; i++) {
+        slowest = fmin(slowest, sliding->velocity[i]);
+        fastest = fmax(fastest, sliding->velocity[i]);
+    }
+    if (!layer_moduli_gain(moduli, fmin(moduli->limit[0], roughness->q0 * slowest),
+                           roughness->q1 * fastest, found))
+        return;
+    range[0] = fmin(range[0], found[0]);
+    range[1] = fmax(range[1], found[1]);
+}
+
+wt_status sliding_layer_gain(const wt_sliding *sliding, const wt_layer_known *known,
+                             const wt_job *work, double range[2], wt_error *err)
+{
+    const double reference = sliding->rubber->prony.reference_temperature,
+                 temperature = sliding->temperature.value;
+    const wt_shift_law law = flow_rubber_law(sliding->rubber, work->seed, WT_NO_REPLICATE);
+    wt_layer_state layer = {.thickness = 1,
+                            .modulus_ratio = 1,
+                            .slope = sliding_layer_slope(known, work->seed, WT_NO_REPLICATE)};
+    wt_material *bulk = NULL;
+    wt_roughness *roughness = NULL;
+    if (sliding->layer_rubber != NULL || layer.slope.exponent == 0)
+        return WT_OK;
+    wt_status status =
+        wt_rubber_at(sliding->rubber, temperature, work->seed, WT_NO_REPLICATE, &bulk, NULL, err);
+    if (status == WT_OK)
+        status = wt_surface_roughness(sliding->surface, 1, &roughness, err);
+    if (status == WT_OK)
+        status = layer_slope_shift(&law, isnan(temperature) ? reference : temperature, &layer.slope,
+                                   err);
+    if (status == WT_OK) {
+        const layer_moduli moduli = layer_moduli_of(bulk, layer, work->tolerance);
+        widen_by_gain(sliding, roughness, &moduli, range);
+    }
+    wt_roughness_free(roughness);
+    wt_material_free(bulk);
+    return status;
+}
+
+/* How its ratio goes with the frequency, and what is to be said of that. */
+static void describe_slope(const wt_layer_known *known, const double range[2], wt_parselog *log,
+                           char *text, size_t size)
+{
+    char says[128] = "";
+    if (range[0] > 0)
+        clocale_print(says, sizeof says,
+                      "from %s rad/s its loss modulus would be below 0 by such a slope, and is "
+                      "taken as 0",
+                      ends_of(range[0], range[1], 2).text);
+    clocale_print(text, size,
+                  "%.4g times those of the bulk at %.3g rad/s, as omega^%.3g with the phase of a "
+                  "causal ratio (reconstructed) from %s rad/s, constant outside; "
+                  "sheared at the frequency velocity over thickness%s%s",
+                  known->modulus_ratio.value, known->ratio_frequency, known->ratio_slope.value,
+                  ends_of(known->ratio_lowest, known->ratio_highest, 3).text,
+                  says[0] != '\0' ? "; " : "", says);
+    if (says[0] != '\0')
+        wt_parselog_add(log, WT_WARNING, NULL, NULL, "layer: %s", says);
+}
+
+/* A material without a law is shifted by that of the bulk. */
+static void describe_material(const wt_sliding *sliding, char *text, size_t size)
+{
+    const bool has_law = sliding->layer_rubber->law.kind != WT_LAW_NONE;
+    snprintf(text, size, "those of a material of its own, bonded on the bulk%s",
+             !sliding->flash.on ? ""
+             : has_law          ? ", shifted by its own law where the flash temperature warms it"
+                       : ", shifted by the law of the bulk where the flash temperature warms it, "
+                         "for it has none of its own");
+}
+
+void sliding_layer_describe(const wt_sliding *sliding, const wt_layer_known *known,
+                            const double range[2], wt_parselog *log, char *text, size_t size)
+{
+    text[0] = '\0';
+    if (sliding->layer_rubber != NULL)
+        describe_material(sliding, text, size);
+    else if (known->ratio_slope.value != 0 || known->ratio_slope.standard_error > 0)
+        describe_slope(known, range, log, text, size);
+}
+
+wt_layer_state sliding_layer(const wt_layer_known *known, uint64_t seed, size_t replicate)
+{
+    wt_layer_state state = {.modulus_ratio = 1};
+    if (known == NULL)
+        return state;
+    const double thickness =
+        flow_draw_value(known->thickness, seed, replicate, FLOW_DRAW_THICKNESS);
+    state.thickness = thickness > 0 ? thickness : 0;
+    if (state.thickness > 0)
+        state.modulus_ratio = flow_draw_positive_t(known->modulus_ratio, known->modulus_ratio_df,
+                                                   seed, replicate, FLOW_DRAW_RATIO);
+    state.slope = sliding_layer_slope(known, seed, replicate);
+    return state;
+}
+
+wt_layer_shear sliding_layer_shear_of(const wt_layer_known *known)
+{
+    wt_layer_shear shear = known->shear != NULL ? *known->shear : wt_layer_shear_defaults();
+    if (known->bulk_shear)
+        shear.exponent = 0;
+    return shear;
+}
+
+double sliding_layer_shear(const wt_layer_known *known, double bulk, wt_layer_state layer,
+                           double area_ratio)
+{
+    if (known == NULL)
+        return bulk;
+    const wt_layer_shear shear = sliding_layer_shear_of(known);
+    return wt_layer_shear_stress(&shear, bulk, layer, area_ratio);
+}
+
+bool sliding_layer_shear_is_plain(const wt_layer_shear *shear)
+{
+    return shear->exponent == 1 && !(shear->reach > 0) && !(shear->crack_energy > 0);
+}
+
+void sliding_layer_shear_describe(const wt_layer_shear *shear, char *text, size_t size)
+{
+    char reach[64] = "", cracks[96] = "";
+    if (shear->reach > 0)
+        clocale_print(reach, sizeof reach, ", reached as 1 - exp(-d / %.3g um)",
+                      1e6 * shear->reach);
+    if (shear->crack_energy > 0)
+        clocale_print(cracks, sizeof cracks, "; cracks: G = %.3g J/m^2, asperities %.3g um apart",
+                      shear->crack_energy, 1e6 * shear->spacing);
+    clocale_print(text, size,
+                  "that of the bulk times the modulus ratio to the power of %.3g "
+                  "(reconstructed)%s%s",
+                  shear->exponent, reach, cracks);
+}

@@ -1,0 +1,572 @@
+/* Angular integrals: the closed form of the law, or Chebyshev series in ln w over what the panels
+ * give.
+ *
+ * SPDX-License-Identifier: GPL-3.0-or-later
+ */
+#include "friction/numerics/angular.h"
+
+#include "core/base/array.h"
+#include "core/math/chebyshev.h"
+#include "core/math/simd.h"
+#include "core/math/vector_exp.h"
+#include "friction/numerics/angular_panels.h"
+
+#include <float.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* Degrees of the series, each twice the one before: its nodes are among those of the next. A closed
+ * form begins at the second: one of 4 leaves 6e-4 on its pieces. */
+enum { SHORT_DEGREE = 4, CLOSED_DEGREE = 8, DEGREES = 3 };
+/* A piece is halved down to 1/4096 of its width, or until three cuts in a row gained less than ten:
+ * then it is rounding that is left. */
+enum { MOST_CUTS = 12, VAIN_CUTS = 3 };
+
+/* Pieces end at the whole multiples of this in ln w and at the knots of the law. A closed form is
+ * smooth: its poles lie at pi/2 beside the axis. */
+static const double law_width = 0.7, closed_width = 1;
+/* Two bounds in ln w closer than this are one: their difference is rounding. */
+static const double same_bound = 1e-12;
+/* Relative error at which a series is good enough: of the tolerance, so that panels and rules have
+ * the rest; at the best, some dozens of roundings; and at most, for more of it saves no
+ * coefficient. */
+static const double goal_share = 0.01, least_goal = 2e-14, most_goal = 1e-6;
+/* Of J1 and J2 from a sum of positive terms, each good to some roundings. */
+static const double closed_error = 16 * DBL_EPSILON;
+/* A series costs as much as so many terms of a closed form (100 velocities and set-up at 1e-10:
+ * 0.29 ms both ways with 7 terms, 0.31 and 0.28 ms with 10), and is good to these. */
+enum { MANY_TERMS = 8 };
+/* Where squares and powers of omega tau are numbers. */
+static const double least_frequency = 1e-250, most_frequency = 1e250;
+
+/* J1 and J2 on a piece. To the right of a knot w_k both integrals have a (ln w - ln w_k)^(3/2)
+ * singularity: the series there runs in u = sqrt(ln w - ln w_k). */
+typedef struct series {
+    double low, high;    /* ln w */
+    double anchor;       /* ln w_k, NaN = the series runs in ln w itself */
+    double middle, half; /* of u */
+    size_t degree;
+    double error, of_values; /* relative: without and from that of its values */
+    double j1[LONG_DEGREE + 1], j2[LONG_DEGREE + 1]; /* of powers of z = (u - middle) / half */
+} series;
+
+typedef struct series_list {
+    size_t n;
+    series *items;
+} series_list;
+
+struct angular_law {
+    const wt_material *material;
+    const angular_weight *weight; /* NULL: none */
+    bool closed;                  /* there is a closed form, and no weight */
+    double tolerance, piece_width;
+    const gauss_rule *rule;
+    double goal;
+    angular_panels panels;
+    angular_panels below[2]; /* up to each limit */
+    double panels_low, panels_high;
+    double limit[2];                                   /* of the range backed by data; NaN = none */
+    series_list pieces;                                /* rising, without gaps */
+    double node[LONG_DEGREE + 1];                      /* cos(pi k / LONG_DEGREE) */
+    double fit[DEGREES][(LONG_DEGREE + 1) * FIT_ROOM]; /* of each degree, a column for each node */
+};
+
+/* ---- series ---------------------------------------------------------------------------------- */
+
+/* The coefficients of an interpolation at cos(pi k / degree) are sums of its values. */
+static void make_fits(angular_law *a)
+{
+    double cosine[2 * LONG_DEGREE];
+    for (size_t k = 0; k < 2 * LONG_DEGREE; k++)
+        cosine[k] = cos(M_PI * (double)k / LONG_DEGREE);
+    memcpy(a->node, cosine, sizeof a->node);
+    for (size_t i = 0, degree = SHORT_DEGREE; i < DEGREES; i++, degree *= 2)
+        for (size_t k = 0; k <= degree; k++)
+            for (size_t j = 0; j <= degree; j++) {
+                const double node = k == 0 || k == degree ? 0.5 : 1;
+                const double term = j == 0 || j == degree ? 1 : 2;
+                a->fit[i][k * FIT_ROOM + j] =
+                    node * term / (double)degree *
+                    cosine[j * k * (LONG_DEGREE / degree) % (2 * LONG_DEGREE)];
+            }
+}
+
+static double least_of(const double *value, size_t step)
+{
+    double least = value[0];
+    for (size_t k = 0; k <= LONG_DEGREE; k += step)
+        least = fmin(least, value[k]);
+    return least;
+}
+
+/* Both, to the larger of the two degrees. */
+static void series_powers(series *s, const double *j1, const double *j2, double goal)
+{
+    const size_t step = LONG_DEGREE / s->degree;
+    const double least[2] = {least_of(j1, step), least_of(j2, step)};
+    double *const coefficient[2] = {s->j1, s->j2};
+    size_t degree[2] = {s->degree, s->degree};
+    double more = 0;
+    for (size_t i = 0; i < 2; i++) {
+        const double left =
+            chebyshev_powers(coefficient[i], &degree[i], 0.3 * fmax(goal, s->error) * least[i]);
+        more = fmax(more, least[i] > 0 ? left / least[i] : 0);
+    }
+    s->degree = degree[0] > degree[1] ? degree[0] : degree[1];
+    s->error += more;
+}
+
+/* J1 and J2 at every `step`th node of a piece from the `first` on. */
+static void series_values(const angular_law *a, const series *s, size_t first, size_t step,
+                          double *j1, double *j2)
+{
+    double x[LONG_DEGREE + 1], w[LONG_DEGREE + 1], new1[LONG_DEGREE + 1], new2[LONG_DEGREE + 1];
+    size_t n = 0, k = first;
+    do {
+        const double u = s->middle + s->half * a->node[k];
+        x[n++] = isnan(s->anchor) ? u : s->anchor + u * u;
+    } while ((k += step) <= LONG_DEGREE);
+    exponential(x, n, w);
+    if (a->closed)
+        a->material->law->angular(a->material, w, n, new1, new2);
+    else
+        for (size_t i = 0; i < n; i++)
+            angular_panels_integrate(&a->panels, w[i], &new1[i], &new2[i]);
+    for (size_t i = 0; i < n; i++) {
+        j1[first + i * step] = new1[i];
+        j2[first + i * step] = new2[i];
+    }
+}
+
+/* The relative error of the values that a series goes through. */
+static double values_error(const angular_law *a, const series *s, const double *j1,
+                           const double *j2)
+{
+    const size_t last = LONG_DEGREE; /* at `low` */
+    return a->closed ? closed_error
+                     : fmax(angular_panels_error(&a->panels, exp(s->high), j1[0], j2[0]),
+                            angular_panels_error(&a->panels, exp(s->low), j1[last], j2[last]));
+}
+
+static series series_fit(const angular_law *a, double low, double high, double anchor)
+{
+    const bool in_root = !isnan(anchor);
+    const double from = in_root ? sqrt(fmax(0, low - anchor)) : low;
+    const double to = in_root ? sqrt(high - anchor) : high;
+    series s = {.low = low,
+                .high = high,
+                .anchor = anchor,
+                .middle = 0.5 * (from + to),
+                .half = 0.5 * (to - from)};
+    double j1[LONG_DEGREE + 1], j2[LONG_DEGREE + 1], goal = a->goal;
+    const size_t begin = a->closed ? CLOSED_DEGREE : SHORT_DEGREE;
+    for (size_t degree = begin; degree <= LONG_DEGREE; degree *= 2) {
+        const size_t step = LONG_DEGREE / degree;
+        if (degree == begin) {
+            series_values(a, &s, 0, step, j1, j2);
+            s.of_values = values_error(a, &s, j1, j2);
+            goal = fmax(goal, s.of_values);
+        } else {
+            series_values(a, &s, step, 2 * step, j1, j2);
+        }
+        const double *fit = a->fit[degree == SHORT_DEGREE ? 0 : degree == LONG_DEGREE ? 2 : 1];
+        chebyshev_fit(j1, degree, fit, s.j1);
+        chebyshev_fit(j2, degree, fit, s.j2);
+        s.degree = degree;
+        s.error = fmax(chebyshev_tail(s.j1, j1, degree), chebyshev_tail(s.j2, j2, degree));
+        if (s.error <= goal)
+            break;
+    }
+    series_powers(&s, j1, j2, goal);
+    return s;
+}
+
+static bool series_push(series_list *list, const series *s)
+{
+    series *items = array_grow(list->items, list->n, sizeof *items);
+    if (items == NULL)
+        return false;
+    list->items = items;
+    list->items[list->n++] = *s;
+    return true;
+}
+
+/* A piece that has been fitted, or its halves where it is not good enough: close knots, steep
+ * tables. What is narrow may be worse, for it weighs less. `vain`: cuts above it that gained
+ * little. */
+static bool series_add(const angular_law *a, series_list *list, const series *s, int cuts, int vain)
+{
+    const double middle = isnan(s->anchor) ? s->middle : s->anchor + s->middle * s->middle;
+    const double allowed =
+        2 * fmax(a->goal, s->of_values) * fmax(1, law_width / (s->high - s->low));
+    if (s->error <= allowed || cuts == MOST_CUTS || vain == VAIN_CUTS ||
+        !(middle > s->low && middle < s->high))
+        return series_push(list, s);
+    const series left = series_fit(a, s->low, middle, s->anchor),
+                 right = series_fit(a, middle, s->high, s->anchor);
+    vain += fmin(left.error, right.error) > 0.1 * s->error;
+    return series_add(a, list, &left, cuts + 1, vain) &&
+           series_add(a, list, &right, cuts + 1, vain);
+}
+
+static const double *knots_of(const angular_law *a, size_t *n)
+{
+    *n = 0;
+    return a->material->law->breaks != NULL ? a->material->law->breaks(a->material, n) : NULL;
+}
+
+/* The nearest knot at or below x that a piece there must mind, or NaN. */
+static double knot_before(const double *knots, size_t n, double x)
+{
+    size_t low = 0, high = n; /* knots below `low` are at or below x */
+    while (low < high) {
+        const size_t middle = (low + high) / 2;
+        if (log(knots[middle]) <= x + same_bound)
+            low = middle + 1;
+        else
+            high = middle;
+    }
+    const double knot = low > 0 ? log(knots[low - 1]) : -(double)INFINITY;
+    return knot > x - 3 * law_width ? fmin(knot, x) : (double)NAN;
+}
+
+/* Adds the pieces from one multiple of piece_width to another. */
+static bool add_pieces(const angular_law *a, long first, long last, double *bounds,
+                       series_list *list)
+{
+    size_t n = 0, n_knots;
+    const double *knots = knots_of(a, &n_knots);
+    for (long m = first; m <= last; m++)
+        bounds[n++] = (double)m * a->piece_width;
+    for (size_t k = 0; k < n_knots; k++) {
+        const double x = log(knots[k]);
+        if (x > bounds[0] && x < (double)last * a->piece_width)
+            bounds[n++] = x;
+    }
+    numbers_sort(bounds, n);
+    for (size_t i = 1, from = 0; i < n; i++) {
+        if (bounds[i] - bounds[from] < same_bound)
+            continue;
+        const double anchor = knot_before(knots, n_knots, bounds[from]);
+        const series s = series_fit(a, bounds[from], bounds[i], anchor);
+        if (!series_add(a, list, &s, 0, 0))
+            return false;
+        from = i;
+    }
+    return true;
+}
+
+/* Panels for this range and what there was before. */
+static wt_status extend_panels(angular_law *a, double low, double high, wt_error *err)
+{
+    if (a->panels.n > 0) {
+        low = fmin(low, a->panels_low);
+        high = fmax(high, a->panels_high);
+        angular_panels_clear(&a->panels);
+    }
+    a->panels_low = low;
+    a->panels_high = high;
+    /* past the end, where rounding may put a frequency: the integrand has a pole there */
+    const wt_status status =
+        angular_panels_new(a->material, a->rule, low, 1.01 * high, a->goal, &a->panels, err);
+    a->panels.weight = a->weight;
+    return status;
+}
+
+/* In whole multiples of piece_width: what there is, and with it what is asked for. */
+typedef struct series_range {
+    long first, last, have_first, have_last;
+} series_range;
+
+static series_range range_with(const angular_law *a, double w_min, double w_max)
+{
+    const series_list *have = &a->pieces;
+    series_range r = {(long)floor(log(w_min) / a->piece_width),
+                      (long)ceil(log(w_max) / a->piece_width), 0, 0};
+    if (r.last <= r.first)
+        r.last = r.first + 1;
+    r.have_first = r.have_last = r.last; /* nothing yet */
+    if (have->n > 0) {
+        r.have_first = lround(have->items[0].low / a->piece_width);
+        r.have_last = lround(have->items[have->n - 1].high / a->piece_width);
+        r.first = r.first < r.have_first ? r.first : r.have_first;
+        r.last = r.last > r.have_last ? r.last : r.have_last;
+    }
+    return r;
+}
+
+bool angular_covers(const angular_law *angular, double w_min, double w_max)
+{
+    const wt_material_law *law = angular->material->law;
+    if (angular->closed && (law->terms == NULL || law->terms(angular->material) < MANY_TERMS ||
+                            !(w_min >= least_frequency && w_max <= most_frequency)))
+        return true;
+    const series_range r = range_with(angular, w_min, w_max);
+    return r.first == r.have_first && r.last == r.have_last;
+}
+
+wt_status angular_cover(angular_law *angular, double w_min, double w_max, wt_error *err)
+{
+    if (angular_covers(angular, w_min, w_max))
+        return WT_OK;
+    const double piece_width = angular->piece_width;
+    const series_list *have = &angular->pieces;
+    const series_range range = range_with(angular, w_min, w_max);
+    const long first = range.first, last = range.last, have_first = range.have_first,
+               have_last = range.have_last;
+    const wt_status status = angular->closed
+                                 ? WT_OK
+                                 : extend_panels(angular, exp((double)first * piece_width),
+                                                 exp((double)last * piece_width), err);
+    if (status != WT_OK)
+        return status;
+    size_t n_knots;
+    (void)knots_of(angular, &n_knots);
+    series_list made = {0};
+    double *bounds = calloc((size_t)(last - first) + 1 + n_knots, sizeof *bounds);
+    bool good = bounds && add_pieces(angular, first, have_first, bounds, &made);
+    for (size_t i = 0; good && i < have->n; i++)
+        good = series_push(&made, &have->items[i]);
+    good = good && add_pieces(angular, have_last, last, bounds, &made);
+    free(bounds);
+    if (!good) {
+        free(made.items);
+        return wt_fail(err, WT_E_MEMORY, "out of memory for the angular integrals");
+    }
+    free(angular->pieces.items);
+    angular->pieces = made;
+    return WT_OK;
+}
+
+/* The first piece that reaches up to x, or the last one. */
+static size_t piece_at(const series_list *list, double x)
+{
+    size_t low = 0, high = list->n > 0 ? list->n - 1 : 0;
+    while (low < high) {
+        const size_t middle = (low + high) / 2;
+        if (list->items[middle].high < x)
+            low = middle + 1;
+        else
+            high = middle;
+    }
+    return low;
+}
+
+bool angular_closed(const angular_law *angular, double x_min, double x_max)
+{
+    const series_list *pieces = &angular->pieces;
+    return angular->closed && (pieces->n == 0 || !(x_min >= pieces->items[0].low &&
+                                                   x_max <= pieces->items[pieces->n - 1].high));
+}
+
+/* Nodes in one piece, with room for whole registers. */
+enum { BATCH = 32, AT_ONCE = 2 * WIDE };
+
+/* Both series at n <= BATCH places: even and odd powers in turn, so that neither waits for the
+ * other. `value` has room for BATCH numbers each. */
+WIDE_REGISTERS
+static void series_eval(const series *restrict s, size_t n, const double *restrict z,
+                        double *restrict value1, double *restrict value2)
+{
+    const size_t top = s->degree / 2 * 2; /* even */
+    const double *const j1 = s->j1, *const j2 = s->j2;
+    const double above1 = s->degree > top ? j1[top + 1] : 0,
+                 above2 = s->degree > top ? j2[top + 1] : 0;
+    for (size_t from = 0; from < n; from += AT_ONCE) {
+        wide a, b;
+        memcpy(&a, z + from, sizeof a);
+        memcpy(&b, z + from + WIDE, sizeof b);
+        const wide aa = a * a, bb = b * b, zero = {0};
+        wide even_a1 = zero + j1[top], odd_a1 = zero + above1, even_a2 = zero + j2[top],
+             odd_a2 = zero + above2;
+        wide even_b1 = even_a1, odd_b1 = odd_a1, even_b2 = even_a2, odd_b2 = odd_a2;
+        for (size_t m = top; m >= 2; m -= 2) {
+            even_a1 = even_a1 * aa + j1[m - 2];
+            odd_a1 = odd_a1 * aa + j1[m - 1];
+            even_a2 = even_a2 * aa + j2[m - 2];
+            odd_a2 = odd_a2 * aa + j2[m - 1];
+            even_b1 = even_b1 * bb + j1[m - 2];
+            odd_b1 = odd_b1 * bb + j1[m - 1];
+            even_b2 = even_b2 * bb + j2[m - 2];
+            odd_b2 = odd_b2 * bb + j2[m - 1];
+        }
+        const wide a1 = even_a1 + a * odd_a1, a2 = even_a2 + a * odd_a2;
+        const wide b1 = even_b1 + b * odd_b1, b2 = even_b2 + b * odd_b2;
+        memcpy(value1 + from, &a1, sizeof a1);
+        memcpy(value1 + from + WIDE, &b1, sizeof b1);
+        memcpy(value2 + from, &a2, sizeof a2);
+        memcpy(value2 + from + WIDE, &b2, sizeof b2);
+    }
+}
+
+/* z of x in a piece; what rounding puts beside it goes to its end. */
+WIDE_REGISTERS
+static void place_in(const series *restrict s, const double *restrict x, size_t n,
+                     double *restrict z)
+{
+    const double scale = 1 / s->half, middle = s->middle, anchor = s->anchor;
+    if (isnan(anchor))
+        for (size_t i = 0; i < n; i++)
+            z[i] = (x[i] - middle) * scale;
+    else
+        for (size_t i = 0; i < n; i++)
+            z[i] = (sqrt(x[i] > anchor ? x[i] - anchor : 0) - middle) * scale;
+    for (size_t i = 0; i < n; i++) {
+        const double below = z[i] < 1 ? z[i] : 1;
+        z[i] = below > -1 ? below : -1;
+    }
+}
+
+void angular_eval(const angular_law *angular, const double *w, const double *x, size_t n,
+                  double *j1, double *j2)
+{
+    if (n == 0)
+        return;
+    if (angular_closed(angular, x[0], x[n - 1])) {
+        angular->material->law->angular(angular->material, w, n, j1, j2);
+        return;
+    }
+    const series_list *pieces = &angular->pieces;
+    size_t k = piece_at(pieces, x[0]);
+    for (size_t from = 0, count; from < n; from += count) {
+        double z[BATCH];
+        while (k + 1 < pieces->n && x[from] > pieces->items[k].high)
+            k++;
+        while (k > 0 && x[from] < pieces->items[k].low)
+            k--;
+        const series *s = &pieces->items[k];
+        for (count = 1; count < BATCH && from + count < n && !(x[from + count] > s->high) &&
+                        !(x[from + count] < s->low);
+             count++)
+            ;
+        place_in(s, x + from, count, z);
+        const size_t whole = (count + AT_ONCE - 1) / AT_ONCE * AT_ONCE;
+        for (size_t i = count; i < whole; i++)
+            z[i] = 0;
+        if (from + whole <= n) { /* what is too much, the next piece writes over */
+            series_eval(s, whole, z, j1 + from, j2 + from);
+        } else {
+            double value1[BATCH], value2[BATCH];
+            series_eval(s, whole, z, value1, value2);
+            memcpy(j1 + from, value1, count * sizeof *j1);
+            memcpy(j2 + from, value2, count * sizeof *j2);
+        }
+    }
+}
+
+double angular_error(const angular_law *angular, double x_min, double x_max, size_t *piece)
+{
+    const series_list *pieces = &angular->pieces;
+    double error = 0;
+    while (*piece + 1 < pieces->n && pieces->items[*piece].high < x_min)
+        ++*piece;
+    for (size_t i = *piece; i < pieces->n && pieces->items[i].low <= x_max; i++)
+        error = fmax(error, pieces->items[i].error + pieces->items[i].of_values);
+    return error;
+}
+
+/* ---- the share of extrapolated frequencies --------------------------------------------------- */
+
+bool angular_limited(const angular_law *angular)
+{
+    return !isnan(angular->limit[0]) || !isnan(angular->limit[1]);
+}
+
+wt_status angular_cover_outside(angular_law *angular, wt_error *err)
+{
+    const double *limit = angular->limit;
+    const double low = fmin(limit[0], limit[1]);
+    wt_status status = WT_OK;
+    for (size_t k = 0; k < 2 && status == WT_OK; k++)
+        if (!isnan(limit[k]) && angular->below[k].n == 0) {
+            status = angular_panels_new(angular->material, angular->rule, low, limit[k], most_goal,
+                                        &angular->below[k], err);
+            angular->below[k].weight = angular->weight;
+        }
+    return status;
+}
+
+/* From frequencies below a limit. */
+static void parts_below(const angular_law *a, size_t limit, const double *w, const double *j1,
+                        size_t n, double *part)
+{
+    const double end = a->limit[limit];
+    double lowest = w[0], j2;
+    for (size_t i = 1; i < n; i++)
+        lowest = w[i] < lowest ? w[i] : lowest;
+    if (lowest >= 2 * end) {
+        angular_panels_far(&a->below[limit], w, n, part);
+        return;
+    }
+    for (size_t i = 0; i < n; i++)
+        if (w[i] > end)
+            angular_panels_integrate(&a->below[limit], w[i], &part[i], &j2);
+        else
+            part[i] = j1[i];
+}
+
+void angular_outside(const angular_law *angular, const double *w, const double *j1, size_t n,
+                     double *outside)
+{
+    double part[RULE_MOST];
+    for (size_t i = 0; i < n; i++)
+        outside[i] = 0;
+    for (size_t limit = 0; limit < 2; limit++) {
+        if (isnan(angular->limit[limit]))
+            continue;
+        parts_below(angular, limit, w, j1, n, part);
+        for (size_t i = 0; i < n; i++)
+            outside[i] += limit == 0 ? part[i] : j1[i] - part[i];
+    }
+    for (size_t i = 0; i < n; i++) {
+        const double some = outside[i] > 0 ? outside[i] : 0;
+        outside[i] = some < j1[i] ? some : j1[i];
+    }
+}
+
+/* ---- construction ---------------------------------------------------------------------------- */
+
+static double limit_of(double frequency)
+{
+    return frequency > 0 && isfinite(frequency) ? frequency : (double)NAN;
+}
+
+static void choose_pieces(angular_law *a, bool closed)
+{
+    a->closed = closed;
+    a->goal = fmin(fmax(goal_share * a->tolerance, least_goal), most_goal);
+    a->piece_width = closed ? closed_width : law_width;
+}
+
+void angular_weigh(angular_law *angular, const angular_weight *weight)
+{
+    angular->weight = weight;
+    choose_pieces(angular, false);
+}
+
+wt_status angular_new(const wt_material *material, double tolerance, pool *memory,
+                      angular_law **angular, wt_error *err)
+{
+    angular_law *made = pool_alloc(memory, 1, sizeof *made);
+    if (made == NULL)
+        return wt_fail(err, WT_E_MEMORY, "out of memory for the angular integrals");
+    made->material = material;
+    make_fits(made);
+    made->tolerance = tolerance;
+    choose_pieces(made, material->law->angular != NULL);
+    made->limit[0] = limit_of(material->frequency_min);
+    made->limit[1] = limit_of(material->frequency_max);
+    *angular = made;
+    return rule_of(PANEL_NODES, &made->rule, err);
+}
+
+void angular_clear(angular_law *angular)
+{
+    if (angular == NULL)
+        return;
+    free(angular->pieces.items);
+    angular_panels_clear(&angular->panels);
+    angular_panels_clear(&angular->below[0]);
+    angular_panels_clear(&angular->below[1]);
+}

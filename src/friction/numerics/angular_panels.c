@@ -1,0 +1,560 @@
+/* Angular integrals in linear time: the law is evaluated once at the nodes of panels in ln omega,
+ * cut at its knots, and the integrals up to each edge are summed from below.
+ *
+ * SPDX-License-Identifier: GPL-3.0-or-later
+ */
+#include "friction/numerics/angular_panels.h"
+
+#include "core/math/simd.h"
+#include "core/math/vector_exp.h"
+
+#include <float.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* Width of a panel in ln omega: the poles of a Maxwell element lie pi/2 beside it, and ten nodes
+ * leave (0.35/2/pi)^20, 1e-25, of it; it is the kernel K that is steeper near w. */
+static const double widest = 0.35;
+/* ln F changes by no more over one panel: of exp(1.2 x) ten nodes leave less than rounding. */
+static const double steepest = 1.2;
+/* The integrals begin so far below the range in ln omega, with a power law below: so much less than
+ * the goal of what a constant modulus gives, which weighs with c, is left; less where the law is
+ * one, for nothing is. */
+static const double deep = 8, shallow = 2.5;
+/* They begin at a whole multiple of it, so that similar ranges have the same panels. */
+static const double stride = 16;
+static const int power_of[2] = {2, 1};
+
+/* ---- edges ----------------------------------------------------------------------------------- */
+
+static void logs_at(const wt_material *material, double x, double e[2])
+{
+    const double omega = exp(x);
+    material->law->modulus(material, &omega, 1, &e[0], &e[1]);
+    e[0] = log(e[0]);
+    e[1] = log(e[1]);
+}
+
+static double largest_change(const double *a, const double *b)
+{
+    const double storage = fabs(b[0] - a[0]), loss = fabs(b[1] - a[1]);
+    return 2 * fmax(isfinite(storage) ? storage : 0, isfinite(loss) ? loss : 0);
+}
+
+typedef struct edge_list {
+    size_t n;
+    double *edge, *largest; /* NULL: they are counted alone */
+} edge_list;
+
+/* The last Legendre coefficients of a panel that the rule resolves, relative to its mean: what the
+ * rule leaves, which is exact to twice their degree, is of the order of their square. */
+static const double resolved = 1e-7;
+/* Panels are cut into no more parts than so many times those that their steepness asks for: what is
+ * no smoother at a 64th of the width is a jump. A bound of time and memory. */
+static const size_t most_parts = 64;
+
+static bool is_small(const gauss_rule *rule, const double *f, const rule_top *top)
+{
+    double sum = 0;
+    for (size_t i = 0; i < rule->n; i++)
+        sum += rule->weight[i] * f[i];
+    return fmax(fabs(top->coefficient[RULE_TOP - 1]), fabs(top->coefficient[RULE_TOP - 2])) <=
+           0.5 * resolved * sum;
+}
+
+/* Moduli of several laws can nearly cancel between two edges that show nothing of it. */
+static bool is_resolved(const wt_material *material, const gauss_rule *rule, double from, double to)
+{
+    double omega[PANEL_NODES], storage[PANEL_NODES], loss[PANEL_NODES], square[PANEL_NODES];
+    rule_top of_loss, of_square;
+    for (size_t i = 0; i < PANEL_NODES; i++)
+        omega[i] = exp(from + 0.5 * (to - from) * (1 + rule->node[i]));
+    material->law->modulus(material, omega, PANEL_NODES, storage, loss);
+    for (size_t i = 0; i < PANEL_NODES; i++)
+        square[i] = storage[i] * storage[i] + loss[i] * loss[i];
+    rule_tops(rule, loss, square, &of_loss, &of_square);
+    return is_small(rule, loss, &of_loss) && is_small(rule, square, &of_square);
+}
+
+/* How many parts a panel needs: those that its steepness `by` asks for, or more. */
+static size_t count_parts(const wt_material *material, const gauss_rule *rule, double from,
+                          double to, double by)
+{
+    const double steep = ceil(fmax((to - from) / widest, by / steepest));
+    const size_t least = steep > 1 ? (size_t)fmin(steep, 1e6) : 1;
+    size_t n = least;
+    if (material->law->power_below || material->law->angular != NULL)
+        return n; /* a power law between its knots; a closed form as smooth as a Maxwell element */
+    for (size_t i = 0; i < n && n < most_parts * least; i++)
+        if (!is_resolved(material, rule, from + (to - from) * (double)i / (double)n,
+                         from + (to - from) * (double)(i + 1) / (double)n)) {
+            n *= 2;
+            i = (size_t)-1; /* once more from the first */
+        }
+    return n;
+}
+
+/* The n parts of a panel, up to an edge where the largest logarithm so far is given. */
+static void add_edges(edge_list *list, double from, double to, size_t n, double largest)
+{
+    for (size_t i = 1; i <= n; i++, list->n++)
+        if (list->edge != NULL) {
+            list->edge[list->n] = i < n ? from + (to - from) * (double)i / (double)n : to;
+            list->largest[list->n] = largest;
+        }
+}
+
+static double larger_log(double largest, const double e[2])
+{
+    for (size_t i = 0; i < 2; i++)
+        if (isfinite(e[i]))
+            largest = fmax(largest, fabs(e[i]));
+    return largest;
+}
+
+/* From `first` to `last`, cut at whole multiples of `widest` and at the knots. */
+static void lay_edges(const wt_material *material, const gauss_rule *rule, double first,
+                      double last, edge_list *list)
+{
+    size_t n_breaks = 0, k = 0;
+    const double *breaks =
+        material->law->breaks != NULL ? material->law->breaks(material, &n_breaks) : NULL;
+    double x = first, e[2], next_e[2];
+    logs_at(material, x, e);
+    double largest = larger_log(0, e);
+    if (list->edge != NULL) {
+        list->edge[0] = first;
+        list->largest[0] = largest;
+    }
+    list->n = 1;
+    while (x < last) {
+        double next = fmin((floor(x / widest + 1e-9) + 1) * widest, last);
+        while (k < n_breaks && log(breaks[k]) <= x)
+            k++;
+        if (k < n_breaks)
+            next = fmin(next, log(breaks[k]));
+        logs_at(material, next, next_e);
+        largest = larger_log(largest, next_e);
+        const size_t n = count_parts(material, rule, x, next, largest_change(e, next_e));
+        add_edges(list, x, next, n, largest);
+        x = next;
+        e[0] = next_e[0];
+        e[1] = next_e[1];
+    }
+}
+
+/* ---- sums ------------------------------------------------------------------------------------ */
+
+/* F at the nodes of panel p. */
+static void evaluate_panel(angular_panels *a, size_t p)
+{
+    const double half = 0.5 * (a->edge[p + 1] - a->edge[p]);
+    double *omega = a->omega + p * PANEL_NODES;
+    double storage[PANEL_NODES], loss[PANEL_NODES];
+    for (size_t i = 0; i < PANEL_NODES; i++)
+        omega[i] = exp(a->edge[p] + half * (1 + a->rule->node[i]));
+    a->material->law->modulus(a->material, omega, PANEL_NODES, storage, loss);
+    for (size_t i = 0; i < PANEL_NODES; i++) {
+        const double weight = half * a->rule->weight[i];
+        a->value[0][p * PANEL_NODES + i] = weight * loss[i];
+        a->value[1][p * PANEL_NODES + i] = weight * (storage[i] * storage[i] + loss[i] * loss[i]);
+    }
+}
+
+/* Below the first edge E' and E'' go on as the powers that they are there. */
+static void start_sums(angular_panels *a)
+{
+    const double x = a->edge[0], step = 1;
+    double e[3][2];
+    for (size_t i = 0; i < 3; i++)
+        logs_at(a->material, x + step * (double)i, e[i]);
+    for (size_t f = 0; f < 2; f++) {
+        double *sum = a->below[f];
+        for (size_t part = f == 0 ? 1 : 0; part < 2; part++) {
+            const double times = f == 0 ? 1 : 2;
+            /* of a part that is all rounding it may be anything */
+            const double slope = fmax(times * (e[1][part] - e[0][part]) / step, -0.5);
+            const double other = times * (e[2][part] - e[1][part]) / step;
+            const double height = exp(times * e[0][part]);
+            if (!(height > 0) || !isfinite(slope))
+                continue;
+            for (size_t m = 0; m < a->terms; m++)
+                sum[m] += height / ((double)(2 * m) + power_of[f] + slope);
+            a->start_error[f] += sum[0] * fmin(fabs(other - slope), 1);
+        }
+    }
+}
+
+/* What the rounding of ln omega at nodes, edges and knots makes of one panel whose part is `sum`.
+ */
+static double moved_part(const angular_panels *a, size_t f, size_t p, double sum)
+{
+    const double *value = a->value[f] + p * PANEL_NODES, *weight = a->rule->weight;
+    const double first = value[0] / weight[0], last = value[PANEL_NODES - 1] / weight[0];
+    const double width = a->edge[p + 1] - a->edge[p];
+    const double far = fmax(fabs(a->edge[p]), fabs(a->edge[p + 1]));
+    const double change = first > 0 && last > 0 ? fabs(log(last / first)) : 0;
+    return 2 * DBL_EPSILON * (1 + far) * sum * change / width;
+}
+
+static void sum_panels(angular_panels *a)
+{
+    for (size_t p = 0; p <= a->n; p++)
+        a->edge_omega[p] = exp(a->edge[p]);
+    for (size_t p = 0; p < a->n; p++) {
+        const double b = a->edge_omega[p + 1], shrink = exp(a->edge[p] - a->edge[p + 1]);
+        for (size_t f = 0; f < 2; f++) {
+            const double *from = a->below[f] + p * a->terms;
+            double *to = a->below[f] + (p + 1) * a->terms;
+            double factor = f == 0 ? shrink * shrink : shrink;
+            const double passed = from[0] * factor;
+            a->moved[f][p + 1] = a->moved[f][p] * factor;
+            for (size_t m = 0; m < a->terms; m++) {
+                to[m] = from[m] * factor;
+                factor *= shrink * shrink;
+            }
+            for (size_t i = 0; i < PANEL_NODES; i++) {
+                const double c = a->omega[p * PANEL_NODES + i] / b, square = c * c;
+                double term = a->value[f][p * PANEL_NODES + i] * (f == 0 ? square : c);
+                for (size_t m = 0; m < a->terms; m++) {
+                    to[m] += term;
+                    term *= square;
+                }
+            }
+            a->moved[f][p + 1] += moved_part(a, f, p, to[0] - passed);
+        }
+    }
+}
+
+/* ---- groups ---------------------------------------------------------------------------------- */
+
+/* A group is taken for w twice its width above it or further: the ellipse through w has half axes
+ * that sum up to 9.9 of its half width, and 9.9^-16 is 1e-16. No wider one is ever that close below
+ * w and above w / 2. */
+static const double group_apart = 2, group_widest = 0.25;
+
+/* Spreads n numbers at frequencies over the nodes of a group that reaches from one edge to the
+ * other: barycentric interpolation. */
+static void spread(const gauss_rule *rule, double from, double to, size_t n, const double *omega,
+                   const double *value1, const double *value2, panel_group *group)
+{
+    double weight[GROUP_NODES];
+    for (size_t j = 0; j < GROUP_NODES; j++)
+        weight[j] =
+            (j % 2 ? -1 : 1) * sqrt((1 - rule->node[j]) * (1 + rule->node[j]) * rule->weight[j]);
+    for (size_t i = 0; i < n; i++) {
+        double part[GROUP_NODES], sum = 0;
+        const double z = (2 * log(omega[i]) - from - to) / (to - from);
+        for (size_t j = 0; j < GROUP_NODES; j++) {
+            const double off = z - rule->node[j];
+            part[j] = weight[j] / (off != 0 ? off : DBL_MIN);
+            sum += part[j];
+        }
+        for (size_t j = 0; j < GROUP_NODES; j++) {
+            group->value[0][j] += value1[i] * (part[j] / sum);
+            group->value[1][j] += value2[i] * (part[j] / sum);
+        }
+    }
+}
+
+/* One of level k, from its panels or from the two groups below it. */
+static void fill_group(const angular_panels *a, const gauss_rule *rule, size_t k, size_t i)
+{
+    panel_group *group = &a->group[k][i];
+    const size_t size = (size_t)GROUP_LEAST << k, nodes = i * size * PANEL_NODES;
+    const double from = a->edge[i * size], to = a->edge[(i + 1) * size];
+    if (!(to - from <= group_widest))
+        return;
+    for (size_t j = 0; j < GROUP_NODES; j++)
+        group->omega[j] = exp(from + 0.5 * (to - from) * (1 + rule->node[j]));
+    if (k == 0)
+        spread(rule, from, to, size * PANEL_NODES, a->omega + nodes, a->value[0] + nodes,
+               a->value[1] + nodes, group);
+    for (size_t half = 0; k > 0 && half < 2; half++) {
+        const panel_group *part = &a->group[k - 1][2 * i + half];
+        spread(rule, from, to, GROUP_NODES, part->omega, part->value[0], part->value[1], group);
+    }
+}
+
+/* So that what one frequency costs grows with the logarithm of their number, where panels are so
+ * narrow that many are close to it. */
+static wt_status group_panels(angular_panels *a, wt_error *err)
+{
+    const gauss_rule *rule;
+    const wt_status status = rule_of(GROUP_NODES, &rule, err);
+    bool dense = false;
+    for (size_t p = 0; !dense && p + 4 * GROUP_LEAST <= a->n; p += GROUP_LEAST)
+        dense = a->edge[p + 4 * GROUP_LEAST] - a->edge[p] <= group_widest;
+    for (size_t k = 0; status == WT_OK && dense && k < GROUP_LEVELS; k++) {
+        const size_t n = a->n / ((size_t)GROUP_LEAST << k);
+        if (n == 0)
+            break;
+        a->group[k] = calloc(n, sizeof *a->group[k]);
+        if (a->group[k] == NULL)
+            return wt_fail(err, WT_E_MEMORY, "out of memory for the angular integrals");
+        for (size_t i = 0; i < n; i++)
+            fill_group(a, rule, k, i);
+    }
+    return status;
+}
+
+/* How many panels from p on a group stands for that is far enough below x; 0: none. */
+static size_t group_at(const angular_panels *a, size_t p, double x, const panel_group **group)
+{
+    size_t size = 0;
+    for (size_t k = 0; k < GROUP_LEVELS && a->group[k] != NULL; k++) {
+        const size_t next = (size_t)GROUP_LEAST << k;
+        if (p % next != 0 || p + next > a->n)
+            break;
+        const double from = a->edge[p], to = a->edge[p + next];
+        if (!(to - from <= group_widest && to + group_apart * (to - from) <= x))
+            break;
+        size = next;
+        *group = &a->group[k][p / next];
+    }
+    return size;
+}
+
+wt_status angular_panels_new(const wt_material *material, const gauss_rule *rule, double low,
+                             double high, double goal, angular_panels *panels, wt_error *err)
+{
+    size_t n_breaks = 0;
+    const double *breaks =
+        material->law->breaks != NULL ? material->law->breaks(material, &n_breaks) : NULL;
+    const bool is_power = n_breaks > 0 && material->law->power_below;
+    double begin = log(low);
+    if (n_breaks > 0)
+        begin = fmin(begin, log(breaks[0]));
+    const double first = fmax(
+        floor(begin / stride) * stride - (is_power ? shallow : deep - log(goal)), log(DBL_MIN) + 1);
+    angular_panels a = {.material = material, .rule = rule};
+    /* c^(2m) is 4^-m */
+    a.terms = 2 + (size_t)ceil(-log(fmin(fmax(goal, 1e-16), 0.1)) / (2 * M_LN2));
+    edge_list list = {0};
+    lay_edges(material, rule, first, log(high), &list);
+    a.n = list.n - 1;
+    const size_t nodes = a.n * PANEL_NODES, sums = (a.n + 1) * a.terms;
+    a.numbers = calloc(5 * (a.n + 1) + 3 * nodes + 2 * sums, sizeof *a.numbers);
+    if (a.numbers == NULL)
+        return wt_fail(err, WT_E_MEMORY, "out of memory for the angular integrals");
+    a.edge = list.edge = a.numbers;
+    a.edge_omega = a.edge + a.n + 1;
+    a.omega = a.edge_omega + a.n + 1;
+    a.value[0] = a.omega + nodes;
+    a.value[1] = a.value[0] + nodes;
+    a.below[0] = a.value[1] + nodes;
+    a.below[1] = a.below[0] + sums;
+    a.moved[0] = a.below[1] + sums;
+    a.moved[1] = a.moved[0] + a.n + 1;
+    a.largest = list.largest = a.moved[1] + a.n + 1;
+    lay_edges(material, rule, first, log(high), &list);
+    start_sums(&a);
+    for (size_t p = 0; p < a.n; p++)
+        evaluate_panel(&a, p);
+    sum_panels(&a);
+    *panels = a;
+    const wt_status status = group_panels(panels, err);
+    if (status != WT_OK)
+        angular_panels_clear(panels);
+    return status;
+}
+
+void angular_panels_clear(angular_panels *panels)
+{
+    free(panels->numbers);
+    for (size_t k = 0; k < GROUP_LEVELS; k++)
+        free(panels->group[k]);
+    *panels = (angular_panels){0};
+}
+
+/* ---- one frequency --------------------------------------------------------------------------- */
+
+/* The last edge at or below x. */
+static size_t edge_before(const angular_panels *a, double x)
+{
+    size_t low = a->edge[a->n] <= x ? a->n : 0, high = a->n;
+    while (low < high) {
+        const size_t middle = (low + high + 1) / 2;
+        if (a->edge[middle] <= x)
+            low = middle;
+        else
+            high = middle - 1;
+    }
+    return low;
+}
+
+/* Everything below an edge at c <= 1/2: sum_m b_m S_m c^(2m + s). */
+static void add_far(const angular_panels *a, size_t edge, double w, double *j1, double *j2)
+{
+    const double c = a->edge_omega[edge] / w, square = c * c;
+    const double *s1 = a->below[0] + edge * a->terms, *s2 = a->below[1] + edge * a->terms;
+    double sum1 = 0, sum2 = 0, b = 1, power = 1;
+    if (a->weight != NULL)
+        weight_far(a->weight, s1, s2, a->terms, square, &sum1, &sum2);
+    for (size_t m = 0; a->weight == NULL && m < a->terms && power > DBL_EPSILON / 64; m++) {
+        sum1 += b * power * s1[m];
+        sum2 += b * power * s2[m];
+        b *= (double)(2 * m + 1) / (double)(2 * m + 2);
+        power *= square;
+    }
+    *j1 += sum1 * square;
+    *j2 += sum2 * c;
+}
+
+/* sum_m of[m] c^(2m), c = edge / w, times 4 c^2. */
+WIDE_REGISTERS
+static void far_series(const double *restrict of, size_t terms, double edge,
+                       const double *restrict w, size_t n, double *restrict j1)
+{
+    for (size_t i = 0; i < n; i++) {
+        const double c = edge / w[i], square = c * c;
+        double sum = 0;
+        for (size_t m = terms; m-- > 0;)
+            sum = sum * square + of[m];
+        j1[i] = 4 * square * sum;
+    }
+}
+
+void angular_panels_far(const angular_panels *panels, const double *w, size_t n, double *j1)
+{
+    const angular_panels *a = panels;
+    const double *sums = a->below[0] + a->n * a->terms, edge = a->edge_omega[a->n];
+    double of[WEIGHT_FAR], b = 1, nearest = 0, power = 1;
+    for (size_t i = 0; i < n; i++)
+        nearest = nearest > edge / w[i] ? nearest : edge / w[i];
+    size_t terms = 0;
+    for (; terms < a->terms && terms < WEIGHT_FAR && power > DBL_EPSILON / 64; terms++) {
+        of[terms] = sums[terms] * (a->weight != NULL ? a->weight->far[0][terms] : b);
+        b *= (double)(2 * terms + 1) / (double)(2 * terms + 2);
+        power *= nearest * nearest;
+    }
+    far_series(of, terms, edge, w, n, j1);
+}
+
+enum { MIDDLE = 8 * PANEL_NODES }; /* nodes at a time: what a stack holds lightly */
+
+/* The n <= MIDDLE nodes of panels that are each as far below w as they are wide, or further. */
+WIDE_REGISTERS
+static void add_middle(size_t n, const double *restrict omega, const double *restrict f1,
+                       const double *restrict f2, double w, double *restrict j1,
+                       double *restrict j2)
+{
+    double kernel[MIDDLE], cosine[MIDDLE];
+    for (size_t i = 0; i < n; i++) {
+        cosine[i] = omega[i] / w;
+        kernel[i] = cosine[i] / sqrt((1 - cosine[i]) * (1 + cosine[i]));
+    }
+    wide sum1 = {0}, sum2 = {0};
+    size_t from = 0;
+    for (; from + WIDE <= n; from += WIDE) {
+        wide c, k, v1, v2;
+        memcpy(&c, cosine + from, sizeof c);
+        memcpy(&k, kernel + from, sizeof k);
+        memcpy(&v1, f1 + from, sizeof v1);
+        memcpy(&v2, f2 + from, sizeof v2);
+        sum1 += k * c * v1;
+        sum2 += k * v2;
+    }
+    for (size_t i = 0; from < n; i++, from++) {
+        sum1[i] += kernel[from] * cosine[from] * f1[from];
+        sum2[i] += kernel[from] * f2[from];
+    }
+    for (size_t i = 0; i < WIDE; i++) {
+        *j1 += sum1[i];
+        *j2 += sum2[i];
+    }
+}
+
+static void add_nodes(const angular_panels *a, size_t n, const double *omega, const double *f1,
+                      const double *f2, double w, double *j1, double *j2)
+{
+    if (a->weight != NULL)
+        weight_middle(a->weight, n, omega, f1, f2, w, j1, j2);
+    else
+        add_middle(n, omega, f1, f2, w, j1, j2);
+}
+
+/* From ln omega = `from` to `to` close below x = ln w, with ln omega = x - t^2. */
+static void add_near(const angular_panels *a, double x, double from, double to, double w,
+                     double *j1, double *j2)
+{
+    double omega[PANEL_NODES], storage[PANEL_NODES], loss[PANEL_NODES], weight[PANEL_NODES],
+        cosine[PANEL_NODES], t[PANEL_NODES], power[PANEL_NODES], gap[PANEL_NODES];
+    const double near = sqrt(fmax(0, x - to)), far = sqrt(x - from), half = 0.5 * (far - near);
+    for (size_t i = 0; i < PANEL_NODES; i++) {
+        t[i] = near + half * (1 + a->rule->node[i]);
+        power[i] = -2 * t[i] * t[i];
+    }
+    exponential_less_one(power, PANEL_NODES, gap); /* c^2 - 1 */
+    for (size_t i = 0; i < PANEL_NODES; i++) {
+        cosine[i] = sqrt(1 + gap[i]);
+        omega[i] = w * cosine[i];
+        weight[i] = half * a->rule->weight[i] * 2 * t[i] * cosine[i] / sqrt(-gap[i]);
+    }
+    a->material->law->modulus(a->material, omega, PANEL_NODES, storage, loss);
+    const angular_weight *in_direction = a->weight;
+    for (size_t i = 0; i < PANEL_NODES; i++) {
+        double part1 = weight[i] * cosine[i] * loss[i];
+        double part2 = weight[i] * (storage[i] * storage[i] + loss[i] * loss[i]);
+        if (in_direction != NULL) {
+            part1 *= weight_at(in_direction->power[0], 1 + gap[i]);
+            part2 *= weight_at(in_direction->power[1], 1 + gap[i]);
+        }
+        *j1 += part1;
+        *j2 += part2;
+    }
+}
+
+void angular_panels_integrate(const angular_panels *panels, double w, double *j1, double *j2)
+{
+    const angular_panels *a = panels;
+    *j1 = *j2 = 0;
+    if (w >= 2 * a->edge_omega[a->n]) {
+        add_far(a, a->n, w, j1, j2);
+    } else {
+        const double x = log(w);
+        size_t p = edge_before(a, x - M_LN2);
+        add_far(a, p, w, j1, j2);
+        while (p < a->n && a->edge[p] < x) {
+            const panel_group *group;
+            const size_t grouped = group_at(a, p, x, &group);
+            if (grouped > 0) {
+                add_nodes(a, GROUP_NODES, group->omega, group->value[0], group->value[1], w, j1,
+                          j2);
+                p += grouped;
+                continue;
+            }
+            size_t from = p * PANEL_NODES;
+            while (p < a->n && 2 * a->edge[p + 1] <= x + a->edge[p] &&
+                   (p * PANEL_NODES == from || group_at(a, p, x, &group) == 0))
+                p++;
+            for (const size_t end = p * PANEL_NODES; from < end; from += MIDDLE)
+                add_nodes(a, end - from < MIDDLE ? end - from : MIDDLE, a->omega + from,
+                          a->value[0] + from, a->value[1] + from, w, j1, j2);
+            /* narrow ones may follow */
+            for (; p < a->n && a->edge[p] < x && 2 * a->edge[p + 1] > x + a->edge[p]; p++)
+                add_near(a, x, a->edge[p], fmin(a->edge[p + 1], x), w, j1, j2);
+        }
+    }
+    *j1 *= 4;
+    *j2 *= 4;
+}
+
+double angular_panels_error(const angular_panels *panels, double w, double j1, double j2)
+{
+    const angular_panels *a = panels;
+    const double x = log(w);
+    const size_t edge = edge_before(a, x - widest);
+    double e[2];
+    logs_at(a->material, x, e);
+    const double largest = larger_log(a->largest[edge_before(a, x)], e);
+    const double start = a->edge_omega[0] / w, c = a->edge_omega[edge] / w;
+    const double kernel = 4 * c / sqrt((1 - c) * (1 + c)); /* at the edge, and less below it */
+    const double error1 = 4 * a->start_error[0] * start * start + kernel * c * a->moved[0][edge];
+    const double error2 = 4 * a->start_error[1] * start + kernel * a->moved[1][edge];
+    const double error = fmax(j1 > 0 ? error1 / j1 : 0, j2 > 0 ? error2 / j2 : 0) +
+                         pow(4, -(double)a->terms) + 8 * DBL_EPSILON +
+                         2 * DBL_EPSILON * (4 + largest);
+    return a->weight != NULL ? error * a->weight->caution : error;
+}

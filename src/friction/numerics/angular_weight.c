@@ -1,0 +1,202 @@
+/* Anisotropic roughness: its check, and its weight in the angular integrals as polynomials in
+ * cos^2 phi.
+ *
+ * SPDX-License-Identifier: GPL-3.0-or-later
+ */
+#include "friction/numerics/angular_weight.h"
+
+#include <float.h>
+#include <math.h>
+#include <string.h>
+
+/* ---- anisotropy ------------------------------------------------------------------------------ */
+
+static double order_of(size_t k)
+{
+    return 2 * (double)(k + 1);
+}
+
+bool anisotropy_is_any(const wt_anisotropy *a)
+{
+    for (size_t k = 0; k < WT_ANISOTROPY_ORDERS; k++)
+        if (a->amplitude[k] != 0)
+            return true;
+    return false;
+}
+
+/* Of cos(m phi) and of sin(m phi). */
+static void split_order(const wt_anisotropy *a, size_t k, double *even, double *odd)
+{
+    /* a whole number of turns off, so that grooves across and along are exact */
+    const double turn = remainder(order_of(k) * a->angle[k], 2 * M_PI);
+    *even = a->amplitude[k] * cos(turn);
+    *odd = a->amplitude[k] * sin(turn);
+    /* pi is rounded: what m chi = pi leaves is nothing */
+    if (fabs(*odd) <= 4 * DBL_EPSILON * (1 + fabs(order_of(k) * a->angle[k])) * fabs(*even))
+        *odd = 0;
+}
+
+bool anisotropy_is_aside(const wt_anisotropy *a)
+{
+    for (size_t k = 0; k < WT_ANISOTROPY_ORDERS; k++) {
+        double even, odd;
+        split_order(a, k, &even, &odd);
+        if (odd != 0)
+            return true;
+    }
+    return false;
+}
+
+double wt_anisotropy_density(const wt_anisotropy *anisotropy, double angle)
+{
+    double density = 1;
+    for (size_t k = 0; k < WT_ANISOTROPY_ORDERS; k++)
+        density += anisotropy->amplitude[k] * cos(order_of(k) * (angle - anisotropy->angle[k]));
+    return density;
+}
+
+/* Directions looked at: sixteen in a period of the highest order, between which it falls by no more
+ * than 1 - cos(pi / 16), 2 %, of its amplitude. */
+enum { DIRECTIONS = 16 * WT_ANISOTROPY_ORDERS };
+
+wt_status wt_anisotropy_check(const wt_anisotropy *anisotropy, wt_error *err)
+{
+    double least = (double)INFINITY, where = 0;
+    for (size_t k = 0; k < WT_ANISOTROPY_ORDERS; k++)
+        if (!isfinite(anisotropy->amplitude[k]) || !isfinite(anisotropy->angle[k]))
+            return wt_fail(err, WT_E_RANGE, "an anisotropy of the roughness must be finite");
+    for (size_t i = 0; i < DIRECTIONS; i++) {
+        const double angle = M_PI * (double)i / DIRECTIONS;
+        const double density = wt_anisotropy_density(anisotropy, angle);
+        if (density < least) {
+            least = density;
+            where = angle;
+        }
+    }
+    if (least >= -8 * WT_ANISOTROPY_ORDERS * DBL_EPSILON)
+        return WT_OK;
+    wt_fail(err, WT_E_RANGE, "the anisotropy makes the power spectrum negative");
+    wt_error_place(err, "%s", anisotropy->amplitude[0] != 0 ? "anisotropy" : "anisotropy-fourth");
+    wt_error_expected(err, "a density of at least 0 in every direction");
+    wt_error_found(err, "%.3g of the mean at %.0f deg from the velocity", least,
+                   where * 180 / M_PI);
+    wt_error_advice(err, "an anisotropy of one order alone is at most 1");
+    return WT_E_RANGE;
+}
+
+/* ---- weights --------------------------------------------------------------------------------- */
+
+/* The next shifted Chebyshev polynomial in x = cos^2 phi: 2 (2 x - 1) now - before. */
+static void next_chebyshev(double before[WEIGHT_POWERS], double now[WEIGHT_POWERS])
+{
+    double next[WEIGHT_POWERS];
+    for (size_t j = 0; j < WEIGHT_POWERS; j++)
+        next[j] = 4 * (j > 0 ? now[j - 1] : 0) - 2 * now[j] - before[j];
+    memcpy(before, now, sizeof next);
+    memcpy(now, next, sizeof next);
+}
+
+/* int_0^(pi/2) cos^p. */
+static double cosine_moment(double p)
+{
+    return 0.5 * sqrt(M_PI) * exp(lgamma(0.5 * (p + 1)) - lgamma(0.5 * p + 1));
+}
+
+/* The terms of the polynomial by their sum, for moduli that go with frequency as powers: |E|^2 from
+ * constant to its steepest, E'' between. */
+static double caution_of(const double power[WEIGHT_POWERS])
+{
+    double caution = 1;
+    for (int p = 0; p <= 2; p++) {
+        double sum = 0, terms = 0;
+        for (size_t j = 0; j < WEIGHT_POWERS; j++) {
+            const double term = power[j] * cosine_moment(p + 2 * (double)j);
+            sum += term;
+            terms += fabs(term);
+        }
+        caution = fmax(caution, terms / sum);
+    }
+    return caution;
+}
+
+/* 1 / sqrt(1 - c^2) = sum_m b_m c^2m. */
+static void finish_weight(angular_weight *w)
+{
+    double b[WEIGHT_FAR];
+    for (size_t m = 0; m < WEIGHT_FAR; m++)
+        b[m] = m == 0 ? 1 : b[m - 1] * (double)(2 * m - 1) / (double)(2 * m);
+    w->caution = 1;
+    for (size_t f = 0; f < 2; f++) {
+        for (size_t m = 0; m < WEIGHT_FAR; m++)
+            for (size_t j = 0; j < WEIGHT_POWERS && j <= m; j++)
+                w->far[f][m] += w->power[f][j] * b[m - j];
+        w->caution = fmax(w->caution, caution_of(w->power[f]));
+    }
+}
+
+angular_weight weight_along(const wt_anisotropy *a)
+{
+    angular_weight w = {.power = {{1}, {1}}};
+    double before[WEIGHT_POWERS] = {1}, now[WEIGHT_POWERS] = {-1, 2}; /* cos 0, cos 2 phi */
+    for (size_t k = 0; k < WT_ANISOTROPY_ORDERS; k++) {
+        double even, odd;
+        split_order(a, k, &even, &odd);
+        for (size_t j = 0; j < WEIGHT_POWERS; j++)
+            w.power[0][j] += even * now[j];
+        next_chebyshev(before, now);
+    }
+    memcpy(w.power[1], w.power[0], sizeof w.power[1]);
+    finish_weight(&w);
+    return w;
+}
+
+angular_weight weight_aside(const wt_anisotropy *a, double *shift)
+{
+    angular_weight w = {.power = {{0}, {1}}};
+    /* sin(phi) sin(2 k phi) = cos(phi) 2 (1 - x) U_(k-1)(2 x - 1), within 2 k */
+    double before[WEIGHT_POWERS] = {0}, now[WEIGHT_POWERS] = {1};
+    *shift = 0;
+    for (size_t k = 0; k < WT_ANISOTROPY_ORDERS; k++) {
+        double even, odd;
+        split_order(a, k, &even, &odd);
+        for (size_t j = 0; j < WEIGHT_POWERS; j++)
+            w.power[0][j] += 2 * odd * (now[j] - (j > 0 ? now[j - 1] : 0));
+        *shift += order_of(k) * fabs(odd);
+        next_chebyshev(before, now);
+    }
+    w.power[0][0] += *shift;
+    finish_weight(&w);
+    return w;
+}
+
+/* ---- sums ------------------------------------------------------------------------------------ */
+
+double weight_at(const double power[WEIGHT_POWERS], double square)
+{
+    double sum = power[WEIGHT_POWERS - 1];
+    for (size_t j = WEIGHT_POWERS - 1; j-- > 0;)
+        sum = sum * square + power[j];
+    return sum;
+}
+
+void weight_far(const angular_weight *w, const double *s1, const double *s2, size_t terms,
+                double square, double *sum1, double *sum2)
+{
+    double power = 1;
+    for (size_t m = 0; m < terms; m++) {
+        *sum1 += w->far[0][m] * power * s1[m];
+        *sum2 += w->far[1][m] * power * s2[m];
+        power *= square;
+    }
+}
+
+void weight_middle(const angular_weight *w, size_t n, const double *omega, const double *f1,
+                   const double *f2, double at, double *j1, double *j2)
+{
+    for (size_t i = 0; i < n; i++) {
+        const double c = omega[i] / at, square = c * c;
+        const double kernel = c / sqrt((1 - c) * (1 + c));
+        *j1 += weight_at(w->power[0], square) * kernel * c * f1[i];
+        *j2 += weight_at(w->power[1], square) * kernel * f2[i];
+    }
+}

@@ -1,0 +1,189 @@
+/* Contact area in partial contact: Yang and Persson, J. Phys.: Condens. Matter 20 (2008) 215214
+ * (yp08); Wang and Mueser, Tribol. Lett. 65 (2017) 103 (wm17); Xu et al. 2024 (xu24).
+ *
+ * SPDX-License-Identifier: GPL-3.0-or-later
+ */
+#include "friction/numerics/area_law.h"
+
+#include "core/base/array.h"
+#include "core/math/special.h"
+#include "friction/numerics/persson_contact.h"
+
+#include <math.h>
+#include <pthread.h>
+#include <stdlib.h>
+
+/* r = ln(G / G0) as Chebyshev series on pieces of x = ln G0. P has its next singular points at
+ * i pi/2 beside a real x, 4 of a piece away, and 7.8^-16 is 5e-15. The pieces end at G0 = 1e12:
+ * what the line in ln G0 that follows neglects is 1/G0^2 of G. */
+enum { DEGREE = 16, PIECES = 42 };
+static const double piece_width = 0.8;
+
+struct area_law {
+    wt_area_law kind;
+    double offset; /* of the line beyond the pieces */
+    double coefficient[PIECES][DEGREE + 1];
+};
+
+/* S = constant + linear P + square P^2 + fourth P^4. */
+static const struct {
+    double constant, linear, square, fourth;
+} factors[] = {[WT_AREA_PERSSON] = {1, 0, 0, 0},
+               [WT_AREA_YP08] = {0.42, 0, 0.58, 0},
+               [WT_AREA_WM17] = {5.0 / 9, 0, -2.0 / 9, 2.0 / 3},
+               [WT_AREA_XU24] = {0.42, 0.58, 0, 0}};
+
+static double factor_at(wt_area_law kind, double area)
+{
+    const double square = area * area;
+    return factors[kind].constant + factors[kind].linear * area + factors[kind].square * square +
+           factors[kind].fourth * square * square;
+}
+
+static double first_x(void)
+{
+    return log(CONTACT_FULL);
+}
+
+/* ---- making ---------------------------------------------------------------------------------- */
+
+/* int dG / S. */
+static double rise_between(wt_area_law kind, double from, double to)
+{
+    const double middle = 0.5 * (from + to), half = 0.5 * (to - from);
+    double sum = 0;
+    for (size_t i = 0; i < 4; i++) {
+        const double low = middle - half * gauss_8_node[i], high = middle + half * gauss_8_node[i];
+        sum += gauss_8_weight[i] *
+               (1 / factor_at(kind, contact_area(low)) + 1 / factor_at(kind, contact_area(high)));
+    }
+    return half * sum;
+}
+
+/* Newton steps double the digits; from a guess good to a tenth four do. */
+enum { STEPS = 6 };
+
+/* From (G0, G) to G at another G0 not far from it. */
+static double march(wt_area_law kind, double from, double variance, double to)
+{
+    double g = variance + (to - from) * factor_at(kind, contact_area(variance));
+    for (size_t i = 0; i < STEPS; i++)
+        g -= (from + rise_between(kind, variance, g) - to) * factor_at(kind, contact_area(g));
+    return g;
+}
+
+/* The root of G = S(P(G)) G0, which is the only one: the right side falls with G. */
+static double solve_closed(wt_area_law kind, double variance)
+{
+    double g = factor_at(kind, contact_area(variance)) * variance;
+    for (size_t i = 0; i < 2 * STEPS; i++) {
+        const double area = contact_area(g), y = 0.5 / sqrt(g);
+        const double slope = -M_2_SQRTPI * exp(-y * y) * y / (2 * g); /* dP/dG */
+        const double off = g - factor_at(kind, area) * variance;
+        g -= off / (1 - factors[kind].linear * slope * variance);
+    }
+    return g;
+}
+
+static void fit_piece(const double *value, double *coefficient)
+{
+    for (size_t j = 0; j <= DEGREE; j++) {
+        double sum = 0;
+        for (size_t k = 0; k <= DEGREE; k++)
+            sum +=
+                (k == 0 || k == DEGREE ? 0.5 : 1) * value[k] * cos(M_PI * (double)(j * k) / DEGREE);
+        coefficient[j] = (j == 0 || j == DEGREE ? 1 : 2) * sum / DEGREE;
+    }
+}
+
+static double at_node(size_t piece, size_t k)
+{
+    const double middle = first_x() + piece_width * ((double)piece + 0.5);
+    return middle + 0.5 * piece_width * cos(M_PI * (double)k / DEGREE);
+}
+
+static area_law *make_law(wt_area_law kind)
+{
+    area_law *made = malloc(sizeof *made);
+    if (made == NULL)
+        return NULL;
+    made->kind = kind;
+    double from = CONTACT_FULL, g = CONTACT_FULL;
+    for (size_t p = 0; p < PIECES; p++) {
+        double value[DEGREE + 1];
+        for (size_t k = DEGREE + 1; k-- > 0;) { /* rising */
+            const double to = exp(at_node(p, k));
+            g = kind == WT_AREA_XU24 ? solve_closed(kind, to) : march(kind, from, g, to);
+            from = to;
+            value[k] = log(g / to);
+        }
+        fit_piece(value, made->coefficient[p]);
+    }
+    const double slope = factors[kind].constant, bend = factors[kind].square / (M_PI * slope);
+    made->offset = g - slope * from - bend * log(from);
+    return made;
+}
+
+wt_status area_law_of(wt_area_law kind, const area_law **law, wt_error *err)
+{
+    static pthread_mutex_t lock = PTHREAD_MUTEX_INITIALIZER;
+    static area_law *made[COUNT_OF(factors)];
+    *law = NULL;
+    if (kind == WT_AREA_PERSSON)
+        return WT_OK;
+    pthread_mutex_lock(&lock);
+    if (made[kind] == NULL)
+        made[kind] = make_law(kind);
+    *law = made[kind];
+    pthread_mutex_unlock(&lock);
+    return *law != NULL ? WT_OK : wt_fail(err, WT_E_MEMORY, "out of memory for a contact area");
+}
+
+/* ---- use ------------------------------------------------------------------------------------- */
+
+/* Beyond the pieces. */
+static double far_variance(const area_law *law, double variance)
+{
+    const wt_area_law kind = law->kind;
+    const double slope = factors[kind].constant;
+    return kind == WT_AREA_XU24
+               ? solve_closed(kind, variance)
+               : slope * variance + factors[kind].square / (M_PI * slope) * log(variance) +
+                     law->offset;
+}
+
+double area_law_variance(const area_law *law, double variance)
+{
+    if (law == NULL || !(variance > CONTACT_FULL))
+        return variance;
+    const double place = (log(variance) - first_x()) / piece_width;
+    if (!(place < PIECES))
+        return far_variance(law, variance);
+    const size_t piece = (size_t)place;
+    const double *c = law->coefficient[piece], z = 2 * (place - (double)piece) - 1;
+    double next = 0, here = 0;
+    for (size_t j = DEGREE; j > 0; j--) { /* Clenshaw */
+        const double before = 2 * z * here - next + c[j];
+        next = here;
+        here = before;
+    }
+    return variance * exp(z * here - next + c[0]);
+}
+
+double area_law_integral(const area_law *law, double variance, double gamma)
+{
+    if (law == NULL || !(variance > CONTACT_FULL))
+        return contact_integral(variance, gamma);
+    const double length = log(variance) - first_x();
+    const size_t n = 1 + (size_t)(length / piece_width);
+    const double half = 0.5 * length / (double)n;
+    double sum = 0;
+    for (size_t p = 0; p < n; p++)
+        for (size_t i = 0; i < 8; i++) {
+            const double node = i < 4 ? -gauss_8_node[i] : gauss_8_node[i - 4];
+            const double g0 = exp(first_x() + half * ((double)(2 * p + 1) + node));
+            const double area = contact_area(area_law_variance(law, g0));
+            sum += half * gauss_8_weight[i % 4] * g0 * area * (gamma + (1 - gamma) * area * area);
+        }
+    return CONTACT_FULL + sum;
+}

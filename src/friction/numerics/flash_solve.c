@@ -1,0 +1,564 @@
+/* The temperatures that make themselves: solved for by Anderson mixing on a coarse grid and then on
+ * a fine one.
+ *
+ * SPDX-License-Identifier: GPL-3.0-or-later
+ */
+#include "friction/numerics/friction_kernel.h"
+
+#include "core/base/array.h"
+#include "core/math/cholesky.h"
+#include "core/math/simd.h"
+#include "core/math/vector_exp.h"
+#include "friction/numerics/persson_contact.h"
+
+#include <math.h>
+#include <string.h>
+
+/* Steps of the mixing that are remembered, and how much of what is left is taken: all of it is
+ * fastest, but plain steps diverge where heat lowers friction so steeply that the map turns over,
+ * and mixed ones may wander there. */
+enum { DEPTH = 5 };
+static const double damping = 0.5;
+/* From afar the first steps are plain ones, so short that they converge where the map turns over by
+ * up to 7 times. */
+enum { CAREFUL_MAPS = 12 };
+static const double careful_damping = 0.25;
+/* A mild solution is found by the first number of maps, and one that is there by the second. */
+enum { FREE_MAPS = 15, MOST_MAPS = 60 };
+/* A coarse solution is good to about so much of the largest rise. */
+static const double coarse_enough = 1e-5;
+/* Of the tolerance, what a residual may make of ln a_T. */
+static const double goal_share = 0.05;
+/* Waves in whole registers. */
+enum { WAVES_AT_ONCE = 32 };
+/* Differences that are rounding tell nothing. */
+static const double least_pivot = 1e-10;
+
+struct flash_scratch {
+    double *rise, *next, *residual;         /* [nodes] above T0, */
+    double *last_rise, *last_residual;      /* and those before */
+    double *steps, *changes;                /* [DEPTH * nodes] of both */
+    double *shift, *omega, *x, *j1, *j2;    /* [nodes] */
+    double *further;                        /* likewise, of a layer; NULL: as the bulk */
+    double *loss_j1, *loss_j2;              /* likewise, with a softening */
+    double *g, *running, *area, *mu, *heat; /* likewise */
+    double *wave, *square, *sum;            /* [waves] */
+    double *amount[2];                      /* [waves] of two solutions */
+    double *coarse;                         /* [nodes] a solution there */
+    size_t nodes;
+};
+
+static size_t most_nodes(const flash_law *law)
+{
+    size_t most = 0;
+    for (size_t k = 0; k < FLASH_GRIDS; k++)
+        most = law->grid[k].n > most ? law->grid[k].n : most;
+    return flash_whole_rows(most) + RULE_MOST;
+}
+
+flash_scratch *flash_scratch_new(const wt_friction_workspace *ws, pool *memory)
+{
+    flash_scratch *s = pool_alloc(memory, 1, sizeof *s);
+    if (s == NULL)
+        return NULL;
+    const size_t n = most_nodes(ws->flash);
+    double **const by_node[] = {
+        &s->rise,  &s->next,    &s->residual, &s->last_rise, &s->last_residual, &s->shift,
+        &s->omega, &s->x,       &s->j1,       &s->j2,        &s->loss_j1,       &s->loss_j2,
+        &s->g,     &s->running, &s->area,     &s->mu,        &s->heat,          &s->coarse};
+    for (size_t i = 0; i < COUNT_OF(by_node); i++)
+        *by_node[i] = pool_numbers(memory, n);
+    if (flash_has_layer(ws->flash))
+        s->further = pool_numbers(memory, n);
+    s->steps = pool_numbers(memory, DEPTH * n);
+    s->changes = pool_numbers(memory, DEPTH * n);
+    double **const by_wave[] = {&s->wave, &s->square, &s->sum, &s->amount[0], &s->amount[1]};
+    size_t waves = 0;
+    for (size_t k = 0; k < FLASH_GRIDS; k++)
+        waves = ws->flash->grid[k].n_k > waves ? ws->flash->grid[k].n_k : waves;
+    for (size_t i = 0; i < COUNT_OF(by_wave); i++)
+        *by_wave[i] = pool_numbers(memory, waves);
+    return s;
+}
+
+size_t flash_nodes(flash_scratch *scratch)
+{
+    const size_t nodes = scratch->nodes;
+    scratch->nodes = 0;
+    return nodes;
+}
+
+/* ---- the map from temperatures to those that they make ----------------------------------------
+ */
+
+typedef struct flash_map {
+    const wt_friction_workspace *ws;
+    const flash_law *law;
+    flash_scratch *s;
+    const flash_grid *grid;
+    friction_load at;
+    double part;     /* of the heat */
+    double longest;  /* what the waves beyond the lattice have together */
+    double constant; /* their rise */
+    double *amount;
+} flash_map;
+
+/* sum[i] += factor[r] rows[r][i]; a multiple of FLASH_ROWS of them. */
+WIDE_REGISTERS
+static void add_rows(const double *restrict rows, size_t stride, size_t n_rows, size_t n,
+                     const double *restrict factor, double *restrict sum)
+{
+    for (size_t r = 0; r < n_rows; r += FLASH_ROWS) {
+        const double *a = rows + r * stride, *b = a + stride, *c = b + stride, *d = c + stride;
+        const double fa = factor[r], fb = factor[r + 1], fc = factor[r + 2], fd = factor[r + 3];
+        for (size_t i = 0; i < n; i++)
+            sum[i] += (fa * a[i] + fb * b[i]) + (fc * c[i] + fd * d[i]);
+    }
+}
+
+/* Of the waves from the `first` on: dk m(k) / pi. */
+static void fill_waves(const flash_map *map, double tau, size_t first, size_t n, double *wave)
+{
+    double exponent[WAVES_AT_ONCE];
+    const double diffusivity = map->law->options.diffusivity, step = map->grid->step;
+    for (size_t from = 0, count; from < n; from += count) {
+        count = n - from < WAVES_AT_ONCE ? n - from : WAVES_AT_ONCE;
+        double k = exp(map->grid->first - (double)(first + from) * step);
+        const double ratio = exp(-step);
+        double scale[WAVES_AT_ONCE];
+        for (size_t j = 0; j < count; j++, k *= ratio) {
+            exponent[j] = -k * k * tau;
+            scale[j] = -step / (M_PI * diffusivity * k);
+        }
+        exponential_less_one(exponent, count, wave + from);
+        for (size_t j = 0; j < count; j++)
+            wave[from + j] *= scale[j];
+    }
+}
+
+/* Of those beyond the lattice, down to where they count no more. */
+static double sum_longest(const flash_map *map, double tau)
+{
+    const flash_grid *grid = map->grid;
+    const double lowest = fmin(log(map->law->q0), -0.5 * log(tau)) - grid->below;
+    const double count = (grid->first - lowest) / grid->step - (double)grid->n_k;
+    double wave[WAVES_AT_ONCE], sum = 0;
+    const size_t left = count > 0 ? (size_t)count : 0;
+    for (size_t from = 0, n; from < left; from += n) {
+        n = left - from < WAVES_AT_ONCE ? left - from : WAVES_AT_ONCE;
+        fill_waves(map, tau, grid->n_k + from, n, wave);
+        for (size_t j = 0; j < n; j++)
+            sum += wave[j];
+    }
+    return sum;
+}
+
+static flash_map map_on(const wt_friction_workspace *ws, flash_scratch *s, size_t grid,
+                        const friction_load *at, double *amount)
+{
+    const flash_law *law = ws->flash;
+    flash_map map = {.ws = ws,
+                     .law = law,
+                     .s = s,
+                     .grid = &law->grid[grid],
+                     .at = *at,
+                     .part = 1,
+                     .amount = amount};
+    const double tau = law->options.diffusivity * law->options.contact_size / at->speed;
+    fill_waves(&map, tau, 0, map.grid->n_k, s->wave);
+    map.longest = sum_longest(&map, tau);
+    return map;
+}
+
+/* J1 and J2 of the moduli at these temperatures. */
+static void find_moduli(const flash_map *map)
+{
+    flash_scratch *s = map->s;
+    const flash_grid *grid = map->grid;
+    const wt_friction_workspace *ws = map->ws;
+    const double log_speed = log(map->at.speed);
+    flash_log_shift(map->law, s->rise, grid->n, s->shift);
+    exponential(s->shift, grid->n, s->omega);
+    for (size_t i = 0; i < grid->n; i++) {
+        s->omega[i] *= grid->q[i] * map->at.speed;
+        s->x[i] = grid->log_q[i] + log_speed + s->shift[i];
+    }
+    if (s->further != NULL)
+        flash_log_layer(map->law, s->rise, grid->n, s->further);
+    double own_error = 0; /* that of the pass at these temperatures says so */
+    friction_moduli(ws, grid->q, s->omega, s->x, s->further, grid->n, s->j1, s->j2, s->loss_j1,
+                    s->loss_j2, &own_error);
+    s->nodes += grid->n;
+    if (ws->loss == NULL)
+        return;
+    for (size_t i = 0; i < grid->n; i++) {
+        const double f = grid->f[i], g = grid->g[i];
+        s->j1[i] *= g;
+        s->j2[i] = f * f * s->j2[i] + (g - f) * (g + f) * s->loss_j2[i];
+    }
+}
+
+/* P, the parts of mu without the weights, and the heat. */
+static void find_heat(const flash_map *map)
+{
+    flash_scratch *s = map->s;
+    const flash_grid *grid = map->grid;
+    const wt_friction_options *o = &map->ws->options;
+    const size_t n = grid->rule->n;
+    const double ratio = map->ws->stiffness * map->at.modulus / map->at.pressure;
+    double variance = 0;
+    for (size_t i = 0; i < grid->n; i++)
+        s->g[i] = 0.125 * ratio * ratio * map->at.density * grid->factor2[i] * s->j2[i];
+    for (size_t p = 0; p < grid->n_panels; p++) {
+        double *running = s->running + p * n;
+        for (size_t i = 0; i < grid->rule->room; i++)
+            running[i] = variance;
+        const double part = rule_running(grid->rule, s->g + p * n, running);
+        for (size_t i = 0; i < n; i++)
+            running[i] = fmax(running[i], i > 0 ? running[i - 1] : variance);
+        variance = fmax(variance + part, running[n - 1]);
+    }
+    for (size_t i = 0; map->ws->area != NULL && i < grid->n; i++)
+        s->running[i] = area_law_variance(map->ws->area, s->running[i]);
+    contact_areas(s->running, grid->n, s->area);
+    const double macroscopic = map->law->options.macroscopic, gamma = o->gamma;
+    const double per_mu =
+        2 * map->part * map->at.pressure * map->at.speed / map->law->options.heat_capacity;
+    for (size_t i = 0; i < grid->n; i++) {
+        const double area = s->area[i], partial = gamma + (1 - gamma) * area * area;
+        const double most = map->law->options.clipped ? fmax(area, macroscopic) : macroscopic;
+        s->mu[i] = 0.5 * ratio * map->at.density * grid->factor1[i] * s->j1[i] * area * partial;
+        s->heat[i] = per_mu * grid->q[i] * grid->weight[i] * s->mu[i] / most;
+    }
+}
+
+/* From `rise` to `next`. */
+static void make_next(flash_map *map)
+{
+    flash_scratch *s = map->s;
+    const flash_grid *grid = map->grid;
+    find_moduli(map);
+    find_heat(map);
+    const size_t rows = flash_whole_rows(grid->n), n_k = grid->n_k;
+    double of_longest = 0;
+    for (size_t i = 0; i < grid->n; i++)
+        of_longest += s->heat[i] / grid->q[i];
+    map->constant = map->longest * of_longest;
+    memset(s->heat + grid->n, 0, (rows - grid->n) * sizeof *s->heat);
+    memset(s->sum, 0, n_k * sizeof *s->sum);
+    add_rows(grid->in, n_k, rows, n_k, s->heat, s->sum);
+    for (size_t j = 0; j < n_k; j++)
+        map->amount[j] = s->wave[j] * s->sum[j];
+    for (size_t i = 0; i < grid->n; i++)
+        s->next[i] = map->constant;
+    add_rows(grid->out, grid->n, n_k, grid->n, map->amount, s->next);
+    for (size_t i = 0; i < grid->n; i++)
+        s->next[i] = fmin(s->next[i], map->law->hottest);
+}
+
+/* ---- Anderson mixing --------------------------------------------------------------------------
+ */
+
+static double largest(const double *x, size_t n)
+{
+    double most = 0;
+    for (size_t i = 0; i < n; i++)
+        most = x[i] > most || isnan(x[i]) ? x[i] : -x[i] > most ? -x[i] : most;
+    return most;
+}
+
+WIDE_REGISTERS
+static double dot(const double *a, const double *b, size_t n)
+{
+    wide sum = {0}, x, y;
+    size_t i = 0;
+    for (; i + WIDE <= n; i += WIDE) {
+        wide_load(&x, a + i);
+        wide_load(&y, b + i);
+        sum += x * y;
+    }
+    double rest = wide_sum(&sum);
+    for (; i < n; i++)
+        rest += a[i] * b[i];
+    return rest;
+}
+
+/* The next temperatures: what the last steps did to what was left tells how to leave nothing. */
+static void mix(const flash_map *map, size_t n_steps, double taken)
+{
+    flash_scratch *s = map->s;
+    const size_t n = map->grid->n;
+    double a[DEPTH * DEPTH], gamma[DEPTH] = {0};
+    for (size_t u = 0; u < n_steps; u++) {
+        gamma[u] = dot(s->changes + u * n, s->residual, n);
+        for (size_t v = 0; v <= u; v++)
+            a[u * DEPTH + v] = dot(s->changes + u * n, s->changes + v * n, n);
+    }
+    const bool mixed = n_steps > 0 && cholesky_solve(a, DEPTH, n_steps, least_pivot, gamma);
+    memcpy(s->last_rise, s->rise, n * sizeof *s->rise);
+    memcpy(s->last_residual, s->residual, n * sizeof *s->residual);
+    for (size_t i = 0; i < n; i++) {
+        double rise = s->rise[i], left = s->residual[i];
+        for (size_t u = 0; mixed && u < n_steps; u++) {
+            rise -= gamma[u] * s->steps[u * n + i];
+            left -= gamma[u] * s->changes[u * n + i];
+        }
+        rise += taken * left;
+        s->rise[i] = fmin(fmax(rise, 0), map->law->hottest);
+    }
+}
+
+/* What a search ended with. */
+typedef struct search {
+    bool found;
+    double residual; /* [K] */
+    double gain;     /* how much further off than its residual a temperature was */
+    size_t maps;
+} search;
+
+/* From `rise` to where what is left is below the goal [K], or below that part of the rise; the
+ * first `careful` steps are. */
+static search find_fixed(flash_map *map, double goal, double part, size_t careful)
+{
+    flash_scratch *s = map->s;
+    const size_t n = map->grid->n;
+    search found = {.gain = 1};
+    size_t n_steps = 0, place = 0;
+    while (found.maps < MOST_MAPS) {
+        make_next(map);
+        found.maps++;
+        for (size_t i = 0; i < n; i++)
+            s->residual[i] = s->next[i] - s->rise[i];
+        found.residual = largest(s->residual, n);
+        if (found.maps > 1) {
+            double *step = s->steps + place * n, *change = s->changes + place * n;
+            for (size_t i = 0; i < n; i++) {
+                step[i] = s->rise[i] - s->last_rise[i];
+                change[i] = s->residual[i] - s->last_residual[i];
+            }
+            found.gain = fmax(found.gain, largest(step, n) / largest(change, n));
+            place = (place + 1) % DEPTH;
+            n_steps += n_steps < DEPTH;
+        }
+        if (!isfinite(found.residual))
+            return found;
+        if (found.residual <= fmax(goal, part * largest(s->next, n))) {
+            found.found = s->next[n - 1] < map->law->hottest;
+            return found;
+        }
+        if (found.maps < careful)
+            mix(map, 0, careful_damping);
+        else
+            mix(map, n_steps, n_steps > 0 && found.maps < FREE_MAPS && careful == 0 ? 1 : damping);
+    }
+    return found;
+}
+
+/* ---- a solution ------------------------------------------------------------------------------ */
+
+/* What the lattice leaves of the rise: a tenth of what bounds a trapezoidal rule of what is regular
+ * for |arg k| below pi/4, and the waves below and above it. */
+static double lattice_off(const flash_grid *grid, double rise)
+{
+    return rise * (0.1 * exp(-0.5 * M_PI * M_PI / grid->step) + 2 * exp(-grid->below));
+}
+
+/* What the rules leave of the rise at q1 where the heat has a kink that mu and G do not show:
+ * errors of the heat of each panel, handed on as heat in its middle is. */
+static double kink_off(const flash_map *map)
+{
+    flash_scratch *s = map->s;
+    const flash_grid *grid = map->grid;
+    const size_t n = grid->rule->n;
+    double off = 0;
+    if (!map->law->options.clipped)
+        return 0;
+    for (size_t i = 0; i < grid->n; i++)
+        s->running[i] = s->heat[i] / grid->weight[i];
+    for (size_t p = 0; p < grid->n_panels; p++) {
+        rule_top top, other;
+        rule_tops(grid->rule, s->running + p * n, s->g + p * n, &top, &other);
+        const size_t middle = p * n + n / 2;
+        const double error = rule_error(grid->rule, &top);
+        for (size_t j = 0; j < grid->n_k; j++)
+            off += error * s->wave[j] * grid->in[middle * grid->n_k + j] *
+                   grid->out[j * grid->n + grid->n - 1];
+        off += error * map->longest / grid->q[middle];
+    }
+    return off;
+}
+
+static double sum_weighted(const flash_grid *grid, const double *value)
+{
+    double sum = 0;
+    for (size_t i = 0; i < grid->n; i++)
+        sum += grid->weight[i] * value[i];
+    return sum;
+}
+
+static double steepest_shift(const flash_law *law, double rise)
+{
+    const double step = 1e-3, at[] = {step, rise, rise + step}; /* [K] */
+    double shift[3], further[3] = {0};
+    flash_log_shift(law, at, 3, shift);
+    if (flash_has_layer(law))
+        flash_log_layer(law, at, 3, further);
+    const double bulk = fmax(fabs(shift[0]), fabs(shift[2] - shift[1]));
+    for (size_t i = 0; i < 3; i++)
+        shift[i] += further[i];
+    return fmax(bulk, fmax(fabs(shift[0]), fabs(shift[2] - shift[1]))) / step;
+}
+
+static double goal_of(const flash_law *law)
+{
+    return goal_share * fmax(law->tolerance, 1e-13) / steepest_shift(law, 0);
+}
+
+/* On the fine grid, from a solution on the coarse one. */
+static flash_solution refine(const wt_friction_workspace *ws, flash_scratch *s,
+                             const friction_load *at, double *amount)
+{
+    const flash_law *law = ws->flash;
+    const flash_grid *coarse = &law->grid[FLASH_COARSE], *fine = &law->grid[FLASH_FINE];
+    const size_t n_coarse = coarse->rule->n, n_fine = fine->rule->n;
+    memcpy(s->coarse, s->next, coarse->n * sizeof *s->coarse);
+    for (size_t p = 0; p < fine->n_panels; p++)
+        for (size_t i = 0; i < n_fine; i++) {
+            const double rise = dot(law->refine + i * n_coarse, s->coarse + p * n_coarse, n_coarse);
+            s->rise[p * n_fine + i] = fmin(fmax(rise, 0), law->hottest);
+        }
+    flash_map map = map_on(ws, s, FLASH_FINE, at, amount);
+    const search found = find_fixed(&map, goal_of(law), 0, 0);
+    const heat_profile heat = {.law = law,
+                               .square = fine->square,
+                               .amount = amount,
+                               .n = fine->n_k,
+                               .constant = map.constant};
+    double rise;
+    heat_rise(&heat, &ws->roughness->q1, 1, &rise);
+    return (flash_solution){.found = found.found,
+                            .rise = rise,
+                            .gain = found.gain,
+                            .off = found.gain *
+                                   (found.residual + lattice_off(fine, rise) + kink_off(&map)),
+                            .hysteresis = sum_weighted(fine, s->mu),
+                            .variance = sum_weighted(fine, s->g),
+                            .steepest = steepest_shift(law, rise),
+                            .maps = found.maps,
+                            .heat = heat};
+}
+
+static void begin_at(flash_scratch *s, const flash_grid *grid, double rise)
+{
+    for (size_t i = 0; i < grid->n; i++)
+        s->rise[i] = rise;
+}
+
+/* The heat is turned on in these steps where it is too much at once. */
+static const double first_part = 1.0 / 64, part_ratio = 2;
+
+static search search_cold(flash_map *map)
+{
+    begin_at(map->s, map->grid, 0);
+    search found = find_fixed(map, 0, coarse_enough, 0);
+    if (found.found)
+        return found;
+    begin_at(map->s, map->grid, 0);
+    for (map->part = first_part; map->part <= 1; map->part *= part_ratio) {
+        found = find_fixed(map, 0, coarse_enough, 0);
+        if (!found.found)
+            break;
+    }
+    map->part = 1;
+    return found;
+}
+
+/* Uniform rises [K] from which a hot contact is looked for: one is there if the rubber makes more
+ * heat than cold rubber does and enough to stay so hot. Rubber that is no glass any more makes ever
+ * less. */
+static const double probes[] = {20, 60, 160};
+/* Halvings of the ratio between two of them: the start is then good to a tenth. */
+enum { HALVINGS = 3 };
+
+/* The rise that the heat of a uniform one makes, averaged over the heat. */
+static double mean_rise(flash_map *map, double rise)
+{
+    flash_scratch *s = map->s;
+    double sum = 0, weight = 0;
+    begin_at(s, map->grid, rise);
+    make_next(map);
+    for (size_t i = 0; i < map->grid->n; i++) {
+        const double part = map->grid->weight[i] * s->mu[i];
+        weight += part;
+        sum += part * s->next[i];
+    }
+    return weight > 0 ? sum / weight : 0;
+}
+
+/* From a uniform rise between one that makes itself hotter, `low`, and one that does not. */
+static search search_between(flash_map *map, double low, double high)
+{
+    search found = {0};
+    double from = low, to = high;
+    for (size_t k = 0; k < HALVINGS; k++) {
+        const double middle = sqrt(from * to);
+        *(mean_rise(map, middle) >= middle ? &from : &to) = middle;
+    }
+    const double starts[] = {to, high};
+    for (size_t k = 0; !found.found && k < COUNT_OF(starts); k++) {
+        begin_at(map->s, map->grid, starts[k]);
+        found = find_fixed(map, 0, coarse_enough, CAREFUL_MAPS);
+    }
+    return found;
+}
+
+/* The hottest that is found from above; not found: `next` is undefined. */
+static search search_hot(flash_map *map)
+{
+    const double cold = mean_rise(map, 0);
+    double low = 0, high = map->law->hottest;
+    /* what cools by 20 K and by 60 K does not heat by 160 K */
+    for (size_t k = 0; k < COUNT_OF(probes) && probes[k] < map->law->hottest; k++) {
+        const double made = mean_rise(map, probes[k]);
+        if (made > cold && made >= probes[k]) {
+            low = probes[k];
+            high = map->law->hottest;
+        } else if (high > probes[k]) {
+            high = fmin(high, probes[k]);
+        }
+        if (k > 0 && !(low > 0 && low == probes[k]))
+            break;
+    }
+    return low > 0 ? search_between(map, low, high) : (search){0};
+}
+
+flash_solution flash_solve(const wt_friction_workspace *ws, flash_scratch *s,
+                           const friction_load *at)
+{
+    flash_map map = map_on(ws, s, FLASH_COARSE, at, s->amount[0]);
+    search found = search_cold(&map);
+    size_t maps = found.maps;
+    if (!found.found)
+        found = search_hot(&map);
+    if (!found.found)
+        return (flash_solution){.maps = maps};
+    flash_solution solution = refine(ws, s, at, s->amount[0]);
+    solution.maps += maps;
+    return solution;
+}
+
+/* Two temperatures that differ by no more are one: it is ten times what a coarse solution is off by
+ * at 40 K. [K] */
+static const double same = 0.01;
+
+flash_solution flash_solve_hot(const wt_friction_workspace *ws, flash_scratch *s,
+                               const friction_load *at, const flash_solution *cold)
+{
+    flash_map map = map_on(ws, s, FLASH_COARSE, at, s->amount[1]);
+    const search found = search_hot(&map);
+    if (!found.found || s->next[map.grid->n - 1] < cold->rise + same)
+        return (flash_solution){.maps = found.maps};
+    flash_solution hot = refine(ws, s, at, s->amount[1]);
+    hot.found = hot.found && hot.rise > cold->rise + same;
+    return hot;
+}

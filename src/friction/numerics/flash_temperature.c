@@ -1,0 +1,298 @@
+/* What a flash temperature is prepared with once: nodes, lattices and the factors of its kernel.
+ *
+ * SPDX-License-Identifier: GPL-3.0-or-later
+ */
+#include "friction/numerics/flash_temperature.h"
+#include "friction/numerics/friction_kernel.h"
+
+#include "core/base/array.h"
+#include "core/base/param.h"
+#include "core/math/simd.h"
+
+#include <math.h>
+
+/* For tolerances down to the one that stands with them: nodes of a panel, and the step of the
+ * lattice. */
+static const struct {
+    double tolerance;
+    size_t nodes[FLASH_GRIDS];
+    double step[FLASH_GRIDS];
+} ladders[] = {{1e-4, {4, 5}, {0.5, 0.4}},
+               {1e-6, {4, 6}, {0.5, 0.32}},
+               {1e-8, {4, 7}, {0.5, 0.27}},
+               {1e-11, {6, 12}, {0.4, 0.18}},
+               {0, {8, 18}, {0.3, 0.14}}};
+
+/* Below it rounding is what is left. */
+static const double least_tolerance = 1e-13;
+/* Cells towards q0. What a core leaves out of the heat is of the order of its length. */
+static const double core_share = 0.1;
+enum { LEVELS_LEAST = 3, LEVELS_MOST = 12 };
+
+/* Rubber is destroyed above [K]: what would get hotter has no answer. */
+static const double hottest = 573.15;
+
+/* ln(a_T / a_T0) of a law, ln a_T0 being `log_a`. */
+static void log_shift_of(const wt_shift_law *shift, double temperature, double log_a,
+                         const double *rise, size_t n, double *log_shift)
+{
+    const wt_wlf *wlf = &shift->wlf;
+    /* of T0 as the reference, so that small rises keep their digits */
+    const double c2 = wlf->c2 + temperature - wlf->reference_temperature;
+    const double c1 = M_LN10 * wlf->c1 * wlf->c2 / c2;
+    if (shift->kind == WT_LAW_WLF)
+        for (size_t i = 0; i < n; i++)
+            log_shift[i] = -c1 * rise[i] / (c2 + rise[i]);
+    else
+        for (size_t i = 0; i < n; i++)
+            log_shift[i] = M_LN10 * wt_shift_law_log_a(shift, temperature + rise[i]) - log_a;
+}
+
+void flash_log_shift(const flash_law *law, const double *rise, size_t n, double *log_shift)
+{
+    log_shift_of(&law->shift, law->temperature, law->log_a, rise, n, log_shift);
+}
+
+bool flash_has_layer(const flash_law *law)
+{
+    return law != NULL && law->layer_shift.kind != WT_LAW_NONE;
+}
+
+void flash_log_layer(const flash_law *law, const double *rise, size_t n, double *log_further)
+{
+    for (size_t i = 0; i < n; i++) {
+        double bulk, layer;
+        flash_log_shift(law, &rise[i], 1, &bulk);
+        log_shift_of(&law->layer_shift, law->temperature, law->layer_log_a, &rise[i], 1, &layer);
+        log_further[i] = layer - bulk;
+    }
+}
+
+/* ---- use of a profile ------------------------------------------------------------------------ */
+
+WIDE_REGISTERS
+static void add_waves(const double *restrict square, const double *restrict amount, size_t n_waves,
+                      const double *restrict of_q, size_t n, double *restrict rise)
+{
+    for (size_t j = 0; j < n_waves; j++) {
+        const double here = square[j], part = amount[j];
+        for (size_t i = 0; i < n; i++)
+            rise[i] += part * (of_q[i] / (here + of_q[i]));
+    }
+}
+
+void heat_rise(const heat_profile *heat, const double *q, size_t n, double *rise)
+{
+    for (size_t from = 0, count; from < n; from += count) {
+        double of_q[RULE_MOST];
+        count = n - from < RULE_MOST ? n - from : RULE_MOST;
+        for (size_t i = 0; i < count; i++) {
+            of_q[i] = 4 * q[from + i] * q[from + i];
+            rise[from + i] = heat->constant;
+        }
+        add_waves(heat->square, heat->amount, heat->n, of_q, count, rise + from);
+    }
+}
+
+void heat_log_shift(const heat_profile *heat, const double *q, size_t n, double *log_shift)
+{
+    heat_rise(heat, q, n, log_shift);
+    for (size_t i = 0; i < n; i++)
+        log_shift[i] = fmin(log_shift[i], heat->law->hottest);
+    flash_log_shift(heat->law, log_shift, n, log_shift);
+}
+
+void heat_log_layer(const heat_profile *heat, const double *q, size_t n, double *log_further)
+{
+    heat_rise(heat, q, n, log_further);
+    for (size_t i = 0; i < n; i++)
+        log_further[i] = fmin(log_further[i], heat->law->hottest);
+    flash_log_layer(heat->law, log_further, n, log_further);
+}
+
+/* ---- nodes ----------------------------------------------------------------------------------- */
+
+static void copy_nodes(flash_grid *grid, const double *q, const double *factor1,
+                       const double *factor2, const double *f, const double *g, double half)
+{
+    const size_t n = grid->rule->n, at = grid->n;
+    for (size_t i = 0; i < n; i++) {
+        grid->q[at + i] = q[i];
+        grid->log_q[at + i] = log(q[i]);
+        grid->weight[at + i] = grid->rule->weight[i];
+        grid->factor1[at + i] = half * factor1[i];
+        grid->factor2[at + i] = half * factor2[i];
+        if (grid->f != NULL && f != NULL) {
+            grid->f[at + i] = f[i];
+            grid->g[at + i] = g[i];
+        }
+    }
+    grid->n += n;
+    grid->n_panels++;
+}
+
+static wt_status place_grid(const wt_friction_workspace *ws, flash_grid *grid,
+                            const panel_plan *plan, pool *memory, wt_error *err)
+{
+    scale_grid all;
+    pool own = {0};
+    grid_init(&all, plan, grid->rule, &own);
+    const size_t room = (plan->n_panels + 1) * grid->rule->n;
+    double **const numbers[] = {&grid->q,       &grid->log_q, &grid->weight, &grid->factor1,
+                                &grid->factor2, &grid->f,     &grid->g};
+    const size_t n_numbers = ws->softening != NULL ? COUNT_OF(numbers) : 5;
+    for (size_t i = 0; i < n_numbers; i++)
+        *numbers[i] = pool_numbers(memory, room);
+    wt_status status = WT_OK;
+    if (own.failed || memory->failed)
+        status = wt_fail(err, WT_E_MEMORY, "out of memory for a flash temperature");
+    if (status == WT_OK) {
+        const size_t core = plan->levels * grid->rule->n;
+        const wt_layer_state *layer = &ws->options.layer;
+        grid_fill_core(&all, plan, plan->levels, ws->roughness, layer);
+        grid_fill_panels(&all, plan, 0, plan->n_panels, ws->roughness, layer);
+        const bool soft = all.f != NULL;
+        copy_nodes(grid, all.core_q + core, all.core_factor1 + core, all.core_factor2 + core,
+                   soft ? all.core_f + core : NULL, soft ? all.core_g + core : NULL,
+                   all.core_half_width[plan->levels]);
+        for (size_t p = 0; p < plan->n_panels; p++) {
+            const size_t at = p * grid->rule->n;
+            copy_nodes(grid, all.q + at, all.factor1 + at, all.factor2 + at,
+                       soft ? all.f + at : NULL, soft ? all.g + at : NULL, all.half_width[p]);
+        }
+    }
+    pool_free(&own);
+    return status;
+}
+
+/* ---- lattices -------------------------------------------------------------------------------- */
+
+/* k at which a factor 4 q / (k^2 + 4 q^2) differs by `digits` from that of 0, for any q. */
+static wt_status make_lattice(const flash_law *law, flash_grid *grid, double digits, pool *memory,
+                              wt_error *err)
+{
+    const size_t n = grid->n;
+    const double last = log(law->q0) - 0.5 * digits;
+    const size_t n_k = flash_whole_rows(1 + (size_t)((grid->first - last) / grid->step));
+    grid->square = pool_numbers(memory, n_k);
+    grid->in = pool_numbers(memory, n_k * flash_whole_rows(n));
+    grid->out = pool_numbers(memory, n_k * n);
+    grid->n_k = n_k;
+    if (memory->failed)
+        return wt_fail(err, WT_E_MEMORY, "out of memory for a flash temperature");
+    for (size_t j = 0; j < n_k; j++) {
+        const double k = exp(grid->first - (double)j * grid->step);
+        grid->square[j] = k * k;
+        for (size_t i = 0; i < n; i++) {
+            const double q = grid->q[i], lorentz = 4 * q / (k * k + 4 * q * q);
+            grid->in[i * n_k + j] = lorentz;
+            grid->out[j * n + i] = lorentz * q;
+        }
+    }
+    return WT_OK;
+}
+
+/* ---- both grids -------------------------------------------------------------------------------
+ */
+
+/* Values of the polynomial through the nodes of one rule at those of another. */
+static void fill_refine(const gauss_rule *from, const gauss_rule *to, double *matrix)
+{
+    for (size_t i = 0; i < to->n; i++)
+        for (size_t j = 0; j < from->n; j++) {
+            double value = 1;
+            for (size_t m = 0; m < from->n; m++)
+                if (m != j)
+                    value *= (to->node[i] - from->node[m]) / (from->node[j] - from->node[m]);
+            matrix[i * from->n + j] = value;
+        }
+}
+
+static size_t levels_for(double tolerance)
+{
+    const double levels = ceil(-0.5 * log2(core_share * cbrt(tolerance)));
+    return (size_t)fmin(fmax(levels, LEVELS_LEAST), LEVELS_MOST);
+}
+
+static wt_status place_grids(wt_friction_workspace *ws, flash_law *law, wt_error *err)
+{
+    pool own = {0};
+    panel_plan plan;
+    size_t ladder = 0;
+    while (law->tolerance < ladders[ladder].tolerance)
+        ladder++;
+    panel_plan_init(&plan, ws->roughness, PANEL_WIDTH, levels_for(law->tolerance), NULL, NULL, 0, 0,
+                    ws->softening, &own);
+    double *bounds = pool_numbers(&own, plan.capacity + 1);
+    wt_status status =
+        own.failed ? wt_fail(err, WT_E_MEMORY, "out of memory for a flash temperature") : WT_OK;
+    if (status == WT_OK)
+        panel_plan_lay(&plan, ws->roughness, NULL, 0, NULL, 0, bounds);
+    for (size_t k = 0; status == WT_OK && k < FLASH_GRIDS; k++) {
+        flash_grid *grid = &law->grid[k];
+        const double digits = -log(fmax(law->tolerance, least_tolerance));
+        grid->step = ladders[ladder].step[k];
+        grid->below = digits + 3; /* what is left out falls like k, and above like k^-5 */
+        grid->first = log(ws->roughness->q1) + grid->below / 5;
+        status = rule_of(ladders[ladder].nodes[k], &grid->rule, err);
+        if (status == WT_OK)
+            status = place_grid(ws, grid, &plan, &ws->memory, err);
+        if (status == WT_OK)
+            status = make_lattice(law, grid, digits, &ws->memory, err);
+    }
+    pool_free(&own);
+    return status;
+}
+
+/* ---- construction ---------------------------------------------------------------------------- */
+
+static wt_status check_law(const wt_friction_options *o, const wt_shift_law *layer, wt_error *err)
+{
+    if (o->shift.kind == WT_LAW_NONE) {
+        (void)wt_fail(err, WT_E_MISSING, "a flash temperature needs the shift law of the material");
+        wt_error_advice(err, "give WLF constants, or DMA isotherms at several temperatures");
+        return WT_E_MISSING;
+    }
+    if (!(o->temperature > 0) || !(o->temperature < hottest))
+        return range_error("temperature of the surroundings", o->temperature,
+                           "below 573 K, above which rubber is destroyed", err);
+    if (isnan(wt_shift_law_log_a(&o->shift, o->temperature)))
+        return range_error("temperature of the surroundings", o->temperature,
+                           "one at which the shift law has a value", err);
+    if (layer->kind != WT_LAW_NONE && isnan(wt_shift_law_log_a(layer, o->temperature)))
+        return range_error("temperature of the surroundings", o->temperature,
+                           "one at which the shift law of the layer has a value", err);
+    return WT_OK;
+}
+
+wt_status flash_new(wt_friction_workspace *ws, wt_error *err)
+{
+    const wt_friction_options *o = &ws->options;
+    wt_status status = check_law(o, &ws->layer_law, err);
+    flash_law *law = status == WT_OK ? pool_alloc(&ws->memory, 1, sizeof *law) : NULL;
+    if (status == WT_OK && law == NULL)
+        status = wt_fail(err, WT_E_MEMORY, "out of memory for a flash temperature");
+    if (status != WT_OK)
+        return status;
+    law->options = o->flash;
+    law->shift = o->shift;
+    law->temperature = o->temperature;
+    law->log_a = M_LN10 * wt_shift_law_log_a(&law->shift, law->temperature);
+    if (o->layer.thickness > 0 && ws->layer_law.kind != WT_LAW_NONE) {
+        law->layer_shift = ws->layer_law;
+        law->layer_log_a = M_LN10 * wt_shift_law_log_a(&law->layer_shift, law->temperature);
+    }
+    law->hottest = hottest - o->temperature;
+    law->tolerance = o->tolerance;
+    law->q0 = ws->roughness->q0;
+    ws->flash = law;
+    status = place_grids(ws, law, err);
+    const gauss_rule *coarse = law->grid[FLASH_COARSE].rule, *fine = law->grid[FLASH_FINE].rule;
+    if (status == WT_OK)
+        law->refine = pool_numbers(&ws->memory, coarse->n * fine->n);
+    if (law->refine != NULL)
+        fill_refine(coarse, fine, law->refine);
+    else if (status == WT_OK)
+        status = wt_fail(err, WT_E_MEMORY, "out of memory for a flash temperature");
+    return status;
+}

@@ -1,0 +1,133 @@
+/* Friction at the temperatures that it makes itself.
+ *
+ * SPDX-License-Identifier: GPL-3.0-or-later
+ */
+#include "friction/numerics/friction_kernel.h"
+
+#include "core/base/array.h"
+#include "core/math/root.h"
+#include "core/math/vector_exp.h"
+
+#include <math.h>
+
+/* The rules of a pass adapt, those of the temperatures do not: by how much both differ tells how
+ * good the heat is. Parts of the difference may cancel. */
+static const double of_difference = 3;
+
+double friction_heat_off(const flash_solution *solution, const friction_pass *pass)
+{
+    const double mu = fabs(solution->hysteresis - pass->hysteresis);
+    const double g = fabs(solution->variance - pass->variance);
+    const double relative = fmax(pass->hysteresis > 0 ? mu / pass->hysteresis : 0,
+                                 pass->variance > 0 ? g / pass->variance : 0);
+    return solution->off + of_difference * solution->gain * relative * solution->rise;
+}
+
+void friction_shift_nodes(const flash_solution *solution, const double *q, size_t n, double *omega,
+                          double *log_omega, double *further)
+{
+    double shift[RULE_MOST], factor[RULE_MOST];
+    heat_log_shift(&solution->heat, q, n, shift);
+    exponential(shift, n, factor);
+    for (size_t i = 0; i < n; i++) {
+        omega[i] *= factor[i];
+        log_omega[i] += shift[i];
+    }
+    if (further != NULL)
+        heat_log_layer(&solution->heat, q, n, further);
+}
+
+/* No number of a load without a solution is known. */
+static void unsettled_point(wt_friction_point *point)
+{
+    const wt_estimate unknown = {(double)NAN, (double)NAN, (double)NAN, "1"};
+    *point = (wt_friction_point){.stress_variance = unknown,
+                                 .area_ratio = unknown,
+                                 .one_minus_area = unknown,
+                                 .hysteresis = unknown,
+                                 .side = unknown,
+                                 .extrapolated_share = (double)NAN,
+                                 .unsettled = true,
+                                 .temperature = {(double)NAN, (double)NAN, (double)NAN, "K"},
+                                 .hot = {(double)NAN, (double)NAN, (double)NAN}};
+}
+
+wt_status friction_heated_point(
+    const wt_friction_workspace *ws, friction_scratch *scratch, friction_load at,
+    wt_status (*compute)(const wt_friction_workspace *ws, friction_scratch *scratch,
+                         const friction_load *at, wt_friction_point *point),
+    wt_friction_point *point)
+{
+    wt_status status = WT_OK;
+    const flash_solution cold = flash_solve(ws, scratch->flash, &at);
+    unsettled_point(point);
+    if (cold.found) {
+        at.heat = &cold;
+        point->unsettled = false;
+        status = compute(ws, scratch, &at, point);
+        const flash_solution hot = flash_solve_hot(ws, scratch->flash, &at, &cold);
+        if (status == WT_OK && hot.found) {
+            wt_friction_point other;
+            at.heat = &hot;
+            status = compute(ws, scratch, &at, &other);
+            if (status == WT_OK)
+                point->hot = (wt_friction_branch){other.hysteresis.value, other.area_ratio.value,
+                                                  other.temperature.value};
+        }
+    }
+    scratch->nodes += flash_nodes(scratch->flash);
+    return status;
+}
+
+wt_status friction_heat(const wt_friction_workspace *ws, friction_scratch *scratch,
+                        friction_load *at, wt_error *err)
+{
+    if (ws->flash == NULL || !(at->speed > 0))
+        return WT_OK;
+    scratch->heat = flash_solve(ws, scratch->flash, at);
+    scratch->nodes += flash_nodes(scratch->flash);
+    if (!scratch->heat.found) {
+        wt_fail(err, WT_E_CONVERGENCE, "no flash temperature was found");
+        wt_error_found(err, "none at %g m/s and %g Pa", at->speed, at->pressure);
+        wt_error_advice(err, "the rubber there would get hotter than 573 K, or its temperature "
+                             "does not settle: compute without a flash temperature");
+        return WT_E_CONVERGENCE;
+    }
+    at->heat = &scratch->heat;
+    return WT_OK;
+}
+
+/* ---- knots ----------------------------------------------------------------------------------- */
+
+typedef struct crossing {
+    const wt_roughness *roughness;
+    const heat_profile *heat;
+    double knot;
+} crossing;
+
+static double beyond_knot(double t, void *user)
+{
+    const crossing *c = user;
+    const double q = fmin(c->roughness->q0 + c->roughness->q0 * expm1(t), c->roughness->q1);
+    double shift;
+    heat_log_shift(c->heat, &q, 1, &shift);
+    return t + shift - c->knot;
+}
+
+/* Where it is crossed; one that is not is left outside. */
+void friction_move_knots(const wt_friction_workspace *ws, const heat_profile *heat, double *knots)
+{
+    const wt_roughness *r = ws->roughness;
+    const double length = log1p((r->q1 - r->q0) / r->q0);
+    const double at_low = beyond_knot(0, &(crossing){r, heat, 0});
+    const double at_high = beyond_knot(length, &(crossing){r, heat, length});
+    for (size_t k = 0; k < ws->n_knots; k++) {
+        crossing c = {r, heat, knots[k]};
+        const bool inside = at_low < knots[k] && length + at_high > knots[k];
+        double t = knots[k] - (knots[k] <= at_low ? at_low : at_high);
+        if (inside && root_find(beyond_knot, &c, 0, length, 0, &t, NULL) != WT_OK)
+            t = 2 * length;
+        knots[k] = t;
+    }
+    numbers_sort(knots, ws->n_knots);
+}

@@ -1,0 +1,550 @@
+/* Friction: preparation once per material and roughness, then G, P and mu at many velocities.
+ *
+ * SPDX-License-Identifier: GPL-3.0-or-later
+ */
+#include "friction/numerics/friction_kernel.h"
+#include "core/base/shared_params.h"
+#include "friction/numerics/friction_lateral.h"
+
+#include "core/base/array.h"
+#include "friction/numerics/persson_contact.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+/* For tolerances down to the one that stands with them: the rule for all panels, and its check. One
+ * too small for all is taken again for most: 100 velocities of 12 terms take 0.34 ms at 1e-10 with
+ * 12 and 17 nodes, 0.29 with these. */
+static const struct {
+    double tolerance;
+    size_t nodes[FRICTION_RULES];
+} ladders[] = {{1e-5, {8, 12}}, {3e-9, {12, 17}}, {0, {15, 20}}};
+/* Of what is as smooth as a closed form: half of the width puts its poles at 1.96. */
+static const double smooth_width = 1.6;
+
+/* Typical of filled rubber on asphalt: Persson, J. Phys.: Condens. Matter 18 (2006) 7789. */
+wt_flash wt_flash_defaults(void)
+{
+    return (wt_flash){
+        .contact_size = 1e-3, .heat_capacity = 2.2e6, .diffusivity = 1e-7, .macroscopic = 0.3};
+}
+
+wt_friction_options wt_friction_defaults(void)
+{
+    return (wt_friction_options){.tolerance = 1e-10,
+                                 .gamma = 1,
+                                 .layer = {.thickness = 0, .modulus_ratio = 1},
+                                 .threads = 1,
+                                 .strain_factor = 1,
+                                 .flash = wt_flash_defaults()};
+}
+
+static const wt_param rows[] = {
+    FRICTION_TOLERANCE(wt_friction_options),     FRICTION_GAMMA(wt_friction_options),
+    FRICTION_STRAIN_FACTOR(wt_friction_options), LAYER_STATE_ROWS(wt_friction_options, layer.),
+    PARAM_THREADS(wt_friction_options),          FRICTION_ANISOTROPY(wt_friction_options),
+    FRICTION_AREA_LAW(wt_friction_options),      FLASH_ROWS(wt_friction_options, flash.),
+};
+PARAM_TABLE(wt_friction_params, wt_friction_options, rows, wt_friction_defaults, NO_PARTS)
+
+static wt_status no_memory(wt_error *err)
+{
+    return wt_fail(err, WT_E_MEMORY, "out of memory for the friction integral");
+}
+
+/* The closed form in the core neglects the change of dmu/dG over it, which is about the length of
+ * the core; its share of mu is about the square root of that length. */
+static size_t levels_for(double tolerance)
+{
+    const double core = fmax(1e-10, 0.1 * cbrt(tolerance * tolerance));
+    return (size_t)ceil(-0.5 * log2(core));
+}
+
+wt_status friction_scratch_init(friction_scratch *scratch, const wt_friction_workspace *ws,
+                                size_t n_cuts, pool *memory, wt_error *err)
+{
+    *scratch = (friction_scratch){0};
+    panel_plan_init(&scratch->plan, ws->roughness, ws->plan.width, ws->plan.levels, ws->knots,
+                    ws->slopes, ws->n_knots, n_cuts, ws->softening, memory);
+    const size_t panels = scratch->plan.capacity;
+    scratch->room = panels;
+    for (size_t k = 0; k < FRICTION_RULES; k++)
+        grid_init(&scratch->grids[k], &scratch->plan, ws->rules[k], memory);
+    double **const by_node[] = {&scratch->omega,   &scratch->log_omega, &scratch->j1,
+                                &scratch->j2,      &scratch->rise,      &scratch->full,
+                                &scratch->loss_j1, &scratch->loss_j2};
+    const size_t n_by_node = ws->softening != NULL ? COUNT_OF(by_node) : 6;
+    for (size_t i = 0; i < n_by_node; i++)
+        *by_node[i] = pool_alloc(memory, (panels + 2) * RULE_MOST, sizeof **by_node[i]);
+    scratch->knots = pool_alloc(memory, ws->n_knots + 1, sizeof *scratch->knots);
+    double **const by_panel[] = {&scratch->bounds,   &scratch->panel_mu,   &scratch->panel_g,
+                                 &scratch->error_mu, &scratch->error_g,    &scratch->rough_g,
+                                 &scratch->rough_mu, &scratch->of_variance};
+    for (size_t i = 0; i < COUNT_OF(by_panel); i++)
+        *by_panel[i] = pool_alloc(memory, panels + 1, sizeof **by_panel[i]);
+    if (flash_has_layer(ws->flash))
+        scratch->further = pool_numbers(memory, (panels + 2) * RULE_MOST);
+    if (ws->flash != NULL)
+        scratch->flash = flash_scratch_new(ws, memory);
+    return memory->failed ? no_memory(err) : WT_OK;
+}
+
+static double rounding_of(const wt_friction_workspace *ws)
+{
+    const strain_law *s = ws->softening;
+    /* close to q0 the strain is that of a rounded q - q0, in as many cells as there are */
+    return s == NULL ? FRICTION_ROUNDING
+                     : FRICTION_ROUNDING * s->caution +
+                           2 * s->steepest * (8 + (double)ws->plan.levels) * DBL_EPSILON;
+}
+
+/* The modulus of a closed form has no singular point closer to a real ln q than i pi/2, the pole of
+ * a Maxwell element; that of a layer has. */
+static void choose_panels(wt_friction_workspace *ws)
+{
+    const wt_layer_state *layer = &ws->options.layer;
+    const bool smooth =
+        ws->material->law->angular != NULL && ws->softening == NULL && !ws->anisotropic;
+    const bool bulk = !(layer->thickness > 0) || (layer->modulus_ratio == 1 && ws->own == NULL);
+    panel_plan_init(&ws->plan, ws->roughness, smooth && bulk ? smooth_width : PANEL_WIDTH,
+                    levels_for(ws->options.tolerance), NULL, NULL, 0, 0, ws->softening,
+                    &ws->memory);
+}
+
+static wt_status make_rules(wt_friction_workspace *ws, wt_error *err)
+{
+    /* between knots panels are narrow */
+    const size_t last = COUNT_OF(ladders) - (ws->n_knots > 0 ? 2 : 1);
+    size_t ladder = 0;
+    wt_status status = WT_OK;
+    while (ladder < last && ws->options.tolerance < ladders[ladder].tolerance)
+        ladder++;
+    for (size_t k = 0; status == WT_OK && k < FRICTION_RULES; k++)
+        status = rule_of(ladders[ladder].nodes[k], &ws->rules[k], err);
+    return status;
+}
+
+/* The plan of all velocities. */
+static wt_status prepare_plan(wt_friction_workspace *ws, wt_error *err)
+{
+    double *bounds = pool_alloc(&ws->memory, ws->plan.capacity + 1, sizeof *bounds);
+    if (ws->memory.failed)
+        return no_memory(err);
+    panel_plan_lay(&ws->plan, ws->roughness, NULL, 0, NULL, 0, bounds);
+    return WT_OK;
+}
+
+static wt_status new_angular(wt_friction_workspace *ws, const wt_material *material,
+                             angular_law **made, wt_error *err)
+{
+    const wt_status status = angular_new(material, ws->options.tolerance, &ws->memory, made, err);
+    if (status == WT_OK && ws->anisotropic)
+        angular_weigh(*made, &ws->along);
+    return status;
+}
+
+/* Which way the roughness goes; series that are given know nothing of it. */
+static wt_status begin_anisotropy(wt_friction_workspace *ws, wt_error *err)
+{
+    const wt_anisotropy *anisotropy = &ws->options.anisotropy;
+    ws->anisotropic = anisotropy_is_any(anisotropy);
+    if (!ws->anisotropic)
+        return WT_OK;
+    ws->along = weight_along(anisotropy);
+    ws->options.series = NULL;
+    return wt_anisotropy_check(anisotropy, err);
+}
+
+static wt_status begin_softening(wt_friction_workspace *ws, wt_error *err)
+{
+    const wt_friction_options *o = &ws->options;
+    const wt_status status = softening_new(o->softening, o->strain_factor, ws->material,
+                                           ws->roughness, &ws->memory, &ws->softening, err);
+    ws->options.softening = NULL; /* its table was borrowed until now */
+    return status == WT_OK ? new_angular(ws, &ws->softening->loss, &ws->loss, err) : status;
+}
+
+/* A layer with moduli of its own, which are in J1 and J2 then; panels end where either material is
+ * not smooth. */
+static wt_status begin_layer(wt_friction_workspace *ws, wt_error *err)
+{
+    wt_layer_state *layer = &ws->options.layer;
+    if (!layer_has_moduli(layer))
+        return WT_OK;
+    ws->own = pool_alloc(&ws->memory, 1, sizeof *ws->own);
+    if (ws->own == NULL)
+        return no_memory(err);
+    const wt_status status =
+        layer_slope_shift(&ws->options.shift, ws->options.temperature, &layer->slope, err);
+    if (status != WT_OK)
+        return status;
+    *ws->own = layer_moduli_of(ws->material, *layer, ws->options.tolerance);
+    ws->own->weight = ws->anisotropic ? &ws->along : NULL;
+    size_t more = ws->own->n_edges;
+    const double *edges = ws->own->edges;
+    if (layer->own != NULL && layer->own->law->breaks != NULL)
+        edges = layer->own->law->breaks(layer->own, &more);
+    if (layer->own != NULL)
+        ws->layer_law = layer->own_law;
+    *layer = (wt_layer_state){.thickness = layer->thickness, .modulus_ratio = 1};
+    if (more == 0)
+        return WT_OK;
+    double *all = pool_numbers(&ws->memory, ws->n_knots + more);
+    if (all == NULL)
+        return no_memory(err);
+    for (size_t k = 0; k < ws->n_knots + more; k++)
+        all[k] = k < ws->n_knots ? ws->knots[k] : edges[k - ws->n_knots];
+    numbers_sort(all, ws->n_knots + more);
+    ws->knots = all;
+    ws->n_knots += more;
+    return WT_OK;
+}
+
+/* What panels must know of the knots. */
+static void prepare_knots(wt_friction_workspace *ws)
+{
+    if (ws->n_knots > 0)
+        ws->slopes = pool_numbers(&ws->memory, ws->n_knots + 1);
+    if (ws->n_knots > 0)
+        ws->log_knots = pool_numbers(&ws->memory, ws->n_knots);
+    if (ws->slopes == NULL || ws->log_knots == NULL)
+        return;
+    grid_slopes(ws->material, ws->knots, ws->n_knots, ws->slopes);
+    for (size_t k = 0; k < ws->n_knots; k++)
+        ws->log_knots[k] = log(ws->knots[k]);
+}
+
+/* The angular integrals of the material, if none are given, and what goes to the side. */
+static wt_status begin_angular(wt_friction_workspace *ws, wt_error *err)
+{
+    const wt_friction_options *o = &ws->options;
+    ws->angular = o->series;
+    wt_status status = WT_OK;
+    if (o->series == NULL)
+        status = new_angular(ws, ws->material, &ws->angular, err);
+    if (status == WT_OK && anisotropy_is_aside(&o->anisotropy))
+        status = friction_side_new(ws->material, o, ws->own, &ws->memory, &ws->side, err);
+    return status;
+}
+
+wt_status wt_friction_workspace_new(const wt_material *material, const wt_roughness *roughness,
+                                    const wt_friction_options *options,
+                                    wt_friction_workspace **workspace, wt_error *err)
+{
+    if (material == NULL || roughness == NULL || workspace == NULL)
+        return wt_fail(err, WT_E_ARG, "friction needs a material and a power spectrum");
+    const wt_friction_options o = options ? *options : wt_friction_defaults();
+    wt_status status = param_check(wt_friction_params(), &o, err);
+    if (status != WT_OK)
+        return status;
+    wt_friction_workspace *ws = calloc(1, sizeof *ws);
+    if (ws == NULL)
+        return no_memory(err);
+    ws->material = material;
+    ws->roughness = roughness;
+    ws->options = o;
+    ws->stiffness = 1 / (1 - material->poisson_ratio * material->poisson_ratio);
+    if (material->law->breaks != NULL && material->law->angular == NULL)
+        ws->knots = material->law->breaks(material, &ws->n_knots);
+    ws->threads = wt_thread_count(o.threads);
+    ws->scratch = pool_alloc(&ws->memory, ws->threads, sizeof *ws->scratch);
+    status = begin_anisotropy(ws, err);
+    if (status == WT_OK)
+        status = begin_layer(ws, err);
+    prepare_knots(ws);
+    if (status == WT_OK && o.softening != NULL)
+        status = begin_softening(ws, err);
+    choose_panels(ws);
+
+    if (status == WT_OK)
+        status = begin_angular(ws, err);
+    if (status == WT_OK)
+        status = make_rules(ws, err);
+    if (status == WT_OK)
+        ws->rounding = rounding_of(ws);
+    if (status == WT_OK)
+        status = area_law_of(o.area_law, &ws->area, err);
+    if (status == WT_OK && o.flash.on)
+        status = flash_new(ws, err);
+    if (status == WT_OK && ws->n_knots == 0)
+        status = prepare_plan(ws, err);
+    if (status == WT_OK && ws->memory.failed)
+        status = no_memory(err);
+    for (unsigned i = 0; status == WT_OK && i < ws->threads; i++)
+        status = friction_scratch_init(&ws->scratch[i], ws, 0, &ws->memory, err);
+    if (status != WT_OK) {
+        wt_friction_workspace_free(ws);
+        return status;
+    }
+    *workspace = ws;
+    return WT_OK;
+}
+
+void wt_friction_workspace_free(wt_friction_workspace *ws)
+{
+    if (ws == NULL)
+        return;
+    if (ws->options.series == NULL)
+        angular_clear(ws->angular);
+    angular_clear(ws->loss);
+    friction_side_clear(ws->side);
+    pool_free(&ws->memory);
+    free(ws);
+}
+
+size_t friction_nodes(const wt_friction_workspace *ws)
+{
+    size_t nodes = 0;
+    for (unsigned i = 0; i < ws->threads; i++)
+        nodes += ws->scratch[i].nodes;
+    return nodes;
+}
+
+/* A series that is given may be read by others at the same time: where it does not reach, the
+ * workspace makes its own. */
+static wt_status leave_given(wt_friction_workspace *ws, double lowest, double highest,
+                             wt_error *err)
+{
+    angular_law *own = NULL;
+    if (ws->options.series == NULL || angular_covers(ws->angular, lowest, highest))
+        return WT_OK;
+    const wt_status status =
+        angular_new(ws->material, ws->options.tolerance, &ws->memory, &own, err);
+    if (status == WT_OK) {
+        ws->angular = own;
+        ws->options.series = NULL;
+    }
+    return status;
+}
+
+/* Of the lowest frequency, for the hottest rubber that there can be. */
+static double lowest_shift(const wt_friction_workspace *ws)
+{
+    double log_shift = 0;
+    if (ws->flash != NULL)
+        flash_log_shift(ws->flash, &ws->flash->hottest, 1, &log_shift);
+    return exp(log_shift);
+}
+
+wt_status friction_prepare(wt_friction_workspace *ws, double pressure, const double *velocity,
+                           size_t n, wt_error *err)
+{
+    if (!(pressure > 0) || !isfinite(pressure))
+        return range_error("pressure", pressure, "finite and > 0 Pa", err);
+    double slowest = (double)INFINITY, fastest = 0, least = (double)INFINITY;
+    for (size_t i = 0; i < n; i++) {
+        const double speed = fabs(velocity[i]);
+        if (!isfinite(speed))
+            return range_error("velocity", velocity[i], "finite, in m/s", err);
+        least = fmin(least, speed);
+        if (speed > 0)
+            slowest = fmin(slowest, speed); /* at 0 there is the closed form alone */
+        fastest = fmax(fastest, speed);
+    }
+    const wt_material *material = ws->material;
+    const double shift = lowest_shift(ws);
+    const double lowest = (isfinite(slowest) ? slowest : 0) * ws->roughness->q0 * shift;
+    const double highest = fastest * ws->roughness->q1;
+    if (n == 0)
+        return WT_OK;
+    wt_status status = WT_OK;
+    if ((!material->law->angular || ws->anisotropic) &&
+        !(least * ws->roughness->q0 * shift >= ANGULAR_LEAST && highest <= DBL_MAX)) {
+        (void)range_error("velocity", highest <= DBL_MAX ? least : fastest,
+                          "not 0, and so that q v is a frequency in range", err);
+        wt_error_advice(err,
+                        "a material of kind %s has no static limit%s; a Prony series has where the "
+                        "roughness is the same in all directions",
+                        material->law->name, ws->anisotropic ? " on anisotropic roughness" : "");
+        return WT_E_RANGE;
+    }
+    if (!material->law->angular && material->law->check != NULL)
+        status = material->law->check(material, lowest, highest, NULL, err);
+    if (status == WT_OK)
+        status = leave_given(ws, lowest, highest, err);
+    if (status == WT_OK)
+        status = angular_cover(ws->angular, lowest, highest, err);
+    if (status == WT_OK && ws->softening != NULL)
+        status = angular_cover(ws->loss, lowest, highest, err);
+    return status == WT_OK && ws->side != NULL ? friction_side_cover(ws->side, lowest, highest, err)
+                                               : status;
+}
+
+friction_load friction_load_at(const wt_friction_workspace *ws, double pressure, double velocity)
+{
+    const double speed = fabs(velocity);
+    return (friction_load){.pressure = pressure,
+                           .speed = speed,
+                           .log_lowest = log(ws->roughness->q0) + log(speed),
+                           .modulus = 1,
+                           .density = 1};
+}
+
+const panel_plan *friction_plan(const wt_friction_workspace *ws, friction_scratch *scratch,
+                                const friction_load *at, const double *cuts, size_t n_cuts)
+{
+    if (!ws->n_knots && !n_cuts)
+        return &ws->plan;
+    for (size_t k = 0; k < ws->n_knots; k++)
+        scratch->knots[k] = ws->log_knots[k] - at->log_lowest;
+    if (at->heat != NULL)
+        friction_move_knots(ws, &at->heat->heat, scratch->knots);
+    panel_plan_lay(&scratch->plan, ws->roughness, cuts, n_cuts, scratch->knots, ws->n_knots,
+                   scratch->bounds);
+    for (size_t k = 0; k < FRICTION_RULES; k++)
+        grid_begin(&scratch->grids[k], &scratch->plan);
+    return &scratch->plan;
+}
+
+friction_relative friction_relative_error(const wt_friction_workspace *ws,
+                                          const friction_pass *pass, friction_load at)
+{
+    /* J2 goes with the square of the frequency at most, J1 with it, P with G as below */
+    const double shifted =
+        at.heat != NULL ? at.heat->steepest * friction_heat_off(at.heat, pass) : 0;
+    const double of_g = 2 * shifted, of_mu = shifted + FRICTION_AREA_POWER * of_g;
+    friction_relative e = {ws->rounding + of_g, ws->rounding + of_mu};
+    if (pass->variance > 0)
+        e.variance += pass->variance_moved / pass->variance;
+    if (pass->hysteresis > 0)
+        e.hysteresis += pass->hysteresis_moved / pass->hysteresis;
+    return e;
+}
+
+/* ---- velocities ------------------------------------------------------------------------------ */
+
+static wt_estimate estimate_of(double value, double error)
+{
+    return (wt_estimate){.value = value, .numerical_error = error, .unit = "1"};
+}
+
+typedef struct compute_job {
+    const wt_friction_workspace *ws;
+    double pressure;
+    const double *velocity;
+    size_t n;
+    wt_friction_point *points;
+} compute_job;
+
+static bool with_share(const wt_friction_workspace *ws)
+{
+    return !ws->options.without_share &&
+           (ws->own != NULL ? !isnan(ws->own->limit[0]) || !isnan(ws->own->limit[1])
+                            : angular_limited(ws->angular));
+}
+
+/* Of a load whose temperatures are known, forwards. */
+static wt_status compute_load(const wt_friction_workspace *ws, friction_scratch *scratch,
+                              const friction_load *at, wt_friction_point *point)
+{
+    const double tolerance = ws->options.tolerance;
+    const panel_plan *plan = friction_plan(ws, scratch, at, NULL, 0);
+    friction_pass pass;
+    friction_record record = {0};
+    friction_evaluate(ws, scratch, plan, (friction_effort){0}, *at, with_share(ws),
+                      ws->side != NULL ? &record : NULL, &pass);
+    const friction_relative relative = friction_relative_error(ws, &pass, *at);
+    const double error_g = relative.variance * pass.variance + pass.variance_error;
+    const double error_mu = relative.hysteresis * pass.hysteresis + pass.hysteresis_error;
+    const double corrected = area_law_variance(ws->area, pass.variance);
+    const double area = contact_area(corrected);
+    const double error_area = contact_area_error(corrected, error_g);
+    point->stress_variance = estimate_of(pass.variance, error_g);
+    point->area_ratio = estimate_of(area, error_area);
+    point->one_minus_area =
+        estimate_of(contact_gap(corrected), contact_gap_error(corrected, error_g));
+    point->hysteresis = estimate_of(pass.hysteresis, error_mu);
+    if (at->heat != NULL)
+        point->temperature = (wt_estimate){.value = ws->options.temperature + at->heat->rise,
+                                           .numerical_error = friction_heat_off(at->heat, &pass),
+                                           .unit = "K"};
+    point->nodes = pass.nodes;
+    point->reached = error_g <= tolerance * pass.variance && error_area <= tolerance * area &&
+                     error_mu <= tolerance * pass.hysteresis;
+    point->extrapolated_share = ws->options.without_share ? (double)NAN
+                                : pass.hysteresis > 0     ? fmin(pass.outside / pass.hysteresis, 1)
+                                                          : 0;
+    point->side = estimate_of(0, 0);
+    const wt_status status =
+        ws->side != NULL ? friction_side_of(ws, *at, &record, error_mu, &point->side) : WT_OK;
+    free(record.q);
+    free(record.mu);
+    return status;
+}
+
+static wt_status compute_point(const compute_job *job, friction_scratch *scratch, double velocity,
+                               wt_friction_point *point)
+{
+    const wt_friction_workspace *ws = job->ws;
+    wt_status status;
+    friction_load at = friction_load_at(ws, job->pressure, velocity);
+    const double sign = velocity < 0 ? -1 : velocity > 0 ? 1 : 0;
+    if (ws->flash == NULL || sign == 0) {
+        status = compute_load(ws, scratch, &at, point);
+        point->temperature = estimate_of((double)NAN, (double)NAN);
+        point->hot = (wt_friction_branch){(double)NAN, (double)NAN, (double)NAN};
+        point->unsettled = false;
+    } else {
+        status = friction_heated_point(ws, scratch, at, compute_load, point);
+    }
+    point->velocity = velocity;
+    point->hysteresis.value *= sign;
+    point->side.value *= sign;
+    point->hot.hysteresis *= sign;
+    return status;
+}
+
+static wt_status compute_one(void *user, size_t i, unsigned worker)
+{
+    const compute_job *job = user;
+    wt_friction_point *point = &job->points[i];
+    const wt_status status = compute_point(job, &job->ws->scratch[worker], job->velocity[i], point);
+    if (status != WT_OK)
+        return status;
+    const bool number = isfinite(point->stress_variance.value) && isfinite(point->hysteresis.value);
+    return number || point->unsettled ? WT_OK : WT_E_RANGE;
+}
+
+wt_status wt_friction_compute(wt_friction_workspace *workspace, double pressure,
+                              const double *velocity, size_t n, wt_friction_point *points,
+                              wt_error *err)
+{
+    if (workspace == NULL || velocity == NULL || points == NULL)
+        return wt_fail(err, WT_E_ARG, "friction needs velocities and a place for the results");
+    wt_status status = friction_prepare(workspace, pressure, velocity, n, err);
+    if (status == WT_OK && n > 0 && workspace->own == NULL && with_share(workspace))
+        status = angular_cover_outside(workspace->angular, err);
+    if (status != WT_OK)
+        return status;
+    compute_job job = {
+        .ws = workspace, .pressure = pressure, .velocity = velocity, .n = n, .points = points};
+    status = wt_parallel_for(n, workspace->threads, compute_one, &job, NULL, "friction");
+    if (status == WT_E_RANGE) {
+        (void)range_error("pressure", pressure,
+                          "so high that the stress variance G stays finite, in Pa", err);
+        wt_error_advice(err, "check the units of pressure, moduli and power spectrum");
+        return status;
+    }
+    return status == WT_OK ? WT_OK : wt_fail(err, status, "the friction integral could not be run");
+}
+
+double wt_friction_layer_ratio(const wt_friction_workspace *workspace, double omega)
+{
+    return workspace->own != NULL ? layer_moduli_ratio(workspace->own, omega)
+                                  : workspace->options.layer.modulus_ratio;
+}
+
+wt_estimate wt_friction_total(wt_estimate hysteresis, wt_estimate area_ratio,
+                              wt_estimate shear_stress, double pressure)
+{
+    const double per_area = shear_stress.value / pressure;
+    const double per_stress = area_ratio.value / pressure;
+    return (wt_estimate){.value = hysteresis.value + per_area * area_ratio.value,
+                         .standard_error = hypot(hysteresis.standard_error,
+                                                 hypot(per_area * area_ratio.standard_error,
+                                                       per_stress * shear_stress.standard_error)),
+                         .numerical_error = hysteresis.numerical_error +
+                                            fabs(per_area) * area_ratio.numerical_error +
+                                            fabs(per_stress) * shear_stress.numerical_error,
+                         .unit = "1"};
+}

@@ -1,0 +1,146 @@
+/* The force to the side on anisotropic roughness.
+ *
+ * SPDX-License-Identifier: GPL-3.0-or-later
+ */
+#include "friction/numerics/friction_lateral.h"
+
+#include <float.h>
+#include <math.h>
+#include <stdlib.h>
+
+/* K changes its sign where J1 does not, and a series is good relative to what it goes through: so
+ * K is the difference of two integrals that have no zero. */
+struct friction_side {
+    angular_weight weight;
+    double shift;         /* K = J1 of `shifted` less so many J1 of `plain` */
+    angular_law *shifted; /* weighed */
+    angular_law *plain;   /* of roughness that is the same in all directions */
+    layer_moduli own[2];  /* likewise, under a layer with moduli of its own */
+};
+
+wt_status friction_side_new(const wt_material *material, const wt_friction_options *options,
+                            const layer_moduli *own, pool *memory, friction_side **side,
+                            wt_error *err)
+{
+    friction_side *made = pool_alloc(memory, 1, sizeof *made);
+    if (made == NULL)
+        return wt_fail(err, WT_E_MEMORY, "out of memory for the force to the side");
+    *side = made;
+    made->weight = weight_aside(&options->anisotropy, &made->shift);
+    wt_status status = angular_new(material, options->tolerance, memory, &made->plain, err);
+    if (status == WT_OK)
+        status = angular_new(material, options->tolerance, memory, &made->shifted, err);
+    if (status == WT_OK)
+        angular_weigh(made->shifted, &made->weight);
+    if (own != NULL) {
+        made->own[0] = made->own[1] = *own;
+        made->own[0].weight = &made->weight;
+        made->own[1].weight = NULL;
+    }
+    return status;
+}
+
+void friction_side_clear(friction_side *side)
+{
+    if (side == NULL)
+        return;
+    angular_clear(side->shifted);
+    angular_clear(side->plain);
+}
+
+wt_status friction_side_cover(friction_side *side, double lowest, double highest, wt_error *err)
+{
+    const wt_status status = angular_cover(side->plain, lowest, highest, err);
+    return status == WT_OK ? angular_cover(side->shifted, lowest, highest, err) : status;
+}
+
+/* At the nodes of a record. */
+typedef struct side_nodes {
+    double *omega, *log_omega, *j1, *j2, *shifted, *plain;
+    double *further; /* of a layer's frequencies; NULL: those of the bulk */
+    double *numbers; /* all of them */
+} side_nodes;
+
+static bool place_nodes(const friction_record *record, friction_load at, bool further,
+                        side_nodes *nodes)
+{
+    const size_t n = record->n;
+    double *numbers = malloc(7 * n * sizeof *numbers);
+    if (numbers == NULL)
+        return false;
+    *nodes = (side_nodes){numbers,
+                          numbers + n,
+                          numbers + 2 * n,
+                          numbers + 3 * n,
+                          numbers + 4 * n,
+                          numbers + 5 * n,
+                          further ? numbers + 6 * n : NULL,
+                          numbers};
+    for (size_t i = 0; i < n; i++) {
+        nodes->omega[i] = record->q[i] * at.speed;
+        nodes->log_omega[i] = log(record->q[i]) + log(at.speed);
+    }
+    for (size_t i = 0; at.heat != NULL && i < n; i += RULE_MOST)
+        friction_shift_nodes(at.heat, record->q + i, n - i < RULE_MOST ? n - i : RULE_MOST,
+                             nodes->omega + i, nodes->log_omega + i,
+                             further ? nodes->further + i : NULL);
+    return true;
+}
+
+/* Of J1 from a closed form, which has no series: each a sum of some roundings. */
+static const double closed_error = 16 * DBL_EPSILON;
+/* The rules and the variance tell what they leave of the hysteresis; K / J1 goes with the moduli
+ * and moves what the rules see by no more than itself again. */
+static const double of_rules = 2;
+
+wt_status friction_side_of(const wt_friction_workspace *ws, friction_load at,
+                           const friction_record *record, double hysteresis_error,
+                           wt_estimate *side)
+{
+    const friction_side *s = ws->side;
+    const size_t n = record->n;
+    side_nodes k;
+    *side = (wt_estimate){.unit = "1"};
+    if (record->failed ||
+        (n > 0 && !place_nodes(record, at, at.heat != NULL && flash_has_layer(ws->flash), &k)))
+        return WT_E_MEMORY;
+    if (n == 0)
+        return WT_OK;
+    size_t piece[2] = {0, 0};
+    double own_error = 0;
+    if (ws->own != NULL) {
+        layer_moduli_eval(ws->own, record->q, k.omega, k.further, n, k.j1, k.j2, NULL, &own_error);
+        layer_moduli_eval(&s->own[0], record->q, k.omega, k.further, n, k.shifted, k.j2, NULL,
+                          &own_error);
+        layer_moduli_eval(&s->own[1], record->q, k.omega, k.further, n, k.plain, k.j2, NULL,
+                          &own_error);
+    } else {
+        angular_eval(ws->angular, k.omega, k.log_omega, n, k.j1, k.j2);
+        angular_eval(s->shifted, k.omega, k.log_omega, n, k.shifted, k.j2);
+        angular_eval(s->plain, k.omega, k.log_omega, n, k.plain, k.j2);
+    }
+    double first = k.log_omega[0],
+           last = first; /* where it is warmer, a finer scale may be slower */
+    for (size_t i = 1; i < n; i++) {
+        first = fmin(first, k.log_omega[i]);
+        last = fmax(last, k.log_omega[i]);
+    }
+    const bool own = ws->own != NULL;
+    const double error_shifted =
+        (own ? own_error : angular_error(s->shifted, first, last, &piece[0])) + closed_error;
+    const double error_plain =
+        (own ? own_error : angular_error(s->plain, first, last, &piece[1])) + closed_error;
+    double largest = 0, error = 0;
+    for (size_t i = 0; i < n; i++) {
+        if (!(k.j1[i] > 0))
+            continue;
+        const double ratio = (k.shifted[i] - s->shift * k.plain[i]) / k.j1[i];
+        side->value += record->mu[i] * ratio;
+        largest = fmax(largest, fabs(ratio));
+        error += record->mu[i] *
+                 (error_shifted * k.shifted[i] + s->shift * error_plain * k.plain[i]) / k.j1[i];
+    }
+    side->numerical_error = error + of_rules * largest * hysteresis_error;
+    free(k.numbers);
+    return WT_OK;
+}

@@ -1,0 +1,609 @@
+/* One pass of the friction integral: from the angular integrals at the nodes to G, P and mu.
+ *
+ *   G(q)  = 1/(8 sigma0^2) int k^3 C J2(k v) dk          P = erf(1 / (2 sqrt G))
+ *   mu    = 1/(2 sigma0) int k^3 C S P J1(k v) dk        S = gamma + (1 - gamma) P^2
+ *
+ * Persson, J. Chem. Phys. 115 (2001) 3840; S: Scaraggi and Persson, J. Phys.: Condens. Matter 27
+ * (2015) 105102.
+ *
+ * SPDX-License-Identifier: GPL-3.0-or-later
+ */
+#include "friction/numerics/friction_kernel.h"
+
+#include "friction/numerics/persson_contact.h"
+
+#include <math.h>
+
+/* |d ln J| over n nodes. */
+static double steepness(const double *j, size_t n)
+{
+    const double ratio = j[0] > 0 && j[n - 1] > 0 ? j[n - 1] / j[0] : 1;
+    const double few = 8; /* up to there |sinh ln| is at most twice |ln| */
+    return ratio < few && ratio > 1 / few ? 0.5 * fabs(ratio - 1 / ratio) : fabs(log(ratio));
+}
+
+static double series_error(const wt_friction_workspace *ws, double own_error, double low,
+                           double high, friction_pass *pass)
+{
+    if (ws->own != NULL)
+        return own_error * (ws->softening != NULL ? 2 * ws->softening->caution : 1);
+    if (ws->flash != NULL) /* the frequencies need not rise from panel to panel */
+        pass->piece = pass->loss_piece = 0;
+    const double error = angular_error(ws->angular, fmin(low, high), fmax(low, high), &pass->piece);
+    return ws->softening == NULL ? error
+                                 : ws->softening->caution *
+                                       (error + angular_error(ws->loss, fmin(low, high),
+                                                              fmax(low, high), &pass->loss_piece));
+}
+
+/* What the errors of J1 and J2 and rounding make of the part of a pass whose n nodes are at ln
+ * omega = `x`; G so far contains it. Errors of the series; ln(q / q0), ln omega and the logarithms
+ * of the knots are rounded, so what is steep there moves. */
+static void add_moved(const wt_friction_workspace *ws, double own_error, const grid_panel *panel,
+                      const double *x, const double *j1, const double *j2, size_t n,
+                      double log_lowest, double variance, double hysteresis, double variance_so_far,
+                      friction_pass *pass)
+{
+    const bool closed = ws->own == NULL && angular_closed(ws->angular, x[0], x[n - 1]) &&
+                        (ws->loss == NULL || angular_closed(ws->loss, x[0], x[n - 1]));
+    /* ln omega is a sum of two */
+    const double far = fmax(fabs(x[0]), fabs(x[n - 1])) + fabs(log_lowest);
+    const double moved = closed ? 0 : 4 * DBL_EPSILON * (1 + far);
+    const double series = closed ? 0 : series_error(ws, own_error, x[0], x[n - 1], pass);
+    const double steepest_closed = 2; /* of a term of a Prony series */
+    const double nodes =
+        DBL_EPSILON * (1 + panel->t_high) * (fabs(panel->power) + steepest_closed + 1);
+    pass->variance_moved += variance * (nodes + series + (closed ? 0 : moved * steepness(j2, n)));
+    pass->hysteresis_moved +=
+        hysteresis * (nodes + series + (closed ? 0 : moved * steepness(j1, n)));
+    if (variance_so_far > 0)
+        pass->hysteresis_moved +=
+            hysteresis * FRICTION_AREA_POWER * (pass->variance_moved / variance_so_far);
+}
+
+/* ---- nodes ----------------------------------------------------------------------------------- */
+
+/* Those of one panel, of a core, or of many panels in a row. */
+typedef struct node_view {
+    const gauss_rule *rule;
+    const double *t, *q, *factor1, *factor2;
+    const double *f, *g; /* NULL without a softening */
+    double half;
+    double *omega, *log_omega, *j1, *j2;
+    double *further;     /* of a layer's frequencies; NULL: those of the bulk */
+    double *rise, *full; /* of G, and of the hysteresis at full contact: without weights */
+} node_view;
+
+static node_view place_view(friction_scratch *scratch, const scale_grid *grid, size_t from)
+{
+    return (node_view){.rule = grid->rule,
+                       .omega = scratch->omega + from,
+                       .log_omega = scratch->log_omega + from,
+                       .further = scratch->further != NULL ? scratch->further + from : NULL,
+                       .j1 = scratch->j1 + from,
+                       .j2 = scratch->j2 + from,
+                       .rise = scratch->rise + from,
+                       .full = scratch->full + from};
+}
+
+static node_view panel_view(friction_scratch *scratch, const scale_grid *grid, size_t p,
+                            size_t from)
+{
+    const size_t at = p * grid->rule->n;
+    node_view view = place_view(scratch, grid, from);
+    view.t = grid->t + at;
+    view.q = grid->q + at;
+    view.factor1 = grid->factor1 + at;
+    view.factor2 = grid->factor2 + at;
+    view.half = grid->half_width[p];
+    if (grid->f != NULL) {
+        view.f = grid->f + at;
+        view.g = grid->g + at;
+    }
+    return view;
+}
+
+/* J1 and J2 of the softened moduli, from those of the moduli. */
+static void soften_moduli(const friction_scratch *scratch, const node_view *view)
+{
+    if (view->f == NULL)
+        return;
+    const double *loss = scratch->loss_j2 + (view->omega - scratch->omega);
+    for (size_t i = 0; i < view->rule->n; i++) {
+        const double f = view->f[i], g = view->g[i];
+        view->j1[i] *= g;
+        view->j2[i] = f * f * view->j2[i] + (g - f) * (g + f) * loss[i];
+    }
+}
+
+static void place_nodes(size_t n, const double *restrict q, const double *restrict t,
+                        friction_load at, double *restrict omega, double *restrict log_omega)
+{
+    for (size_t i = 0; i < n; i++) {
+        omega[i] = q[i] * at.speed;
+        log_omega[i] = t[i] + at.log_lowest;
+    }
+}
+
+static void place_omega(const node_view *view, friction_load at)
+{
+    place_nodes(view->rule->n, view->q, view->t, at, view->omega, view->log_omega);
+    if (at.heat != NULL)
+        friction_shift_nodes(at.heat, view->q, view->rule->n, view->omega, view->log_omega,
+                             view->further);
+}
+
+/* J1 and J2 at n nodes whose omega has been placed. */
+static void evaluate_nodes(const wt_friction_workspace *ws, friction_scratch *scratch,
+                           const double *q, const double *omega, size_t n)
+{
+    const size_t from = (size_t)(omega - scratch->omega);
+    double *loss_j1 = ws->loss != NULL ? scratch->loss_j1 + from : NULL;
+    double *loss_j2 = ws->loss != NULL ? scratch->loss_j2 + from : NULL;
+    scratch->nodes += n;
+    friction_moduli(ws, q, omega, scratch->log_omega + from,
+                    scratch->further != NULL ? scratch->further + from : NULL, n,
+                    scratch->j1 + from, scratch->j2 + from, loss_j1, loss_j2, &scratch->own_error);
+}
+
+/* Of G at a node from J2, and of the hysteresis at full contact from J1. */
+typedef struct pass_scale {
+    double g, mu;
+} pass_scale;
+
+static pass_scale scale_of(const wt_friction_workspace *ws, friction_load at)
+{
+    const double ratio = ws->stiffness * at.modulus / at.pressure;
+    return (pass_scale){.g = ratio * ratio / 8 * at.density, .mu = ratio / 2 * at.density};
+}
+
+static void scale_parts(size_t n, double scale, const double *restrict factor,
+                        const double *restrict j, double *restrict part)
+{
+    for (size_t i = 0; i < n; i++)
+        part[i] = scale * factor[i] * j[i];
+}
+
+/* Both at the nodes. */
+static void fill_parts(const node_view *view, pass_scale scale)
+{
+    scale_parts(view->rule->n, view->half * scale.g, view->factor2, view->j2, view->rise);
+    scale_parts(view->rule->n, view->half * scale.mu, view->factor1, view->j1, view->full);
+}
+
+/* So much of what the rules may still leave, one part may. */
+static const double one_part = 0.25;
+
+/* What the parts of one pass share. */
+typedef struct walk {
+    const wt_friction_workspace *ws;
+    friction_scratch *scratch;
+    const panel_plan *plan;
+    friction_effort effort;
+    friction_load at;
+    pass_scale scale;
+    bool with_outside;
+    friction_record *record; /* NULL: none */
+    friction_pass *pass;
+    double variance_left, hysteresis_left;   /* errors that the rules may still make, */
+    double variance_least, hysteresis_least; /* and what they may if there is nothing left */
+} walk;
+
+/* The parts of G and of the hysteresis at the nodes of one panel or core. */
+static void evaluate_view(const walk *w, const node_view *view)
+{
+    place_omega(view, w->at);
+    evaluate_nodes(w->ws, w->scratch, view->q, view->omega, view->rule->n);
+    soften_moduli(w->scratch, view);
+    fill_parts(view, w->scale);
+}
+
+static node_view core_view(const walk *w, size_t rule, size_t level)
+{
+    friction_scratch *scratch = w->scratch;
+    scale_grid *grid = &scratch->grids[rule];
+    const size_t from = (scratch->room + 1) * RULE_MOST;
+    grid_fill_core(grid, w->plan, level, w->ws->roughness, &w->ws->options.layer);
+    node_view view = place_view(scratch, grid, from);
+    const size_t first = level * grid->rule->n;
+    view.t = grid->core_t + first;
+    view.q = grid->core_q + first;
+    view.factor1 = grid->core_factor1 + first;
+    view.factor2 = grid->core_factor2 + first;
+    view.half = grid->core_half_width[level];
+    if (grid->f != NULL) {
+        view.f = grid->core_f + first;
+        view.g = grid->core_g + first;
+    }
+    evaluate_view(w, &view);
+    return view;
+}
+
+static double weighted_sum(const gauss_rule *rule, const double *f)
+{
+    double sum = 0;
+    for (size_t i = 0; i < rule->n; i++)
+        sum += rule->weight[i] * f[i];
+    return sum;
+}
+
+typedef struct pass_part {
+    double variance, hysteresis;
+    double variance_error, hysteresis_error; /* from the rule */
+    double closed_error;                     /* of the hysteresis from the closed form in a core */
+    double share[RULE_MOST];                 /* of the hysteresis, by node */
+} pass_part;
+
+/* ---- about what there will be -----------------------------------------------------------------
+ */
+
+/* Of a panel on top of a variance so far. */
+static double rough_part(const wt_friction_workspace *ws, const friction_scratch *scratch, size_t p,
+                         double variance)
+{
+    const double gamma = ws->options.gamma;
+    const double square = 1 / (1 + M_PI * (variance + 0.5 * scratch->rough_g[p])); /* about P^2 */
+    return scratch->rough_mu[p] * sqrt(square) * (gamma + (1 - gamma) * square);
+}
+
+/* The hysteresis of the panels outside the cells. */
+static double rough_hysteresis(const wt_friction_workspace *ws, const friction_scratch *scratch,
+                               const panel_plan *plan, double variance)
+{
+    double hysteresis = 0;
+    for (size_t p = plan->levels; p < plan->n_panels; p++) {
+        hysteresis += rough_part(ws, scratch, p, variance);
+        variance += scratch->rough_g[p];
+    }
+    return hysteresis;
+}
+
+/* ---- core ------------------------------------------------------------------------------------ */
+
+/* P is 1 in the core, or the core is so short that dmu/dG hardly changes in it:
+ * mu = (dmu/dG) int S P dG in closed form. */
+static void core_pass(const wt_friction_workspace *ws, const node_view *core, pass_part *part)
+{
+    const gauss_rule *rule = core->rule;
+    const double *g = core->rise, *mu = core->full;
+    double least = (double)INFINITY, most = 0, contact = 1;
+    rule_top top_g, top_mu;
+    rule_tops(rule, g, mu, &top_g, &top_mu);
+    part->variance = weighted_sum(rule, g);
+    part->variance_error = rule_error(rule, &top_g);
+    part->closed_error = 0;
+    if (part->variance > CONTACT_FULL) {
+        for (size_t i = 0; i < rule->n; i++)
+            if (g[i] > 0) {
+                least = fmin(least, mu[i] / g[i]);
+                most = fmax(most, mu[i] / g[i]);
+            }
+        const double integral = area_law_integral(ws->area, part->variance, ws->options.gamma);
+        contact = integral / part->variance;
+        part->closed_error = (most - least) * integral;
+    }
+    part->hysteresis = contact * weighted_sum(rule, mu);
+    part->hysteresis_error = contact * rule_error(rule, &top_mu);
+    for (size_t i = 0; i < rule->n; i++)
+        part->share[i] = contact * rule->weight[i] * mu[i];
+}
+
+/* By how many levels a core is too short: a cell is 1/4 of the next, and so is G in the core; what
+ * the closed form neglects, the change of dmu/dG times the integral, is 1/16. */
+static double levels_short(const pass_part *part, double allowed)
+{
+    const double target = 0.5 * CONTACT_FULL;
+    const double full = part->variance > 0 ? 0.5 * log2(target / part->variance) : 0;
+    return part->closed_error > 0 && allowed > 0
+               ? fmax(full, 0.25 * log2(allowed / part->closed_error))
+               : full;
+}
+
+/* The largest core, at no less than `*level`, in which P is 1 or the error of the closed form is no
+ * more than `allowed` of the hysteresis; or one as deep as they go. */
+static node_view find_core(const walk *w, double allowed, size_t *level, pass_part *part)
+{
+    const panel_plan *plan = w->plan;
+    if (*level > plan->levels)
+        *level = plan->levels;
+    for (;;) {
+        const node_view core = core_view(w, RULE_FIRST, *level);
+        core_pass(w->ws, &core, part);
+        const double cells = ldexp(part->variance, 2 * (int)*level); /* G up to the panels */
+        const double least =
+            allowed > 0 ? allowed * rough_hysteresis(w->ws, w->scratch, plan, cells) : 0;
+        const double shorter = levels_short(part, least);
+        if (*level >= plan->levels || !(shorter < 0))
+            return core;
+        const double deeper = ceil(-shorter);
+        const size_t left = plan->levels - *level;
+        *level += deeper < (double)left ? (size_t)fmax(1, deeper) : left;
+    }
+}
+
+/* ---- panels ---------------------------------------------------------------------------------- */
+
+/* From this G on all of P shows in the hysteresis: 1 - P is a fifth there, and no small difference
+ * any more. */
+static const double area_begun = 0.3;
+
+/* Of one panel, from the values with full contact and with S P, G rising from `before` to `after`.
+ * Where P leaves 1 the difference is too small to show in the last coefficients, so it is looked at
+ * alone. */
+static double hysteresis_error(const gauss_rule *rule, const rule_top *full, const rule_top *part,
+                               double before, double after)
+{
+    rule_top gap;
+    if (!(before < area_begun))
+        return rule_error(rule, part);
+    const double own = rule_error(rule, full);
+    if (!(after > CONTACT_FULL))
+        return own;
+    for (size_t k = 0; k < RULE_TOP; k++)
+        gap.coefficient[k] = full->coefficient[k] - part->coefficient[k];
+    return own + rule_error(rule, &gap);
+}
+
+/* On top of a variance so far. */
+static void panel_pass(const wt_friction_workspace *ws, const node_view *view, double variance,
+                       pass_part *part)
+{
+    const gauss_rule *rule = view->rule;
+    const double gamma = ws->options.gamma, *g = view->rise, *full = view->full;
+    double running[RULE_MOST + CONTACT_ROOM], area[RULE_MOST + CONTACT_ROOM], mu[RULE_MOST];
+    rule_top top_g, top_full, top_mu;
+    for (size_t j = 0; j < rule->n + CONTACT_ROOM; j++)
+        running[j] = variance;
+    part->variance = rule_running(rule, g, running);
+    part->closed_error = 0;
+    part->hysteresis = 0;
+    bool falls = running[0] < variance;
+    for (size_t j = 1; j < rule->n; j++)
+        falls |= running[j] < running[j - 1];
+    /* G never falls: where it rises too steeply for a polynomial, the nodes so far */
+    double below = variance, highest = variance;
+    for (size_t j = 0; falls && j < rule->n; j++) {
+        const double here = running[j] < variance ? below : running[j];
+        below += rule->weight[j] * g[j];
+        running[j] = highest = here > highest ? here : highest;
+    }
+    for (size_t j = 0; ws->area != NULL && j < rule->n; j++)
+        running[j] = area_law_variance(ws->area, running[j]);
+    contact_areas(running, rule->n, area);
+    for (size_t j = 0; j < rule->n; j++)
+        mu[j] = full[j] * area[j] * (gamma + (1 - gamma) * area[j] * area[j]);
+    for (size_t j = 0; j < rule->n; j++) {
+        part->share[j] = rule->weight[j] * mu[j];
+        part->hysteresis += part->share[j];
+    }
+    rule_tops(rule, g, mu, &top_g, &top_mu);
+    part->variance_error = rule_error(rule, &top_g);
+    if (variance < area_begun)
+        rule_tops(rule, full, mu, &top_full, &top_mu);
+    part->hysteresis_error =
+        hysteresis_error(rule, &top_full, &top_mu, variance, variance + part->variance);
+}
+
+/* ---- one pass -------------------------------------------------------------------------------- */
+
+/* What of a part comes from frequencies outside the data. */
+static double outside_of(const wt_friction_workspace *ws, const node_view *view,
+                         const pass_part *part)
+{
+    const size_t n = view->rule->n;
+    double j1[RULE_MOST] = {0}, outside[RULE_MOST], sum = 0;
+    for (size_t j = 0; ws->own != NULL && j < n; j++) {
+        const double times = view->further != NULL ? exp(view->further[j]) : 1;
+        const double at = times * view->omega[j];
+        if (at < ws->own->limit[0] || at > ws->own->limit[1])
+            sum += part->share[j];
+    }
+    if (ws->own != NULL)
+        return sum;
+    for (size_t j = 0; j < n; j++)
+        j1[j] = view->g != NULL ? view->j1[j] / view->g[j] : view->j1[j];
+    angular_outside(ws->angular, view->omega, j1, n, outside);
+    for (size_t j = 0; j < n; j++)
+        if (part->share[j] > 0)
+            sum += part->share[j] * (outside[j] / j1[j]);
+    return sum;
+}
+
+/* Adds a part, from the nodes in view, to a pass: of the core (place 0) or of a panel. */
+static void add_part(walk *w, const grid_panel *panel, const node_view *view, const pass_part *part,
+                     size_t place)
+{
+    const wt_friction_workspace *ws = w->ws;
+    friction_scratch *scratch = w->scratch;
+    friction_pass *pass = w->pass;
+    const size_t n = view->rule->n;
+    const double variance = pass->variance + part->variance;
+    if (w->record != NULL)
+        friction_record_add(w->record, view->q, part->share, n);
+    if (w->with_outside)
+        pass->outside += outside_of(ws, view, part);
+    pass->variance_error += part->variance_error;
+    add_moved(ws, scratch->own_error, panel, view->log_omega, view->j1, view->j2, n,
+              w->at.log_lowest, part->variance, part->hysteresis, variance, pass);
+    double error = part->hysteresis_error + part->closed_error;
+    if (place > 0 && variance > 0) /* G may be next to nothing, and its quotients no numbers */
+        error += FRICTION_AREA_POWER * part->hysteresis * (pass->variance_error / variance);
+    scratch->error_g[place] += part->variance_error;
+    scratch->error_mu[place] += error;
+    scratch->panel_g[place] += part->variance;
+    scratch->panel_mu[place] += part->hysteresis;
+    pass->variance = variance;
+    pass->hysteresis += part->hysteresis;
+    pass->hysteresis_error += error;
+    pass->nodes += n;
+    w->variance_left -= part->variance_error;
+    w->hysteresis_left -= part->hysteresis_error + part->closed_error;
+}
+
+/* The panels from the `first` up to the `last`, left out, by the first rule. */
+static void begin_panels(const walk *w, size_t first, size_t last)
+{
+    friction_scratch *scratch = w->scratch;
+    scale_grid *grid = &scratch->grids[RULE_FIRST];
+    const size_t n = grid->rule->n;
+    grid_fill_panels(grid, w->plan, first, last, w->ws->roughness, &w->ws->options.layer);
+    for (size_t p = first; p < last; p++) {
+        const node_view view = panel_view(scratch, grid, p, p * n);
+        place_omega(&view, w->at);
+    }
+    evaluate_nodes(w->ws, scratch, grid->q + first * n, scratch->omega + first * n,
+                   (last - first) * n);
+    for (size_t p = first; p < last; p++) {
+        const node_view view = panel_view(scratch, grid, p, p * n);
+        soften_moduli(scratch, &view);
+        fill_parts(&view, w->scale);
+        scratch->rough_g[p] = weighted_sum(view.rule, view.rise);
+        scratch->rough_mu[p] = weighted_sum(view.rule, view.full);
+    }
+}
+
+/* Part of a panel by a rule. */
+static node_view part_view(const walk *w, const grid_panel *panel, size_t rule)
+{
+    friction_scratch *scratch = w->scratch;
+    scale_grid *grid = &scratch->grids[rule];
+    grid_fill_part(grid, w->plan, panel, w->ws->roughness, &w->ws->options.layer);
+    const node_view view = panel_view(scratch, grid, w->plan->capacity, scratch->room * RULE_MOST);
+    evaluate_view(w, &view);
+    return view;
+}
+
+/* A panel is halved no more often: what is no smoother on a thousandth of it is a jump. */
+enum { MOST_HALVES = 10 };
+
+/* Begins a pass on top of a core with what there will be, by the first rule, and what an error of G
+ * from a panel on makes of the hysteresis: that of its P there and in all panels above it. */
+static void begin_pass(walk *w, size_t level, const pass_part *core)
+{
+    friction_scratch *scratch = w->scratch;
+    const size_t first = w->plan->levels - level, last = w->plan->n_panels;
+    double variance = core->variance, hysteresis = core->hysteresis, sum = 0;
+    for (size_t p = first; p < last; p++) {
+        const double part = rough_part(w->ws, scratch, p, variance);
+        variance += scratch->rough_g[p];
+        hysteresis += part;
+        scratch->of_variance[p] = variance > 0 ? FRICTION_AREA_POWER * part / variance : 0;
+    }
+    for (size_t p = last; p > first; p--)
+        scratch->of_variance[p - 1] = sum += scratch->of_variance[p - 1];
+    const double share = FRICTION_SHARE * w->ws->options.tolerance;
+    w->variance_left = share * variance;
+    w->hysteresis_left = share * hysteresis;
+    w->variance_least = one_part * one_part * w->variance_left;
+    w->hysteresis_least = one_part * one_part * w->hysteresis_left;
+    *w->pass = (friction_pass){.level = level, .parts = last - first + 1};
+    for (size_t place = 0; place < w->pass->parts; place++)
+        scratch->error_g[place] = scratch->error_mu[place] = scratch->panel_g[place] =
+            scratch->panel_mu[place] = 0;
+}
+
+static double of_variance_after_core(const walk *w)
+{
+    const size_t first = w->plan->levels - w->pass->level;
+    return first < w->plan->n_panels ? w->scratch->of_variance[first] : 0;
+}
+
+/* Whether a rule suffices for part of a panel, halved `depth` times. */
+static bool is_fine(const walk *w, const pass_part *part, double of_variance, size_t depth)
+{
+    const double share = ldexp(1, -(int)depth), so_far = w->pass->variance + part->variance;
+    const double variance = share * fmax(one_part * w->variance_left, w->variance_least);
+    const double hysteresis = share * fmax(one_part * w->hysteresis_left, w->hysteresis_least);
+    return part->variance_error <=
+               (w->effort.all_along ? one_part * w->ws->options.tolerance * so_far : variance) &&
+           part->variance_error * of_variance + part->hysteresis_error <= hysteresis;
+}
+
+/* P = erf(1/(2 sqrt G)) has its next singular points at pi/2 beside a real ln G, as a Maxwell
+ * element has beside ln q, and the difference to 1 is steep next to 0: what the coefficients tell
+ * of it is not to be trusted where ln G rises by more over a panel than these. */
+static const double most_steep[FRICTION_RULES] = {2.5, 3.5};
+
+static bool is_steep(const walk *w, const pass_part *part, size_t rule)
+{
+    const double before = fmax(w->pass->variance, CONTACT_FULL);
+    return log((w->pass->variance + part->variance) / before) > most_steep[rule];
+}
+
+/* A whole panel by the check. */
+static node_view check_view(const walk *w, size_t p)
+{
+    friction_scratch *scratch = w->scratch;
+    scale_grid *grid = &scratch->grids[RULE_CHECK];
+    grid_fill_panels(grid, w->plan, p, p + 1, w->ws->roughness, &w->ws->options.layer);
+    const node_view view = panel_view(scratch, grid, p, scratch->room * RULE_MOST);
+    evaluate_view(w, &view);
+    return view;
+}
+
+/* A panel or a part of it, from its nodes by the first rule. */
+static void add_panel(walk *w, const grid_panel *panel, node_view view, size_t p, size_t first,
+                      size_t depth)
+{
+    const double of_variance = w->scratch->of_variance[p];
+    bool halve = depth < w->effort.halves;
+    pass_part part;
+    if (!halve) {
+        panel_pass(w->ws, &view, w->pass->variance, &part);
+        if (is_steep(w, &part, RULE_FIRST) || !is_fine(w, &part, of_variance, depth)) {
+            view = depth == 0 ? check_view(w, p) : part_view(w, panel, RULE_CHECK);
+            panel_pass(w->ws, &view, w->pass->variance, &part);
+            halve = depth < MOST_HALVES &&
+                    (is_steep(w, &part, RULE_CHECK) || !is_fine(w, &part, of_variance, depth));
+        }
+    }
+    if (!halve) {
+        add_part(w, panel, &view, &part, p - first + 1);
+        return;
+    }
+    for (int upper = 0; upper < 2; upper++) {
+        const grid_panel half = grid_half(panel, upper);
+        add_panel(w, &half, part_view(w, &half, RULE_FIRST), p, first, depth + 1);
+    }
+}
+
+void friction_evaluate(const wt_friction_workspace *ws, friction_scratch *scratch,
+                       const panel_plan *plan, friction_effort effort, friction_load at,
+                       bool with_outside, friction_record *record, friction_pass *pass)
+{
+    walk w = {.ws = ws,
+              .scratch = scratch,
+              .plan = plan,
+              .effort = effort,
+              .at = at,
+              .scale = scale_of(ws, at),
+              .with_outside = with_outside,
+              .record = record,
+              .pass = pass};
+    const double share = FRICTION_SHARE * ws->options.tolerance;
+    const bool closed = !effort.all_along && ws->options.gamma == 1;
+    const size_t last = plan->n_panels, n = ws->rules[RULE_FIRST]->n;
+    size_t level = effort.level;
+    pass_part part;
+    scratch->own_error = 0;
+    begin_panels(&w, plan->levels, last);
+    node_view view = find_core(&w, closed ? one_part * share : 0, &level, &part);
+    begin_panels(&w, plan->levels - level, plan->levels);
+    begin_pass(&w, level, &part);
+    while (!is_fine(&w, &part, of_variance_after_core(&w), 0)) {
+        view = core_view(&w, RULE_CHECK, level);
+        core_pass(ws, &view, &part);
+        if (is_fine(&w, &part, of_variance_after_core(&w), 0) || level == plan->levels)
+            break;
+        level++; /* a cell more is what halves are to a panel */
+        view = core_view(&w, RULE_FIRST, level);
+        core_pass(ws, &view, &part);
+        begin_panels(&w, plan->levels - level, plan->levels - level + 1);
+        begin_pass(&w, level, &part);
+    }
+    const size_t first = plan->levels - level;
+    add_part(&w, &plan->core[level], &view, &part, 0);
+    for (size_t p = first; p < last; p++)
+        add_panel(&w, &plan->panels[p], panel_view(scratch, &scratch->grids[RULE_FIRST], p, p * n),
+                  p, first, 0);
+}

@@ -1,0 +1,93 @@
+/* How much friction changes with what it is made of.
+ *
+ * SPDX-License-Identifier: GPL-3.0-or-later
+ */
+#include "friction/numerics/friction_kernel.h"
+
+#include <math.h>
+
+/* Five points: what the difference leaves is its fourth power / 30 of a fifth derivative of the
+ * order of 1, and rounding and tolerance are divided by it. */
+static const double step = 0.01;
+
+typedef enum factor { OF_MODULUS, OF_DENSITY, OF_PRESSURE } factor;
+
+static wt_status log_friction(wt_friction_workspace *ws, friction_scratch *scratch,
+                              friction_load at, double *log_mu, wt_error *err)
+{
+    friction_pass pass;
+    const wt_status status = friction_heat(ws, scratch, &at, err);
+    if (status != WT_OK)
+        return status;
+    const panel_plan *plan = friction_plan(ws, scratch, &at, NULL, 0);
+    friction_evaluate(ws, scratch, plan, (friction_effort){0}, at, false, NULL, &pass);
+    *log_mu = log(pass.hysteresis);
+    return WT_OK;
+}
+
+static wt_status by_factor(wt_friction_workspace *ws, friction_scratch *scratch, friction_load at,
+                           factor which, double *slope, wt_error *err)
+{
+    /* places and weights of the central difference of the fourth order */
+    static const double rule[][2] = {
+        {-2, 1.0 / 12}, {-1, -8.0 / 12}, {1, 8.0 / 12}, {2, -1.0 / 12}};
+    wt_status status = WT_OK;
+    double sum = 0;
+    for (size_t i = 0; status == WT_OK && i < 4; i++) {
+        friction_load moved = at;
+        double value = (double)NAN;
+        const double ratio = exp(rule[i][0] * step);
+        *(which == OF_MODULUS   ? &moved.modulus
+          : which == OF_DENSITY ? &moved.density
+                                : &moved.pressure) *= ratio;
+        status = log_friction(ws, scratch, moved, &value, err);
+        sum += rule[i][1] * value;
+    }
+    *slope = sum / step;
+    return status;
+}
+
+/* What the last waves add to mu, on the way to q1 at the temperatures of all of it. */
+static wt_status by_cutoff(wt_friction_workspace *ws, double pressure, double velocity,
+                           double *slope, wt_error *err)
+{
+    /* places and weights of the difference of the fourth order on one side */
+    static const double rule[][2] = {
+        {4, 3.0 / 12}, {3, -16.0 / 12}, {2, 36.0 / 12}, {1, -48.0 / 12}, {0, 25.0 / 12}};
+    enum { PLACES = sizeof rule / sizeof *rule };
+    const double q1 = ws->roughness->q1, length = log(q1 / ws->roughness->q0);
+    const double short_step = fmin(step, 0.1 * length);
+    double q[PLACES], sum = 0;
+    wt_friction_node node[PLACES];
+    for (size_t i = 0; i < PLACES; i++)
+        q[i] = rule[i][0] > 0 ? q1 * exp(-rule[i][0] * short_step) : q1;
+    const wt_status status = wt_friction_profile(ws, pressure, velocity, q, PLACES, node, err);
+    for (size_t i = 0; status == WT_OK && i < PLACES; i++)
+        sum += rule[i][1] * node[i].hysteresis;
+    *slope = status == WT_OK ? sum / (short_step * node[PLACES - 1].hysteresis) : (double)NAN;
+    return status;
+}
+
+wt_status wt_friction_sensitivities(wt_friction_workspace *workspace, double pressure,
+                                    double velocity, wt_friction_sensitivity *sensitivity,
+                                    wt_error *err)
+{
+    if (workspace == NULL || sensitivity == NULL)
+        return wt_fail(err, WT_E_ARG, "sensitivities need a friction workspace");
+    wt_status status = friction_prepare(workspace, pressure, &velocity, 1, err);
+    if (status != WT_OK)
+        return status;
+    const friction_load at = friction_load_at(workspace, pressure, velocity);
+    friction_scratch *scratch = &workspace->scratch[0];
+    wt_friction_sensitivity s = {0};
+    status = by_factor(workspace, scratch, at, OF_MODULUS, &s.modulus, err);
+    if (status == WT_OK)
+        status = by_factor(workspace, scratch, at, OF_DENSITY, &s.density, err);
+    if (status == WT_OK)
+        status = by_factor(workspace, scratch, at, OF_PRESSURE, &s.pressure, err);
+    if (status == WT_OK)
+        status = by_cutoff(workspace, pressure, velocity, &s.cutoff, err);
+    if (status == WT_OK)
+        *sensitivity = s;
+    return status;
+}

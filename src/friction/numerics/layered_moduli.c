@@ -1,0 +1,298 @@
+/* A quarter turn in which omega = q v sin(theta), cut where the layer's moduli are not smooth, each
+ * part by a trapezium rule in a variable that makes nothing of its ends (Takahasi and Mori, Publ.
+ * RIMS 9 (1974) 721). Every second node is a rule, too, and tells the error.
+ *
+ * SPDX-License-Identifier: GPL-3.0-or-later
+ */
+#include "friction/numerics/layered_moduli.h"
+
+#include "core/base/array.h"
+#include "core/math/root.h"
+#include "friction/numerics/persson_contact.h"
+
+#include <complex.h>
+#include <float.h>
+#include <math.h>
+
+/* I is of float, and every product with it would be widened. */
+static const double complex unit = (double complex)I;
+
+/* Steps of the rule in t, and where it begins, each for tolerances down to the one that stands with
+ * them: the poles of Maxwell elements and of p below are 1 beside a real t or more: e^(-2 pi/step).
+ * Below the first node all is as at it. */
+static const struct {
+    double tolerance, step, begin;
+} rules[] = {{1e-6, 0.3, -12}, {0, 0.2, -24}};
+static const double rule_end = 3.6; /* where what is left is e^(-e^3.6), below rounding */
+
+bool layer_has_moduli(const wt_layer_state *layer)
+{
+    return layer->thickness > 0 && (layer->own != NULL || layer->slope.exponent != 0);
+}
+
+wt_status layer_slope_shift(const wt_shift_law *law, double to, wt_ratio_slope *slope,
+                            wt_error *err)
+{
+    const double same = 1; /* [K] by which temperatures without a law may differ */
+    const double from = slope->temperature;
+    if (isnan(from) || slope->exponent == 0 || from == to)
+        return WT_OK;
+    if (isnan(to)) {
+        wt_fail(err, WT_E_MISSING,
+                "the modulus ratio is of a temperature, and that of the rubber "
+                "is not known");
+        wt_error_advice(err, "give --reference-temperature");
+        return WT_E_MISSING;
+    }
+    const double log_a = wt_shift_law_log_a(law, from) - wt_shift_law_log_a(law, to);
+    if (isnan(log_a) && fabs(from - to) <= same)
+        return WT_OK;
+    if (isnan(log_a)) {
+        wt_fail(err, WT_E_MISSING, "the modulus ratio is of another temperature than the rubber");
+        wt_error_found(err, "%.4g K and %.4g K", from, to);
+        wt_error_advice(err, "a material with a shift law between them would tell its frequencies");
+        return WT_E_MISSING;
+    }
+    const double a = exp(M_LN10 * log_a);
+    slope->reference *= a;
+    slope->low *= a;
+    slope->high *= a;
+    return WT_OK;
+}
+
+/* theta is a fraction 1 / (1 + e^-p) of a part, p = t + e^t - 1: it rises as e^t from the
+ * beginning, which is that of many decades of frequency, and comes to the end as fast as it can. */
+static void make_rule(layer_moduli *m, double tolerance)
+{
+    size_t k = 0;
+    while (tolerance < rules[k].tolerance)
+        k++;
+    const double step = rules[k].step, begin = rules[k].begin;
+    for (double t = begin; t < rule_end; t = begin + step * (double)m->n) {
+        const double p = t + exp(t) - 1, fraction = 1 / (1 + exp(-p));
+        m->fraction[m->n] = fraction;
+        m->share[m->n++] = step * (1 + exp(t)) * fraction / (1 + exp(p));
+    }
+    for (size_t level = 0; level < ANGLE_LEVELS; level++) {
+        const double wide = ldexp(step, (int)level);
+        m->below[level] = m->fraction[0] * wide / expm1(wide);
+    }
+}
+
+static bool has_knots(const wt_material *material)
+{
+    size_t n = 0;
+    if (material->law->breaks != NULL)
+        (void)material->law->breaks(material, &n);
+    return n > 0;
+}
+
+/* The angle of the layer's modulus before it is taken as 0 where it is below. */
+static double loss_angle(double log_omega, void *user)
+{
+    const layer_moduli *m = user;
+    const double omega = exp(log_omega);
+    double storage, loss, log_ratio, phase;
+    m->bulk->law->modulus(m->bulk, &omega, 1, &storage, &loss);
+    wt_ratio_slope_at(&m->layer.slope, omega, &log_ratio, &phase);
+    return atan2(loss, storage) + phase;
+}
+
+/* The phase of a ratio falls off with the frequency beyond what was measured, and the loss angle of
+ * a rubber hardly: six decades further it is behind that for good. */
+static void add_gain_edges(layer_moduli *m)
+{
+    const double beyond = 6 * M_LN10,
+                 step = M_LN10 / 8; /* the angle of a rubber goes with decades */
+    const double low = log(m->limit[0]) - beyond, high = log(m->limit[1]) + beyond;
+    double before = loss_angle(low, m), root;
+    for (double from = low; from < high && m->n_edges < LAYER_MOST_EDGES; from += step) {
+        const double now = loss_angle(from + step, m);
+        if ((before > 0) != (now > 0) &&
+            root_find(loss_angle, m, from, from + step, 0, &root, NULL) == WT_OK)
+            m->edges[m->n_edges++] = exp(root);
+        before = now;
+    }
+    numbers_sort(m->edges, m->n_edges);
+}
+
+layer_moduli layer_moduli_of(const wt_material *bulk, wt_layer_state layer, double tolerance)
+{
+    layer_moduli m = {.bulk = bulk, .layer = layer};
+    if (layer.own == NULL) {
+        m.limit[0] = m.edges[m.n_edges++] = layer.slope.low;
+        m.limit[1] = m.edges[m.n_edges++] = layer.slope.high;
+        if (layer.slope.exponent < 0)
+            add_gain_edges(&m);
+    } else {
+        m.limit[0] = layer.own->frequency_min;
+        m.limit[1] = layer.own->frequency_max;
+    }
+    m.knots = has_knots(bulk) || (layer.own != NULL && has_knots(layer.own));
+    make_rule(&m, tolerance);
+    return m;
+}
+
+/* ---- moduli ---------------------------------------------------------------------------------- */
+
+/* Those of both at some frequencies, of a layer's own material at so many times as many; no rubber
+ * gives back more than it took. */
+static void find_moduli(const layer_moduli *m, const double *omega, double times, size_t n,
+                        double complex *bulk, double complex *layer)
+{
+    double storage[ANGLE_NODES], loss[ANGLE_NODES];
+    m->bulk->law->modulus(m->bulk, omega, n, storage, loss);
+    for (size_t i = 0; i < n; i++)
+        bulk[i] = storage[i] + unit * loss[i];
+    if (m->layer.own != NULL) {
+        double at[ANGLE_NODES];
+        for (size_t i = 0; i < n; i++)
+            at[i] = times * omega[i];
+        m->layer.own->law->modulus(m->layer.own, at, n, storage, loss);
+    }
+    for (size_t i = 0; i < n; i++) {
+        if (m->layer.own != NULL) {
+            layer[i] = storage[i] + unit * loss[i];
+            continue;
+        }
+        double log_ratio, phase;
+        wt_ratio_slope_at(&m->layer.slope, omega[i], &log_ratio, &phase);
+        const double ratio = m->layer.modulus_ratio * exp(log_ratio);
+        const double complex turned = bulk[i] * (ratio * cos(phase) + unit * (ratio * sin(phase)));
+        layer[i] = creal(turned) + unit * fmax(cimag(turned), 0);
+    }
+}
+
+double layer_moduli_ratio(const layer_moduli *m, double omega)
+{
+    double complex bulk, layer;
+    find_moduli(m, &omega, 1, 1, &bulk, &layer);
+    return cabs(layer) / cabs(bulk);
+}
+
+bool layer_moduli_gain(const layer_moduli *m, double low, double high, double range[2])
+{
+    enum { STEPS = 200 }; /* some in a decade */
+    bool any = false;
+    for (size_t i = 0; m->layer.own == NULL && i <= STEPS; i++) {
+        const double omega = low * pow(high / low, (double)i / STEPS);
+        double complex bulk, layer;
+        find_moduli(m, &omega, 1, 1, &bulk, &layer);
+        if (cimag(layer) > 0 || !(cimag(bulk) > 0))
+            continue;
+        if (!any)
+            range[0] = omega;
+        range[1] = omega;
+        any = true;
+    }
+    return any;
+}
+
+/* ---- wave ------------------------------------------------------------------------------------ */
+
+/* What the stiffness of layered_scale (contact.c) has of x = q thickness, of which the moduli at
+ * all angles are taken; there the sums are positive for real ratios, and are the same for complex
+ * ones. */
+typedef struct layered_wave {
+    double x, e, root_e;     /* e^-2x, e^-x */
+    double excess, excess_2; /* of x and of 2 x */
+    double expm1_2, expm1_4;
+} layered_wave;
+
+static layered_wave layered_wave_of(double x)
+{
+    return (layered_wave){.x = x,
+                          .e = exp(-2 * x),
+                          .root_e = exp(-x),
+                          .excess = sinh_excess(x),
+                          .excess_2 = sinh_excess(2 * x),
+                          .expm1_2 = expm1(-2 * x),
+                          .expm1_4 = expm1(-4 * x)};
+}
+
+/* E_eff / E_layer for ratio = E_layer / E_bulk. */
+static double complex layered_stiffness(const layered_wave *w, double complex ratio)
+{
+    const double x = w->x, e = w->e;
+    const double complex sum = 1 / (1 + ratio);
+    if (creal(ratio * conj(ratio)) < 1) {
+        const double complex c = (1 - ratio) * sum, rest = 2 * ratio * sum;
+        return ((1 + c * e) * (1 + c * e) + 4 * c * x * x * e) /
+               (rest * (1 + c * e * e) + 2 * c * w->excess_2);
+    }
+    const double complex c = (ratio - 1) * sum, rest = 2 * sum, m = csqrt(c);
+    const double complex low = rest / (1 + m) * (1 + m * e) + 2 * m * w->excess;
+    const double complex high = rest - c * w->expm1_2 + 2 * x * m * w->root_e;
+    return low * high / ((1 + c) * rest - c * c * w->expm1_4 + 4 * c * x * e);
+}
+
+/* ---- angle ----------------------------------------------------------------------------------- */
+
+/* J1, J2 and that of the loss modulus, by all nodes and by fewer. */
+typedef struct angle_sums {
+    double j1[ANGLE_LEVELS], j2[ANGLE_LEVELS], loss[ANGLE_LEVELS];
+} angle_sums;
+
+static void add_part(const layer_moduli *m, const layered_wave *wave, double omega, double times,
+                     double from, double to, angle_sums *sums)
+{
+    double sine[ANGLE_NODES], at[ANGLE_NODES] = {0};
+    double complex bulk[ANGLE_NODES], layer[ANGLE_NODES];
+    for (size_t i = 0; i < m->n; i++) {
+        sine[i] = sin(from + (to - from) * m->fraction[i]);
+        at[i] = omega * sine[i];
+    }
+    find_moduli(m, at, times, m->n, bulk, layer);
+    for (size_t i = 0; i < m->n; i++) {
+        const double complex e = layer[i] * layered_stiffness(wave, layer[i] / bulk[i]);
+        const double square = sine[i] * sine[i], width = 4 * (to - from);
+        const double of1 = m->weight != NULL ? weight_at(m->weight->power[0], square) : 1;
+        const double of2 = m->weight != NULL ? weight_at(m->weight->power[1], square) : 1;
+        const double loss = cimag(e), storage = creal(e);
+        for (size_t k = 0, every = 1; k < ANGLE_LEVELS && i % every == 0; k++, every *= 2) {
+            const double by = width * (m->share[i] * (double)every + (i == 0 ? m->below[k] : 0));
+            sums->j1[k] += by * of1 * sine[i] * loss;
+            sums->j2[k] += by * of2 * (storage * storage + loss * loss);
+            sums->loss[k] += by * of2 * loss * loss;
+        }
+    }
+}
+
+/* Half as many nodes leave the root of what all leave; where a material has knots, some of it. */
+static double sum_error(const layer_moduli *m, const double sum[ANGLE_LEVELS])
+{
+    const double room = 10;
+    const double fewer = fabs(sum[0] - sum[1]) / sum[0];
+    if (!(sum[0] > 0))
+        return 0;
+    return (m->knots ? fewer : fmin(fewer, room * fewer * fewer)) + 8 * DBL_EPSILON;
+}
+
+static angle_sums sum_turn(const layer_moduli *m, double q, double omega, double times)
+{
+    const layered_wave wave = layered_wave_of(q * m->layer.thickness);
+    angle_sums sums = {{0}, {0}, {0}};
+    double from = 0;
+    for (size_t k = 0; k < m->n_edges; k++)
+        if (m->edges[k] < omega) {
+            const double to = asin(m->edges[k] / omega);
+            add_part(m, &wave, omega, times, from, to, &sums);
+            from = to;
+        }
+    add_part(m, &wave, omega, times, from, M_PI_2, &sums);
+    return sums;
+}
+
+void layer_moduli_eval(const layer_moduli *m, const double *q, const double *omega,
+                       const double *further, size_t n, double *j1, double *j2, double *loss_j2,
+                       double *error)
+{
+    for (size_t i = 0; i < n; i++) {
+        const angle_sums sums = sum_turn(m, q[i], omega[i], further != NULL ? exp(further[i]) : 1);
+        j1[i] = sums.j1[0];
+        j2[i] = sums.j2[0];
+        *error = fmax(*error, fmax(sum_error(m, sums.j1), sum_error(m, sums.j2)));
+        if (loss_j2 != NULL)
+            loss_j2[i] = sums.loss[0];
+    }
+}

@@ -1,0 +1,240 @@
+/* Moduli that soften with strain (Payne effect): Lorenz, Oh, Nam, Jeon and Persson, J. Chem. Phys.
+ * 142 (2015) 194701, with the strain at a wavenumber taken from the running rms slope.
+ *
+ * SPDX-License-Identifier: GPL-3.0-or-later
+ */
+#include "friction/numerics/softening_contact.h"
+#include "friction/numerics/friction_kernel.h"
+
+#include "core/base/param.h"
+#include "core/math/root.h"
+#include "surface/law/roughness.h"
+
+#include <math.h>
+
+/* ---- the loss modulus alone ------------------------------------------------------------------ */
+
+static const wt_material *whole_of(const wt_material *loss)
+{
+    const strain_law *s = loss->data;
+    return s->whole;
+}
+
+static void loss_modulus(const wt_material *material, const double *omega, size_t n,
+                         double *storage, double *loss)
+{
+    const wt_material *whole = whole_of(material);
+    whole->law->modulus(whole, omega, n, storage, loss);
+    for (size_t i = 0; i < n; i++)
+        storage[i] = 0;
+}
+
+static const double *loss_breaks(const wt_material *material, size_t *n)
+{
+    const wt_material *whole = whole_of(material);
+    *n = 0;
+    return whole->law->breaks != NULL ? whole->law->breaks(whole, n) : NULL;
+}
+
+/* J1 is that of the whole material, which is asked for it. */
+static void loss_angular(const wt_material *material, const double *omega, size_t n, double *j1,
+                         double *j2)
+{
+    const wt_material *whole = whole_of(material);
+    whole->law->angular_loss(whole, omega, n, j2);
+    for (size_t i = 0; i < n; i++)
+        j1[i] = 0;
+}
+
+/* The closed form is a double sum. */
+static size_t loss_terms(const wt_material *material)
+{
+    const wt_material *whole = whole_of(material);
+    const size_t n = whole->law->terms != NULL ? whole->law->terms(whole) : 1;
+    return n * n;
+}
+
+static const wt_material_law loss_law = {
+    .name = "loss", .modulus = loss_modulus, .breaks = loss_breaks};
+static const wt_material_law loss_law_closed = {.name = "loss",
+                                                .modulus = loss_modulus,
+                                                .breaks = loss_breaks,
+                                                .angular = loss_angular,
+                                                .terms = loss_terms};
+
+/* ---- strain ---------------------------------------------------------------------------------- */
+
+/* Up to there a rounded q takes digits of t that count: from there on it is off by 10 roundings. */
+static const double rounding_counts = 0.1;
+
+double softening_strain(const strain_law *s, double q)
+{
+    return s->factor * sqrt(2 * M_PI * roughness_moment(s->roughness, 3, q));
+}
+
+/* The same at q = q0 e^t: close to q0 a rounded q has lost what t has, and the square grows like t.
+ */
+static double strain_at(const strain_law *s, double q, double t)
+{
+    const double rounded = log1p((q - s->roughness->q0) / s->roughness->q0);
+    return softening_strain(s, q) * (rounded > 0 && t < rounding_counts ? sqrt(t / rounded) : 1);
+}
+
+/* The last point of the table at or below ln eps, or n. */
+static size_t point_before(const strain_law *s, double log_strain)
+{
+    size_t low = 0, high = s->n;
+    while (low < high) {
+        const size_t middle = (low + high) / 2;
+        if (s->log_strain[middle] <= log_strain)
+            low = middle + 1;
+        else
+            high = middle;
+    }
+    return low > 0 ? low - 1 : s->n;
+}
+
+void softening_at(const strain_law *s, const double *q, const double *t, size_t n, double *f,
+                  double *g)
+{
+    for (size_t i = 0; i < n; i++) {
+        const double x = log(strain_at(s, q[i], t[i]));
+        const size_t before = point_before(s, x);
+        const size_t k = before == s->n ? 0 : before;
+        f[i] = s->f[k];
+        g[i] = s->g[k];
+        if (before + 1 >= s->n)
+            continue;
+        const double part = (x - s->log_strain[k]) / (s->log_strain[k + 1] - s->log_strain[k]);
+        f[i] += part * (s->f[k + 1] - s->f[k]);
+        g[i] += part * (s->g[k + 1] - s->g[k]);
+    }
+}
+
+/* ---- construction ---------------------------------------------------------------------------- */
+
+typedef struct meeting {
+    const strain_law *s;
+    double strain;
+} meeting;
+
+static double strain_above(double t, void *user)
+{
+    const meeting *m = user;
+    const wt_roughness *r = m->s->roughness;
+    const double ratio = strain_at(m->s, fmin(r->q0 + r->q0 * expm1(t), r->q1), t) / m->strain;
+    return ratio * ratio - 1;
+}
+
+static wt_status find_cuts(strain_law *s, pool *memory, wt_error *err)
+{
+    const wt_roughness *r = s->roughness;
+    const double length = log1p((r->q1 - r->q0) / r->q0);
+    s->cuts = pool_numbers(memory, s->n);
+    if (s->cuts == NULL)
+        return wt_fail(err, WT_E_MEMORY, "out of memory for a table of strain");
+    double from = 0;
+    for (size_t k = 0; k < s->n; k++) {
+        meeting m = {.s = s, .strain = exp(s->log_strain[k])};
+        if (!(strain_above(length, &m) > 0))
+            break;
+        const bool met = strain_above(from, &m) < 0; /* else as early as numbers can tell */
+        const wt_status status =
+            met ? root_find(strain_above, &m, from, length, 0, &from, err) : WT_OK;
+        if (status != WT_OK)
+            return status;
+        const double q = fmin(r->q0 + r->q0 * expm1(from), r->q1);
+        if (k == 0)
+            s->range[0] = q;
+        if (k + 1 == s->n)
+            s->range[1] = q;
+        if (!met)
+            continue;
+        if (s->n_cuts == 0 || from > s->cuts[s->n_cuts - 1])
+            s->cuts[s->n_cuts++] = from;
+    }
+    return WT_OK;
+}
+
+/* No filled rubber softens by more than a hundred times (Payne): what is beyond is a modulus in
+ * another unit. */
+static const double least_factor = 1e-3, most_factor = 1e3;
+
+wt_status wt_softening_check(const wt_softening *table, wt_error *err)
+{
+    if (table == NULL || table->n == 0 || table->strain == NULL || table->storage == NULL ||
+        table->loss == NULL)
+        return wt_fail(err, WT_E_ARG, "a softening needs a table of strain, f and g");
+    for (size_t k = 0; k < table->n; k++) {
+        const double strain = table->strain[k], f = table->storage[k], g = table->loss[k];
+        wt_status status = WT_OK;
+        if (!(strain > (k ? table->strain[k - 1] : 0)) || !isfinite(strain))
+            status = range_error("strain of a softening", strain, "finite, > 0 and rising", err);
+        else if (!(f >= least_factor && f <= most_factor))
+            status = range_error("f of a softening", f, "from 1e-3 to 1e3", err);
+        else if (!(g >= least_factor && g <= most_factor))
+            status = range_error("g of a softening", g, "from 1e-3 to 1e3", err);
+        if (status != WT_OK) {
+            wt_error_place(err, "point %zu of %zu", k + 1, table->n);
+            return status;
+        }
+    }
+    return WT_OK;
+}
+
+wt_status softening_new(const wt_softening *table, double factor, const wt_material *material,
+                        const wt_roughness *roughness, pool *memory, strain_law **made,
+                        wt_error *err)
+{
+    const wt_status status = wt_softening_check(table, err);
+    if (status != WT_OK)
+        return status;
+    strain_law *s = pool_alloc(memory, 1, sizeof *s);
+    double *numbers = pool_numbers(memory, 3 * table->n);
+    if (s == NULL || numbers == NULL)
+        return wt_fail(err, WT_E_MEMORY, "out of memory for a table of strain");
+    *s = (strain_law){.roughness = roughness,
+                      .factor = factor,
+                      .n = table->n,
+                      .log_strain = numbers,
+                      .f = numbers + table->n,
+                      .g = numbers + 2 * table->n,
+                      .caution = 1,
+                      .range = {roughness->q1, roughness->q1},
+                      .whole = material,
+                      .loss = *material};
+    s->loss.law = material->law->angular_loss != NULL ? &loss_law_closed : &loss_law;
+    s->loss.data = s;
+    s->loss.frequency_min = s->loss.frequency_max = (double)NAN;
+    for (size_t k = 0; k < s->n; k++) {
+        s->log_strain[k] = log(table->strain[k]);
+        const double f = s->f[k] = table->storage[k], g = s->g[k] = table->loss[k];
+        if (f > g)
+            s->caution = fmax(s->caution, 2 * (f / g) * (f / g) - 1);
+        if (k == 0)
+            continue;
+        const double by = s->log_strain[k] - s->log_strain[k - 1];
+        const double least = fmin(fmin(f, s->f[k - 1]), fmin(g, s->g[k - 1]));
+        s->steepest =
+            fmax(s->steepest, fmax(fabs(f - s->f[k - 1]), fabs(g - s->g[k - 1])) / (by * least));
+    }
+    *made = s;
+    return find_cuts(s, memory, err);
+}
+
+/* ---- for those outside the kernel ------------------------------------------------------------ */
+
+void wt_friction_strained(const wt_friction_workspace *workspace, double range[2])
+{
+    const strain_law *s = workspace != NULL ? workspace->softening : NULL;
+    for (size_t i = 0; i < 2; i++)
+        range[i] = s != NULL ? s->range[i] : (double)NAN;
+}
+
+double wt_friction_strain(const wt_friction_workspace *workspace, double wavenumber)
+{
+    if (workspace == NULL || workspace->softening == NULL ||
+        !(wavenumber >= workspace->roughness->q0 && wavenumber <= workspace->roughness->q1))
+        return (double)NAN;
+    return softening_strain(workspace->softening, wavenumber);
+}

@@ -1,0 +1,41 @@
+/* Internal to the kernel room: how the moduli soften with strain, and where on the wavenumbers.
+ *
+ *   E'(w) -> f(eps) E'(w),   E''(w) -> g(eps) E''(w),   eps(q) = alpha rms slope up to q,
+ *
+ * f and g linear in ln eps between the points of a table, constant outside. So at a wavenumber
+ *   J1 -> g J1,   J2 -> f^2 J2 + (g^2 - f^2) J2'',   J2''(w) = int_0^2pi E''(w cos phi)^2 dphi.
+ *
+ * SPDX-License-Identifier: GPL-3.0-or-later
+ */
+#ifndef WT_FRICTION_NUMERICS_SOFTENING_CONTACT_H
+#define WT_FRICTION_NUMERICS_SOFTENING_CONTACT_H
+
+#include "core/base/arena.h"
+#include "weartrack/kernel.h"
+
+typedef struct strain_law {
+    const wt_roughness *roughness;
+    double factor; /* alpha */
+    size_t n;
+    double *log_strain, *f, *g; /* [n] */
+    size_t n_cuts;
+    double *cuts;    /* [n_cuts] ln(q / q0) where a point of the table is met, rising */
+    double range[2]; /* wavenumbers at which the first and the last of them is met; q1: not */
+    double caution;  /* how much larger the relative errors of the sum for J2 can be than those of
+                        its terms */
+    double steepest; /* |d ln f, g / d ln eps| */
+    const wt_material *whole;
+    wt_material loss; /* of which |E|^2 is E''^2 of the whole */
+} strain_law;
+
+/* Of a checked table. Roughness and material are borrowed. */
+wt_status softening_new(const wt_softening *table, double factor, const wt_material *material,
+                        const wt_roughness *roughness, pool *memory, strain_law **made,
+                        wt_error *err) WT_NODISCARD;
+/* Strain at a wavenumber. */
+double softening_strain(const strain_law *s, double q);
+/* f and g at n wavenumbers q = q0 e^t. */
+void softening_at(const strain_law *s, const double *q, const double *t, size_t n, double *f,
+                  double *g);
+
+#endif

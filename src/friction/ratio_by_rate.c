@@ -1,0 +1,151 @@
+/* The modulus ratio of track and bulk at several indentation rates as a power of the frequency. The
+ * frequency of a rate is that of equal loading of its curves, as the comparison with DMA has it.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#include "weartrack/flow.h"
+
+#include "core/math/normal_quantile.h"
+#include "core/math/students_t.h"
+#include "core/table/registry.h"
+
+#include <math.h>
+
+/* More rates than anybody indents at. */
+enum { MOST_RATES = 64 };
+
+typedef struct rate_ratio {
+    double log_frequency, log_ratio, error, df; /* of ln ratio */
+} rate_ratio;
+
+typedef struct rate_ratios {
+    size_t n;
+    rate_ratio of[MOST_RATES];
+} rate_ratios;
+
+/* ln of the mean frequency of the curves of a row, of both groups; NaN: none is known. */
+static double frequency_of(const table_view *rates, double low, double high)
+{
+    const double rounding = 1e-9;
+    double sum = 0, n = 0;
+    for (size_t i = 0; i < rates->n_rows; i++) {
+        const double rate = modulus_rate_get(rates, i, MODULUS_RATE_RATE),
+                     frequency = modulus_rate_get(rates, i, MODULUS_RATE_EQUIVALENT_FREQUENCY),
+                     curves = modulus_rate_get(rates, i, MODULUS_RATE_N);
+        if (rate < low * (1 - rounding) || rate > high * (1 + rounding) || !(frequency > 0))
+            continue;
+        sum += curves * log(frequency);
+        n += curves;
+    }
+    return n > 0 ? sum / n : (double)NAN;
+}
+
+static wt_status read_rates(const table_view *comparison, const table_view *rates, rate_ratios *r,
+                            wt_error *err)
+{
+    for (size_t i = 0; i < comparison->n_rows; i++) {
+        const double low = comparison_get(comparison, i, COMPARISON_RATE_LOW),
+                     high = comparison_get(comparison, i, COMPARISON_RATE_HIGH),
+                     ratio_low = comparison_get(comparison, i, COMPARISON_RATIO_LOW),
+                     ratio_high = comparison_get(comparison, i, COMPARISON_RATIO_HIGH),
+                     welch_df = comparison_get(comparison, i, COMPARISON_WELCH_DF),
+                     df = isnan(welch_df) ? (double)INFINITY : welch_df;
+        const rate_ratio one = {.log_frequency = frequency_of(rates, low, high),
+                                .log_ratio = log(comparison_get(comparison, i, COMPARISON_RATIO)),
+                                .error = log(ratio_high / ratio_low) / 2 / students_t_quantile(df),
+                                .df = df};
+        if (!isfinite(one.log_frequency) || !isfinite(one.log_ratio) || !(one.error > 0))
+            continue;
+        if (r->n == MOST_RATES) {
+            wt_fail(err, WT_E_RANGE, "a comparison at more indentation rates than can be");
+            wt_error_expected(err, "at most %d", MOST_RATES);
+            return WT_E_RANGE;
+        }
+        r->of[r->n++] = one;
+    }
+    return WT_OK;
+}
+
+/* The line through the rates with its slope's error, which has the freedom of the errors that it is
+ * made of, and is wider where the rates scatter more about it than they should. What they have in
+ * common, spots and levers, moves no slope: so the error is rather too wide. */
+static void fit_slope(const rate_ratios *r, double *slope, double *error)
+{
+    double w = 0, wx = 0, wy = 0, wxx = 0, wxy = 0, chi = 0;
+    t_error part[MOST_RATES];
+    for (size_t i = 0; i < r->n; i++) {
+        const double weight = 1 / (r->of[i].error * r->of[i].error);
+        w += weight;
+        wx += weight * r->of[i].log_frequency;
+        wy += weight * r->of[i].log_ratio;
+    }
+    const double x0 = wx / w, y0 = wy / w;
+    for (size_t i = 0; i < r->n; i++) {
+        const double weight = 1 / (r->of[i].error * r->of[i].error),
+                     x = r->of[i].log_frequency - x0;
+        wxx += weight * x * x;
+        wxy += weight * x * (r->of[i].log_ratio - y0);
+    }
+    *slope = wxy / wxx;
+    for (size_t i = 0; i < r->n; i++) {
+        const double x = r->of[i].log_frequency - x0;
+        const double off = (r->of[i].log_ratio - y0 - *slope * x) / r->of[i].error;
+        chi += off * off;
+        part[i] = (t_error){fabs(x) / (r->of[i].error * wxx), r->of[i].df};
+    }
+    const t_error all = t_error_sum(part, r->n);
+    const double scatter = r->n > 2 ? fmax(1, chi / (double)(r->n - 2)) : 1;
+    *error = all.error * sqrt(scatter) * students_t_quantile(all.df) / NORMAL_95;
+}
+
+static wt_status take_slope(const rate_ratios *r, wt_layer_known *known, wt_error *err)
+{
+    double low = (double)INFINITY, high = -(double)INFINITY, sum = 0;
+    for (size_t i = 0; i < r->n; i++) {
+        low = fmin(low, r->of[i].log_frequency);
+        high = fmax(high, r->of[i].log_frequency);
+        sum += r->of[i].log_frequency;
+    }
+    if (!(high > low)) {
+        wt_fail(err, WT_E_MISSING, "the modulus ratio is known at one indentation rate only");
+        wt_error_expected(err, "bulk and track compared at two rates or more, with intervals");
+        wt_error_found(err, "%zu with an interval and a frequency", r->n);
+        wt_error_advice(err, "measure both groups at another rate, three spots each; or leave out "
+                             "that the ratio goes with the rate");
+        return WT_E_MISSING;
+    }
+    known->ratio_slope = (wt_estimate){.unit = "1"};
+    fit_slope(r, &known->ratio_slope.value, &known->ratio_slope.standard_error);
+    known->ratio_frequency = exp(sum / (double)r->n); /* each spot has all rates */
+    known->ratio_lowest = exp(low);
+    known->ratio_highest = exp(high);
+    return WT_OK;
+}
+
+wt_status wt_layer_known_by_rate(const wt_table *comparison, const wt_table *modulus_rate,
+                                 wt_layer_known *known, wt_error *err)
+{
+    table_view c, m;
+    rate_ratios r = {.n = 0};
+    if (comparison == NULL || modulus_rate == NULL || known == NULL) {
+        wt_fail(err, WT_E_MISSING, "no comparison of wear track and bulk at several rates");
+        wt_error_advice(err, "a ratio by rate needs curves of both at several rates; ratio-slope, "
+                             "ratio-frequency, ratio-lowest and ratio-highest give it otherwise");
+        return WT_E_MISSING;
+    }
+    wt_status status = table_bind(comparison, &comparison_schema, "", &c, err);
+    if (status == WT_OK)
+        status = table_bind(modulus_rate, &modulus_rate_schema, "", &m, err);
+    if (status == WT_OK)
+        status = read_rates(&c, &m, &r, err);
+    if (status == WT_OK)
+        status = take_slope(&r, known, err);
+    if (status != WT_OK)
+        return status;
+    const wt_estimate ratio = comparison_value(&c, COMPARISON_KEY_MODULUS_RATIO);
+    const double df = comparison_value(&c, COMPARISON_KEY_MODULUS_RATIO_DF).value;
+    if (!(ratio.value > 0))
+        return wt_fail(err, WT_E_MISSING, "the comparison tells no modulus ratio of all rates");
+    known->modulus_ratio = ratio;
+    known->modulus_ratio.unit = "1"; /* not that of the table */
+    known->modulus_ratio_df = isnan(df) ? 0 : df;
+    return WT_OK;
+}

@@ -1,0 +1,286 @@
+/* Standard errors from replicates. SPDX-License-Identifier: GPL-3.0-or-later */
+#include "friction/replicates.h"
+#include "dma/strain_softening.h"
+#include "friction/numerics/angular_weight.h"
+#include "friction/sliding_contact.h"
+
+#include "core/math/cholesky.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* Cut where there is no room. */
+static void add_words(char *list, size_t size, const char *words)
+{
+    const size_t used = strlen(list);
+    snprintf(list + used, size - used, "%s%s", used > 0 ? ", " : "", words);
+}
+
+static void add_drawn(replicates *r, const char *words)
+{
+    if (r->work->replicates < 2) {
+        add_words(r->lacks, sizeof r->lacks, words);
+        return;
+    }
+    r->varies = true;
+    r->n = r->work->replicates;
+    add_words(r->includes, sizeof r->includes, words);
+}
+
+/* One more would be part of what is not a line, as the material is. */
+static void add_line(replicates *r, flow_draw draw)
+{
+    if (r->n_draws < REPLICATES_MOST)
+        r->draw[r->n_draws++] = draw;
+}
+
+void replicates_add(replicates *r, double standard_error, flow_draw draw, const char *words)
+{
+    if (standard_error > 0) {
+        add_drawn(r, words);
+        add_line(r, draw);
+    } else {
+        add_words(r->lacks, sizeof r->lacks, words);
+    }
+}
+
+replicates replicates_of(const wt_sliding *sliding, const wt_job *work, const char *what)
+{
+    const wt_rubber *rubber = sliding->rubber;
+    replicates r = {.sliding = sliding, .work = work, .what = what};
+    if (rubber->n_draws > 0) {
+        add_drawn(&r, rubber->law.kind == WT_LAW_NONE ? "material" : "material with its shift law");
+    } else {
+        add_words(r.lacks, sizeof r.lacks, "material");
+        if (rubber->c1_error > 0 || rubber->c2_error > 0)
+            replicates_add(&r, 1, FLOW_DRAW_SHIFT_LAW, "shift law");
+    }
+    replicates_add(&r, sliding->pressure.standard_error, FLOW_DRAW_PRESSURE, "pressure");
+    replicates_add(&r, sliding->temperature.standard_error, FLOW_DRAW_TEMPERATURE, "temperature");
+    const bool measured = sliding->surface->modes_error != NULL;
+    const double places = sliding->surface->c0.standard_error;
+    if (places > 0 || !sliding->surface->places_known) /* else they differ by no more than modes */
+        replicates_add(&r, places, FLOW_DRAW_DENSITY,
+                       measured ? "places of the surface" : "roughness");
+    if (measured)
+        add_drawn(&r, "scatter of the spectrum");
+    if (anisotropy_is_any(&sliding->anisotropy))
+        add_words(r.lacks, sizeof r.lacks, "anisotropy of the roughness");
+    if (sliding->softness != NULL) {
+        const bool drawn = softness_has_errors(sliding->softness);
+        replicates_add(&r, drawn, FLOW_DRAW_SOFT_STORAGE, "softening with strain");
+        if (drawn)
+            add_line(&r, FLOW_DRAW_SOFT_LOSS);
+    }
+    return r;
+}
+
+void replicates_add_layer(replicates *r, const wt_sliding *sliding, const wt_layer_known *known,
+                          const char *ratio)
+{
+    if (sliding->layer_rubber != NULL) {
+        if (sliding->layer_rubber->n_draws > 0)
+            add_drawn(r, "material of the layer");
+        else
+            add_words(r->lacks, sizeof r->lacks, "material of the layer");
+        return;
+    }
+    replicates_add(r, known->modulus_ratio.standard_error, FLOW_DRAW_RATIO, ratio);
+    if (known->ratio_slope.value != 0 || known->ratio_slope.standard_error > 0)
+        replicates_add(r, known->ratio_slope.standard_error, FLOW_DRAW_RATIO_SLOPE,
+                       "its slope with the frequency");
+}
+
+const char *replicates_include(const replicates *r)
+{
+    return r->varies                 ? r->includes
+           : r->work->replicates < 2 ? "nothing, for no replicates were asked for"
+                                     : "nothing, for no error was measured or stated";
+}
+
+/* ---- drawing --------------------------------------------------------------------------------- */
+
+typedef struct drawing {
+    replicates *r;
+    replicate_fn one;
+    const void *user;
+} drawing;
+
+static wt_status draw_one(void *user, size_t i, unsigned worker)
+{
+    (void)worker;
+    const drawing *d = user;
+    double *out = d->r->value + i * d->r->stride;
+    wt_error ignored = WT_ERROR_INIT;
+    wt_status status = d->one(d->user, i, out, &ignored);
+    for (size_t k = 0; status != WT_OK && k < d->r->stride; k++)
+        out[k] = (double)NAN;
+    return status == WT_E_MEMORY ? status : WT_OK;
+}
+
+/* For its velocities; where jobs share the material, for all of the contact, so that it does not
+ * matter which comes first. */
+static wt_status begin_materials(replicates *r, wt_error *err)
+{
+    const wt_sliding *s = r->sliding;
+    const double *v = s->velocity, reference = flow_reference_velocity(s);
+    const bool shared = r->work->drawn != NULL, alone = r->velocity > 0;
+    const double own = alone ? r->velocity : reference;
+    double slowest = own, fastest = own;
+    if (shared || !alone) {
+        slowest = fmin(slowest, fmin(v[0], reference));
+        fastest = fmax(fastest, fmax(v[s->n_velocity - 1], reference));
+    }
+    r->drawn = shared ? r->work->drawn : drawn_new();
+    return r->drawn != NULL ? drawn_begin(r->drawn, s, r->work, slowest, fastest, err)
+                            : wt_fail(err, WT_E_MEMORY, "out of memory");
+}
+
+static void end_materials(replicates *r)
+{
+    if (r->drawn != r->work->drawn)
+        drawn_free(r->drawn);
+    r->drawn = NULL;
+}
+
+/* ---- their scatter --------------------------------------------------------------------------- */
+
+enum { LINE_MOST = REPLICATES_MOST + 1 }; /* numbers of a line: a constant and slopes */
+
+/* The equations of a line through the finite values of number k; how many there are. */
+static size_t collect(const replicates *r, const double *z, size_t k, double *a, double *b)
+{
+    const size_t p = r->n_draws + 1;
+    size_t n = 0;
+    for (size_t i = 0; i < r->n; i++) {
+        const double *row = z + i * p, value = r->value[i * r->stride + k];
+        if (!isfinite(value))
+            continue;
+        n++;
+        for (size_t u = 0; u < p; u++) {
+            b[u] += row[u] * value;
+            for (size_t v = 0; v <= u; v++)
+                a[u * p + v] += row[u] * row[v];
+        }
+    }
+    return n;
+}
+
+/* The line of number k, a constant and a slope for each draw, to b; false with too few replicates
+ * for it. */
+static bool find_line(const replicates *r, const double *z, size_t k, double *b, size_t *n)
+{
+    /* As many draws for each slope that what they scatter by is small against the rest. */
+    enum { FOR_EACH = 5 };
+    double a[LINE_MOST * LINE_MOST] = {0};
+    const size_t p = r->n_draws + 1;
+    memset(b, 0, LINE_MOST * sizeof *b);
+    *n = collect(r, z, k, a, b);
+    return *n >= FOR_EACH * p && cholesky_solve(a, p, p, 0, b);
+}
+
+/* Standard deviation of number k where the draws z [n * p] make lines: the squares of the slopes
+ * and that of the rest. The squares of slopes that the rest scatters are too large by it, for
+ * each its variance over n. */
+static double spread_about_lines(const replicates *r, const double *z, size_t k)
+{
+    double b[LINE_MOST], rest = 0, lines = 0;
+    const size_t p = r->n_draws + 1;
+    size_t n;
+    if (!find_line(r, z, k, b, &n))
+        return flow_spread(r->value + k, r->n, r->stride);
+    for (size_t i = 0; i < r->n; i++) {
+        double left = r->value[i * r->stride + k];
+        for (size_t u = 0; u < p; u++)
+            left -= b[u] * z[i * p + u];
+        rest += isfinite(left) ? left * left : 0;
+    }
+    rest /= (double)(n - p);
+    for (size_t u = 1; u < p; u++)
+        lines += b[u] * b[u];
+    return sqrt(lines + rest * (1 - (double)(p - 1) / (double)n));
+}
+
+/* [n * p]: 1 and the draws of each replicate; NULL without memory. */
+static double *make_draws(const replicates *r)
+{
+    const size_t p = r->n_draws + 1;
+    double *const z = malloc((r->n + 1) * p * sizeof *z);
+    for (size_t i = 0; z != NULL && i < r->n; i++) {
+        z[i * p] = 1;
+        for (size_t u = 1; u < p; u++)
+            z[i * p + u] = flow_draw_normal(r->work->seed, i, r->draw[u - 1]);
+    }
+    return z;
+}
+
+wt_status replicates_along_line(const replicates *r, size_t k, double *at, bool *known)
+{
+    double *const z = make_draws(r);
+    double b[LINE_MOST], square = 0;
+    const size_t p = r->n_draws + 1;
+    size_t n;
+    if (z == NULL)
+        return WT_E_MEMORY;
+    *known = find_line(r, z, k, b, &n);
+    for (size_t u = 1; *known && u < p; u++)
+        square += b[u] * b[u];
+    *known = *known && square > 0;
+    for (size_t i = 0; *known && i < r->n; i++) {
+        at[i] = 0;
+        for (size_t u = 1; u < p; u++)
+            at[i] += b[u] * z[i * p + u] / sqrt(square);
+    }
+    free(z);
+    return WT_OK;
+}
+
+static wt_status find_errors(replicates *r, wt_error *err)
+{
+    double *const z = make_draws(r);
+    if (z == NULL)
+        return wt_fail(err, WT_E_MEMORY, "out of memory");
+    for (size_t k = 0; k < r->stride; k++)
+        r->error[k] = spread_about_lines(r, z, k);
+    free(z);
+    return WT_OK;
+}
+
+wt_status replicates_draw(replicates *r, size_t stride, replicate_fn one, const void *user,
+                          wt_error *err)
+{
+    r->stride = stride;
+    r->error = malloc(stride * sizeof *r->error);
+    r->value = calloc(r->n + 1, stride * sizeof *r->value);
+    if (r->error == NULL || r->value == NULL)
+        return wt_fail(err, WT_E_MEMORY, "out of memory");
+    drawing d = {r, one, user};
+    char words[64];
+    snprintf(words, sizeof words, "%s replicates", r->what);
+    wt_status status = r->n > 0 ? begin_materials(r, err) : WT_OK;
+    if (status != WT_OK) {
+        end_materials(r);
+        return status;
+    }
+    status = wt_parallel_for(r->n, r->work->threads, draw_one, &d, &r->work->progress, words);
+    end_materials(r);
+    if (status != WT_OK)
+        return wt_fail(err, status, "the replicates of the %s failed", r->what);
+    size_t lost = 0;
+    for (size_t i = 0; i < r->n; i++)
+        lost += isnan(r->value[i * stride]) != 0;
+    if (lost > 0)
+        wt_parselog_add(r->work->log, WT_WARNING, NULL, NULL,
+                        "%zu of %zu replicates of the %s have no solution and are left out of the "
+                        "standard errors",
+                        lost, r->n, r->what);
+    return find_errors(r, err);
+}
+
+void replicates_clear(replicates *r)
+{
+    free(r->error);
+    free(r->value);
+    r->error = r->value = NULL;
+}

@@ -1,0 +1,234 @@
+/* Material, roughness and load of one replicate of a sliding contact.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#include "friction/sliding_contact.h"
+#include "core/base/shared_params.h"
+#include "dma/rubber.h"
+#include "dma/strain_softening.h"
+#include "friction/counter_surface.h"
+#include "friction/numerics/friction_kernel.h"
+#include "job/cost.h"
+#include "job/random_draws.h"
+
+#include <math.h>
+#include <string.h>
+
+wt_sliding wt_sliding_defaults(void)
+{
+    return (wt_sliding){
+        .pressure = {(double)NAN, 0, 0, "Pa"},
+        .temperature = {(double)NAN, 0, 0, "K"},
+        .shear_stress = {(double)NAN, 0, 0, "Pa"},
+        .gamma = wt_friction_defaults().gamma,
+        .reference_velocity = (double)NAN,
+        .strain_factor = wt_friction_defaults().strain_factor,
+        .flash = wt_flash_defaults(),
+        .shear_law = wt_shear_law_defaults(),
+    };
+}
+
+static const wt_param rows[] = {
+    {PARAM("pressure", wt_sliding, pressure, WT_Q_PRESSURE, ABOVE(0)), .value = "P", .letter = 'p',
+     .flags = PARAM_REQUIRED, .help = "nominal pressure, such as 0.4MPa or \"0.4MPa +- 5%\""},
+    {PARAM_LIST_OF("velocity", wt_sliding, velocity, n_velocity, WT_Q_VELOCITY, ABOVE(0)),
+     .value = "V", .letter = 'v', .flags = PARAM_REQUIRED,
+     .help = "0.3m/s, a list 1mm/s,1cm/s or a range 1e-4:10m/s:log:40 (or lin) of 40 values"},
+    {PARAM("reference-velocity", wt_sliding, reference_velocity, WT_Q_VELOCITY, ABOVE(0)),
+     .unset = "that of the layer, else the middle of the list", .flags = PARAM_NO_OPTION,
+     .help = "velocity of the answer"},
+    {PARAM("sliding-temperature", wt_sliding, temperature, WT_Q_TEMPERATURE, ABOVE(0)),
+     .value = "T", .letter = 't', .unset = "the reference temperature of the material",
+     .help = "of the rubber while it slides, or of its surroundings with a flash temperature; "
+             "another one than the reference needs a WLF law"},
+    {PARAM("shear-stress", wt_sliding, shear_stress, WT_Q_STRESS, AT_LEAST(0)), .value = "TAU",
+     .unset = "",
+     .help = "tau_f of the real contact, such as 5MPa; without it there is no total "
+             "friction"},
+    FRICTION_GAMMA(wt_sliding),
+    FRICTION_STRAIN_FACTOR(wt_sliding),
+    FRICTION_ANISOTROPY(wt_sliding),
+    {PARAM_LIST_OF("temperatures", wt_sliding, temperatures, n_temperatures, WT_Q_TEMPERATURE,
+                   ABOVE(0)),
+     .value = "T", .unset = "",
+     .help = "also a map of the friction at these temperatures of the rubber, such as "
+             "-20degC:60degC:lin:9 or a list; needs a WLF law"},
+    {PARAM_LIST_OF("pressures", wt_sliding, pressures, n_pressures, WT_Q_PRESSURE, ABOVE(0)),
+     .value = "P", .unset = "",
+     .help = "also a map of the friction at these nominal pressures, such as 0.1:1MPa:log:9 or a "
+             "list"},
+    {PARAM_FLAG_OF("decades", wt_sliding, decades),
+     .help = "also what each decade of the wavenumber makes of the friction"},
+    FRICTION_AREA_LAW(wt_sliding),
+    FLASH_ROWS(wt_sliding, flash.),
+    SHEAR_LAW_ROWS(wt_sliding, shear_law.),
+    {PARAM_FLAG_OF("sensitivities", wt_sliding, sensitivities),
+     .help = "by how many percent the hysteresis friction changes with one percent of modulus, "
+             "spectrum, pressure and largest wavenumber"},
+};
+PARAM_TABLE(wt_sliding_params, wt_sliding, rows, wt_sliding_defaults, NO_PARTS)
+
+/* Tyres press by less than 1 MPa, seals and bearings by less than 100 MPa: above it rubber fails.
+ */
+static const double most_borne = 100e6; /* [Pa] */
+
+wt_status flow_sliding_check(const wt_sliding *sliding, const wt_job *work, wt_error *err)
+{
+    if (sliding == NULL || sliding->rubber == NULL || sliding->surface == NULL)
+        return wt_fail(err, WT_E_ARG, "sliding needs a rubber and a surface");
+    wt_status status = param_check(wt_sliding_params(), sliding, err);
+    if (status == WT_OK)
+        status = param_check(wt_job_params(), work, err);
+    if (status == WT_OK)
+        status = wt_anisotropy_check(&sliding->anisotropy, err);
+    if (status == WT_OK && sliding->pressure.value > most_borne)
+        wt_parselog_add(work->log, WT_WARNING, NULL, NULL,
+                        "the nominal pressure of %.4g MPa is above the %.4g MPa that rubber bears: "
+                        "is its unit right?",
+                        1e-6 * sliding->pressure.value, 1e-6 * most_borne);
+    return status;
+}
+
+double flow_reference_velocity(const wt_sliding *sliding)
+{
+    return isnan(sliding->reference_velocity) ? sliding->velocity[sliding->n_velocity / 2]
+                                              : sliding->reference_velocity;
+}
+
+double flow_layer_velocity(const wt_sliding *sliding, const wt_layer_job *layer)
+{
+    return isnan(layer->velocity) ? flow_reference_velocity(sliding) : layer->velocity;
+}
+
+/* The workspace, softened by a replicate. */
+static wt_status make_workspace(const wt_sliding *sliding, wt_friction_options options,
+                                uint64_t seed, size_t replicate, sliding_contact *c, wt_error *err)
+{
+    wt_softness softness = {0};
+    wt_status status = WT_OK;
+    if (sliding->softness != NULL) {
+        status = softness_draw(sliding->softness, seed, replicate, &softness, err);
+        options.softening = &softness.table;
+        options.strain_factor = sliding->strain_factor;
+    }
+    if (status == WT_OK)
+        status = wt_friction_workspace_new(c->material, c->roughness, &options, &c->workspace, err);
+    wt_softness_clear(&softness);
+    return status;
+}
+
+/* Whether there can be such a material at the frequencies of the velocities, and what to say of it.
+ */
+static wt_status check_material(const wt_sliding *sliding, sliding_contact *c, wt_error *err)
+{
+    const wt_material_law *law = c->material->law;
+    char words[256] = "";
+    if (law->check == NULL)
+        return WT_OK;
+    const wt_status status =
+        law->check(c->material, c->roughness->q0 * sliding->velocity[0],
+                   c->roughness->q1 * sliding->velocity[sliding->n_velocity - 1], words, err);
+    const size_t used = strlen(c->statement);
+    snprintf(c->statement + used, sizeof c->statement - used, "%s%s",
+             used > 0 && words[0] != '\0' ? "; " : "", words);
+    return status;
+}
+
+/* The material of the values themselves, if the jobs share it. */
+static wt_status share_values(const wt_sliding *sliding, const wt_job *work, drawn_material *kept,
+                              sliding_contact *c, wt_error *err)
+{
+    const double *v = sliding->velocity, reference = flow_reference_velocity(sliding);
+    drawn_values values;
+    const wt_status status =
+        drawn_values_get(work->drawn, sliding, work->tolerance, fmin(v[0], reference),
+                         fmax(v[sliding->n_velocity - 1], reference), &values, err);
+    *kept = values.of;
+    snprintf(c->statement, sizeof c->statement, "%s", values.statement);
+    return status;
+}
+
+wt_status sliding_contact_make(const wt_sliding *sliding, const wt_job *work, size_t replicate,
+                               wt_drawn *shared, wt_layer_state layer, sliding_contact *contact,
+                               wt_error *err)
+{
+    sliding_contact c = {.cost = work->cost};
+    const uint64_t seed = work->seed;
+    const bool drawn = replicate != WT_NO_REPLICATE;
+    double temperature =
+        flow_draw_value(sliding->temperature, seed, replicate, FLOW_DRAW_TEMPERATURE);
+    wt_estimate density = {1, sliding->surface->c0.standard_error / sliding->surface->c0.value, 0,
+                           "1"};
+    double factor = flow_draw_positive(density, seed, replicate, FLOW_DRAW_DENSITY);
+    c.pressure = flow_draw_positive(sliding->pressure, seed, replicate, FLOW_DRAW_PRESSURE);
+    c.shear_stress =
+        flow_draw_positive(sliding->shear_stress, seed, replicate, FLOW_DRAW_SHEAR_STRESS);
+    wt_friction_options options = wt_friction_defaults();
+    options.tolerance = drawn ? REPLICATE_TOLERANCE : work->tolerance;
+    options.gamma = sliding->gamma;
+    options.anisotropy = sliding->anisotropy;
+    options.area_law = sliding->area_law;
+    options.flash = sliding->flash;
+    options.shift = flow_rubber_law(sliding->rubber, seed, replicate);
+    options.temperature = c.temperature =
+        isnan(temperature) ? sliding->rubber->prony.reference_temperature : temperature;
+    options.threads = drawn ? 1 : work->threads;
+    options.layer = layer;
+    const bool layered = layer.thickness > 0, own = layered && sliding->layer_rubber != NULL;
+    options.without_share = drawn || (layered && !own && layer.slope.exponent == 0) ||
+                            (work->left_out & WT_EXTRA_SHARE) != 0;
+    drawn_material kept = {0};
+    wt_status status = shared != NULL ? drawn_get(shared, replicate, &kept, err)
+                       : drawn        ? WT_OK
+                                      : share_values(sliding, work, &kept, &c, err);
+    c.shared = kept.material != NULL;
+    c.material = kept.material;
+    options.series = kept.series;
+    if (status == WT_OK && !c.shared)
+        status = wt_rubber_at(sliding->rubber, temperature, seed, replicate, &c.material,
+                              c.statement, err);
+    if (status == WT_OK)
+        status = flow_surface_draw(sliding->surface, factor, seed, replicate, &c.roughness, err);
+    if (status == WT_OK)
+        status = check_material(sliding, &c, err);
+    if (status == WT_OK && own)
+        status = sliding_layer_rubber(sliding, c.temperature, seed, replicate, &c.layer, err);
+    options.layer.own = c.layer;
+    if (own)
+        options.layer.own_law = sliding_layer_law(sliding, seed, replicate);
+    if (status == WT_OK)
+        status = make_workspace(sliding, options, seed, replicate, &c, err);
+    if (status != WT_OK) {
+        sliding_contact_clear(&c);
+        return status;
+    }
+    *contact = c;
+    return WT_OK;
+}
+
+double sliding_shear(const wt_sliding *sliding, const sliding_contact *contact,
+                     const wt_friction_point *point)
+{
+    const double warm = point->temperature.value;
+    return contact->shear_stress * wt_shear_factor(&sliding->shear_law, point->velocity,
+                                                   isnan(warm) ? contact->temperature : warm);
+}
+
+wt_layer_state sliding_layer_sheared(const sliding_contact *contact, wt_layer_state layer,
+                                     double velocity)
+{
+    const double rate = fabs(velocity) / layer.thickness;
+    if (contact->workspace->own != NULL && rate > 0)
+        layer.modulus_ratio = wt_friction_layer_ratio(contact->workspace, rate);
+    return layer;
+}
+
+void sliding_contact_clear(sliding_contact *contact)
+{
+    if (contact->workspace != NULL)
+        cost_add_nodes(contact->cost, friction_nodes(contact->workspace));
+    wt_friction_workspace_free(contact->workspace);
+    wt_roughness_free(contact->roughness);
+    if (!contact->shared)
+        wt_material_free(contact->material);
+    wt_material_free(contact->layer);
+    *contact = (sliding_contact){0};
+}

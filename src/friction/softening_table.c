@@ -1,0 +1,100 @@
+/* What softening with strain does: friction and contact area with it and without it, and how much
+ * of the friction comes from strains that its table does not know. SPDX-License-Identifier:
+ * GPL-3.0-or-later */
+#include "dma/strain_softening.h"
+#include "friction/friction_difference.h"
+
+#include "core/table/table_rows.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+/* At one velocity. */
+TABLE_ROW(softening, SOFTENING, wt_friction_point with, without; double below, above;
+          /* shares of the hysteresis */)
+
+TABLE_KEYS(softening, SOFTENING, char source[256], effect[192]; double strain_factor;
+           wt_estimate strain, share_above;)
+
+/* Of the contact that softens. */
+typedef struct effect {
+    softening_row *rows; /* [n] of the velocities, the reference last */
+    double strain;       /* the largest */
+    double range[2];
+} effect;
+
+/* How much of the friction is there where the first strain of the table is met, and the last. */
+static wt_status find_shares(void *user, const contrast *of, const sliding_contact *c,
+                             wt_error *err)
+{
+    effect *e = user;
+    wt_status status = WT_OK;
+    e->strain = wt_friction_strain(c->workspace, c->roughness->q1);
+    wt_friction_strained(c->workspace, e->range);
+    for (size_t i = 0; i < of->n && status == WT_OK; i++) {
+        wt_friction_node nodes[2];
+        softening_row *r = &e->rows[i];
+        status = wt_friction_profile(c->workspace, c->pressure, of->velocity[i], e->range, 2, nodes,
+                                     err);
+        const double all = of->with[i].hysteresis.value;
+        const double none = (double)NAN; /* of no friction there is no share */
+        r->below = all > 0 ? fmin(fmax(nodes[0].hysteresis / all, 0), 1) : none;
+        r->above = all > 0 ? fmin(fmax(1 - nodes[1].hysteresis / all, 0), 1) : none;
+        if (all > 0 && !(e->range[1] < c->roughness->q1))
+            r->above = 0; /* not met */
+    }
+    return status;
+}
+
+static wt_status make_table(const contrast *c, const effect *e, wt_table **table, wt_error *err)
+{
+    table_writer t = table_begin(&softening_schema, err);
+    double above = (double)NAN;
+    size_t n_without = 0;
+    for (size_t i = 0; i < c->n; i++) {
+        e->rows[i].with = c->with[i];
+        e->rows[i].without = c->without[i];
+        above = fmax(above, e->rows[i].above);
+        if (i + 1 == c->n)
+            break;
+        softening_add_row(&t, &e->rows[i]);
+        n_without += isnan(e->rows[i].above) ? 1 : 0;
+    }
+    if (n_without > 0)
+        softening_set_print(&t, SOFTENING_KEY_UNKNOWN,
+                            "%zu of %zu velocities have no hysteresis friction, of which there "
+                            "could be a share",
+                            n_without, c->n - 1);
+    softening_keys keys = {.strain_factor = c->sliding->strain_factor,
+                           .strain = {e->strain, (double)NAN, (double)NAN, NULL},
+                           .share_above = {above, (double)NAN, (double)NAN, NULL}};
+    softness_describe(c->sliding->softness, keys.source, sizeof keys.source);
+    contrast_words(&c->with[c->n - 1], &c->without[c->n - 1], "the moduli at small strain",
+                   keys.effect, sizeof keys.effect);
+    softening_set_keys(&t, &keys);
+    return table_end(&t, table);
+}
+
+wt_status wt_softening_make(const wt_sliding *sliding, const wt_job *work, wt_table **table,
+                            wt_error *err)
+{
+    if (work == NULL || table == NULL)
+        return wt_fail(err, WT_E_ARG, "no softening to compute");
+    wt_status status = flow_sliding_check(sliding, work, err);
+    if (status == WT_OK && sliding->softness == NULL)
+        status = wt_fail(err, WT_E_ARG, "the material does not soften with strain");
+    if (status != WT_OK)
+        return status;
+    contrast c = {.n = 0};
+    wt_sliding without = *sliding;
+    without.softness = NULL;
+    effect e = {.rows = calloc(sliding->n_velocity + 1, sizeof *e.rows)};
+    if (e.rows == NULL)
+        return wt_fail(err, WT_E_MEMORY, "out of memory");
+    status = contrast_make(sliding, &without, work, find_shares, &e, &c, err);
+    if (status == WT_OK)
+        status = make_table(&c, &e, table, err);
+    contrast_clear(&c);
+    free(e.rows);
+    return status;
+}

@@ -1,0 +1,160 @@
+/* What the directions of a transversely isotropic rubber do: friction and contact area with its
+ * factors on the moduli and without them. SPDX-License-Identifier: GPL-3.0-or-later */
+#include "friction/sliding_contact.h"
+#include "job/cost.h"
+
+#include "core/base/clocale.h"
+#include "core/table/table_rows.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { NONE, LOSS, STORAGE, BOTH, N_KEPT };
+
+static const struct {
+    const char *words;
+    bool storage, loss;
+    directions_key key;
+} kept[N_KEPT] = {[NONE] = {"none", false, false, DIRECTIONS_KEY_LEFT_OUT},
+                  [LOSS] = {"loss", false, true, DIRECTIONS_KEY_LOSS},
+                  [STORAGE] = {"storage", true, false, DIRECTIONS_KEY_STORAGE},
+                  [BOTH] = {"both", true, true, DIRECTIONS_KEY_BOTH}};
+
+typedef struct directions {
+    const wt_sliding *sliding;
+    wt_job work;
+    wt_friction_point *points; /* [N_KEPT * n], the reference velocity last */
+    size_t n;
+    bool known[N_KEPT];
+    char left_out[256];
+} directions;
+
+static wt_transverse factors_of(const wt_transverse *given, size_t k)
+{
+    wt_transverse t = *given;
+    if (!kept[k].storage)
+        t.axial_storage = t.plane_storage = t.shear_storage = 1;
+    if (!kept[k].loss)
+        t.axial_loss = t.plane_loss = t.shear_loss = 1;
+    return t;
+}
+
+static wt_status compute_with_factors(directions *d, size_t k, wt_error *err)
+{
+    const wt_layer_state none = {.modulus_ratio = 1};
+    wt_rubber rubber = *d->sliding->rubber;
+    wt_sliding sliding = *d->sliding;
+    wt_friction_point *points = d->points + k * d->n;
+    const double reference = flow_reference_velocity(&sliding);
+    sliding_contact c = {0};
+    rubber.transverse = factors_of(&rubber.transverse, k);
+    sliding.rubber = &rubber;
+    wt_status status =
+        sliding_contact_make(&sliding, &d->work, WT_NO_REPLICATE, NULL, none, &c, err);
+    if (status == WT_OK)
+        status = wt_friction_compute(c.workspace, c.pressure, sliding.velocity, sliding.n_velocity,
+                                     points, err);
+    if (status == WT_OK)
+        status =
+            wt_friction_compute(c.workspace, c.pressure, &reference, 1, &points[d->n - 1], err);
+    sliding_contact_clear(&c);
+    return status;
+}
+
+/* What is given must be possible; a part of it need not be. */
+static wt_status compute_all(directions *d, wt_error *err)
+{
+    for (size_t k = N_KEPT; k-- > 0;) {
+        wt_error why = WT_ERROR_INIT;
+        const wt_status status = compute_with_factors(d, k, &why);
+        d->known[k] = status == WT_OK;
+        if (status == WT_OK)
+            continue;
+        if (k == BOTH || status == WT_E_MEMORY) {
+            if (err != NULL)
+                *err = why;
+            return status;
+        }
+        const size_t used = strlen(d->left_out);
+        snprintf(d->left_out + used, sizeof d->left_out - used, "%s%s: %.100s",
+                 used > 0 ? "; " : "", kept[k].words, why.message);
+    }
+    return WT_OK;
+}
+
+TABLE_ROW(directions, DIRECTIONS, const char *factors; wt_friction_point point;)
+
+static void put_points(const directions *d, size_t k, table_writer *t)
+{
+    table_block(t);
+    for (size_t i = 0; i + 1 < d->n; i++)
+        TABLE_ADD(directions, t, kept[k].words, d->points[k * d->n + i]);
+}
+
+static void say_change(const directions *d, size_t k, table_writer *t)
+{
+    const wt_friction_point *p = &d->points[k * d->n + d->n - 1], *none = &d->points[d->n - 1];
+    char text[192], velocity[32];
+    wt_format_si(p->velocity, "m/s", 3, velocity, sizeof velocity);
+    clocale_print(text, sizeof text,
+                  "at %s hysteresis friction %+.1f %%, contact area %+.1f %% against the isotropic "
+                  "material",
+                  velocity, 100 * (p->hysteresis.value / none->hysteresis.value - 1),
+                  100 * (p->area_ratio.value / none->area_ratio.value - 1));
+    directions_set_text(t, kept[k].key, text);
+}
+
+static wt_status make_table(const directions *d, wt_table **table, wt_error *err)
+{
+    char material[512];
+    table_writer t = table_begin(&directions_schema, err);
+    for (size_t k = 0; k < N_KEPT; k++)
+        if (d->known[k])
+            put_points(d, k, &t);
+    (void)wt_rubber_describe(d->sliding->rubber, material, sizeof material);
+    directions_set_text(&t, DIRECTIONS_KEY_MATERIAL, material);
+    for (size_t k = LOSS; k < N_KEPT; k++)
+        if (d->known[NONE] && d->known[k])
+            say_change(d, k, &t);
+    if (d->left_out[0] != '\0')
+        directions_set_text(&t, DIRECTIONS_KEY_LEFT_OUT, d->left_out);
+    return table_end(&t, table);
+}
+
+static void say_cost(const directions *d, const wt_job *work)
+{
+    cost_summary cost = {.tolerance_asked = work->tolerance};
+    for (size_t k = 0; k < N_KEPT; k++)
+        for (size_t i = 0; d->known[k] && i < d->n; i++) {
+            const wt_estimate *h = &d->points[k * d->n + i].hysteresis;
+            cost.items++;
+            cost.error_estimated = fmax(cost.error_estimated, h->numerical_error / fabs(h->value));
+        }
+    cost_say(work, cost);
+}
+
+wt_status wt_directions_make(const wt_sliding *sliding, const wt_job *work, wt_table **table,
+                             wt_error *err)
+{
+    if (work == NULL || table == NULL)
+        return wt_fail(err, WT_E_ARG, "no directions to compute");
+    wt_status status = flow_sliding_check(sliding, work, err);
+    if (status == WT_OK && !sliding->rubber->is_transverse)
+        status = wt_fail(err, WT_E_ARG, "the material has no directions");
+    if (status != WT_OK)
+        return status;
+    directions d = {.sliding = sliding, .work = *work, .n = sliding->n_velocity + 1};
+    d.work.left_out = WT_EXTRAS;
+    d.work.drawn = NULL; /* of another material */
+    d.points = malloc(N_KEPT * d.n * sizeof *d.points);
+    if (d.points == NULL)
+        return wt_fail(err, WT_E_MEMORY, "out of memory");
+    status = compute_all(&d, err);
+    if (status == WT_OK)
+        status = make_table(&d, table, err);
+    if (status == WT_OK)
+        say_cost(&d, work);
+    free(d.points);
+    return status;
+}

@@ -1,0 +1,338 @@
+/* Curves to look at: which, and their samples, thinned so that the eye sees no difference.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#include "indentation/curve_selection.h"
+
+#include "core/base/array.h"
+#include "core/data/force_curve.h"
+#include "core/table/table_rows.h"
+#include "indentation/fitted_force.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* Bins of which the smallest and the largest force are kept: as many as a curve on a screen has
+ * pixels for in a picture of some 600 pixels. The contact is the smaller part of the travel and has
+ * the larger part of what is to be seen. */
+enum { BINS_BEFORE = 32, BINS_CONTACT = 56, BINS_RETRACT = 24 };
+
+TABLE_ROW(curves, CURVES, const char *group, *file; size_t curve; const char *segment;
+          double displacement, force, indentation, fitted_force, residual;)
+
+/* ---- which ----------------------------------------------------------------------------------- */
+
+static const char worst[] = "worst:";
+
+/* Where the number of FILE:N begins; NULL: the word names no curve. */
+static const char *number_in(const char *word)
+{
+    const char *colon = strrchr(word, ':');
+    if (colon == NULL || colon == word || colon[1] == '\0' ||
+        colon[1 + strspn(colon + 1, "0123456789")] != '\0')
+        return NULL;
+    return colon + 1;
+}
+
+static wt_status read_word(const char *word, shown_curves *shown, wt_error *err)
+{
+    const char *number = number_in(word);
+    const bool is_worst = strncmp(word, worst, strlen(worst)) == 0;
+    const unsigned long n = number != NULL ? strtoul(number, NULL, 10) : 0;
+    if (is_worst && n > 0) {
+        shown->most_worst = n;
+        return WT_OK;
+    }
+    if (!is_worst && number != NULL)
+        return WT_OK; /* FILE:N */
+    if (strcmp(word, "median") == 0)
+        shown->median = true;
+    else if (strcmp(word, "rejected") == 0)
+        shown->rejected = true;
+    else if (strcmp(word, "all") == 0)
+        shown->all = true;
+    else
+        return wt_fail(err, WT_E_ARG, "'%s' is none of median, rejected, worst:N, all and FILE:N",
+                       word);
+    return WT_OK;
+}
+
+wt_status shown_curves_begin(const wt_indent_job *job, shown_curves *shown, wt_error *err)
+{
+    *shown = (shown_curves){.words = job->curves, .n_words = job->n_curves};
+    wt_status status = WT_OK;
+    for (size_t i = 0; status == WT_OK && i < job->n_curves; i++)
+        status = read_word(job->curves[i], shown, err);
+    shown->median = shown->median || job->median_curve;
+    if (status == WT_OK && job->n_curves > 0 &&
+        (shown->met = calloc(job->n_curves, sizeof *shown->met)) == NULL)
+        status = wt_fail(err, WT_E_MEMORY, "out of memory");
+    return status;
+}
+
+static bool is_named(shown_curves *shown, const flow_file *file, size_t curve)
+{
+    bool named = false;
+    for (size_t i = 0; i < shown->n_words; i++) {
+        const char *number = number_in(shown->words[i]);
+        if (number == NULL || strncmp(shown->words[i], worst, strlen(worst)) == 0 ||
+            strtoul(number, NULL, 10) != curve ||
+            flow_file_is(file, shown->words[i], (size_t)(number - 1 - shown->words[i])) ==
+                FLOW_OTHER_FILE)
+            continue;
+        named = shown->met[i] = true;
+    }
+    return named;
+}
+
+/* Makes room among the worst for one with this error; false if it is none of them. */
+static bool is_worst(shown_curves *shown, double error)
+{
+    size_t best = shown->n;
+    if (!(error >= 0) || shown->most_worst == 0)
+        return false;
+    if (shown->n_worst < shown->most_worst)
+        return true;
+    for (size_t i = 0; i < shown->n; i++)
+        if (shown->curve[i].by_error &&
+            (best == shown->n || shown->curve[i].error <= shown->curve[best].error))
+            best = i;
+    if (!(error > shown->curve[best].error))
+        return false;
+    free(shown->curve[best].sample);
+    memmove(&shown->curve[best], &shown->curve[best + 1],
+            (shown->n - best - 1) * sizeof *shown->curve);
+    shown->n--;
+    shown->n_worst--;
+    return true;
+}
+
+/* ---- samples --------------------------------------------------------------------------------- */
+
+/* A segment whose forces and positions begin at contact, or where it has none at its first sample.
+ */
+typedef struct origin {
+    double direction, position, force, tilt, spring_constant;
+} origin;
+
+static origin origin_of(const wt_indent_fit *fit, const wt_segment *approach, double k)
+{
+    const double *height = segment_height(approach);
+    const size_t n = approach->n_points;
+    if (isfinite(fit->contact_point.value) && isfinite(fit->direction))
+        return (origin){fit->direction, fit->contact_point.value, fit->baseline_offset.value,
+                        fit->baseline_tilt.value, k};
+    size_t first = 0, last = n;
+    while (first < n && !isfinite(height[first]))
+        first++;
+    while (last > first && !isfinite(height[last - 1]))
+        last--;
+    if (first >= last)
+        return (origin){1, 0, 0, 0, k};
+    const double direction = height[last - 1] < height[first] ? -1 : 1;
+    return (origin){direction, direction * height[first], 0, 0, k};
+}
+
+static shown_sample sample_at(const origin *from, const wt_segment *segment, const double *force,
+                              size_t i)
+{
+    const double z = from->direction * segment_height(segment)[i] - from->position;
+    const double f = force[i] - from->force - from->tilt * z;
+    return (shown_sample){wt_segment_kind_name(segment->kind), z, f,
+                          tip_position(z, f, from->spring_constant), (double)NAN};
+}
+
+/* Appends samples of which no more than 2 for each of the bins are left, in their order. */
+static void thin(const shown_sample *from, size_t n, size_t bins, shown_curve *to)
+{
+    if (n <= 2 * bins) {
+        for (size_t i = 0; i < n; i++)
+            to->sample[to->n++] = from[i];
+        return;
+    }
+    for (size_t b = 0; b < bins; b++) {
+        const size_t begin = n * b / bins, end = n * (b + 1) / bins;
+        size_t low = begin, high = begin;
+        for (size_t i = begin + 1; i < end; i++) {
+            if (from[i].force < from[low].force)
+                low = i;
+            if (from[i].force > from[high].force)
+                high = i;
+        }
+        to->sample[to->n++] = from[low < high ? low : high];
+        if (low != high)
+            to->sample[to->n++] = from[low < high ? high : low];
+    }
+}
+
+typedef struct shown_scratch {
+    shown_sample *sample;                       /* [longest] */
+    double *force, *delta, *out, *time, *model; /* [longest], of one allocation */
+} shown_scratch;
+
+/* The finite samples of a segment; returns how many. */
+static size_t take_samples(const origin *from, const wt_segment *segment, const double *force,
+                           shown_sample *to)
+{
+    const double *height = segment_height(segment);
+    size_t n = 0;
+    for (size_t i = 0; i < segment->n_points; i++)
+        if (isfinite(height[i]) && isfinite(force[i]))
+            to[n++] = sample_at(from, segment, force, i);
+    return n;
+}
+
+/* Fitted forces: 0 on the baseline, the law in contact. Returns the first sample in contact. */
+static wt_status add_fit(const wt_indent_fit *fit, const wt_indent_options *options,
+                         const wt_contact_table *contact, const wt_segment *approach,
+                         const double *force, const origin *from, shown_scratch *s, size_t n,
+                         size_t *first, wt_error *err)
+{
+    *first = n;
+    if (!isfinite(fit->modulus.value) || !isfinite(fit->contact_point.value))
+        return WT_OK;
+    const size_t m = wt_indent_curve(fit, segment_height(approach), force, approach->n_points,
+                                     from->spring_constant, s->delta, s->out);
+    const wt_status status =
+        fitted_forces(fit, options, contact, approach, s->delta, m, s->time, s->model, err);
+    size_t j = 0;
+    for (size_t i = 0; i < n; i++) {
+        const bool touches = s->sample[i].displacement >= 0;
+        if (touches && *first == n)
+            *first = i;
+        s->sample[i].fitted_force = !touches ? 0 : j < m ? s->model[j++] : (double)NAN;
+    }
+    return status;
+}
+
+static wt_status add_samples(shown_curve *to, const wt_force_curve *curve, const wt_indent_fit *fit,
+                             const wt_contact_table *contact, const wt_indent_options *options,
+                             shown_scratch *s, wt_error *err)
+{
+    const wt_segment *approach = wt_force_curve_segment(curve, WT_SEGMENT_APPROACH);
+    const wt_segment *retract = wt_force_curve_segment(curve, WT_SEGMENT_RETRACT);
+    const double *force = segment_force(approach, &curve->cantilever, s->force);
+    if (force == NULL)
+        return WT_OK;
+    const origin from = origin_of(fit, approach, curve->cantilever.spring_constant);
+    size_t first = 0, n = take_samples(&from, approach, force, s->sample);
+    const wt_status status =
+        add_fit(fit, options, contact, approach, force, &from, s, n, &first, err);
+    if (status != WT_OK)
+        return status;
+    if (first == n) /* no contact: all of it alike */
+        first = n * BINS_BEFORE / (BINS_BEFORE + BINS_CONTACT);
+    thin(s->sample, first, BINS_BEFORE, to);
+    thin(s->sample + first, n - first, BINS_CONTACT, to);
+    force = retract == NULL || segment_height(retract) == NULL
+                ? NULL
+                : segment_force(retract, &curve->cantilever, s->force);
+    if (force == NULL)
+        return WT_OK;
+    n = take_samples(&from, retract, force, s->sample);
+    for (first = 0; first < n && s->sample[first].displacement >= 0;)
+        first++;
+    if (first == n)
+        first = n / 2;
+    thin(s->sample, first, BINS_RETRACT, to);
+    thin(s->sample + first, n - first, BINS_RETRACT, to);
+    return WT_OK;
+}
+
+static wt_status keep_samples(shown_curve *to, const wt_force_curve *curve,
+                              const wt_indent_fit *fit, const wt_contact_table *contact,
+                              const wt_indent_options *options, wt_error *err)
+{
+    const size_t arrays = 5, most = 2 * (BINS_BEFORE + BINS_CONTACT + 2 * BINS_RETRACT);
+    const wt_segment *approach = wt_force_curve_segment(curve, WT_SEGMENT_APPROACH);
+    const wt_segment *retract = wt_force_curve_segment(curve, WT_SEGMENT_RETRACT);
+    if (approach == NULL || approach->n_points == 0 || segment_height(approach) == NULL)
+        return WT_OK; /* the verdict says it */
+    const size_t longest = retract != NULL && retract->n_points > approach->n_points
+                               ? retract->n_points
+                               : approach->n_points;
+    double *numbers = malloc(arrays * longest * sizeof *numbers);
+    shown_scratch s = {.sample = malloc(longest * sizeof *s.sample),
+                       .force = numbers,
+                       .delta = numbers + longest,
+                       .out = numbers + 2 * longest,
+                       .time = numbers + 3 * longest,
+                       .model = numbers + 4 * longest};
+    to->sample = malloc(most * sizeof *to->sample);
+    wt_status status = numbers == NULL || s.sample == NULL || to->sample == NULL
+                           ? wt_fail(err, WT_E_MEMORY, "out of memory for the curves to look at")
+                           : add_samples(to, curve, fit, contact, options, &s, err);
+    free(numbers);
+    free(s.sample);
+    return status;
+}
+
+wt_status shown_curves_add(shown_curves *shown, const flow_file *file, const wt_force_curve *curve,
+                           const wt_indent_fit *fit, const wt_contact_table *contact,
+                           const wt_indent_options *options, wt_error *err)
+{
+    if (shown->n_words == 0)
+        return WT_OK;
+    const bool usable = wt_curve_usable(fit->verdict);
+    const bool named = is_named(shown, file, curve->index);
+    shown_curve kept = {.file = file->name, .curve = curve->index};
+    if (usable)
+        kept.error = fit->modulus.standard_error / fit->modulus.value;
+    if (!named && !shown->all && !(shown->rejected && !usable)) {
+        if (!usable || !is_worst(shown, kept.error))
+            return WT_OK;
+        kept.by_error = true;
+    }
+    shown_curve *grown = array_grow(shown->curve, shown->n, sizeof *grown);
+    if (grown == NULL)
+        return wt_fail(err, WT_E_MEMORY, "out of memory for the curves to look at");
+    shown->curve = grown;
+    const wt_status status = keep_samples(&kept, curve, fit, contact, options, err);
+    shown->n_worst += kept.by_error;
+    shown->curve[shown->n++] = kept;
+    return status;
+}
+
+/* ---- the table ------------------------------------------------------------------------------- */
+
+wt_status shown_curves_table(const shown_curves *shown, const char *group, wt_table **table,
+                             wt_error *err)
+{
+    for (size_t i = 0; i < shown->n_words; i++) {
+        if (shown->met[i] || number_in(shown->words[i]) == NULL ||
+            strncmp(shown->words[i], worst, strlen(worst)) == 0)
+            continue;
+        const wt_status status = wt_fail(
+            err, WT_E_NOT_FOUND, "no curve of the group \"%s\" is '%s'", group, shown->words[i]);
+        wt_error_advice(err, "the columns file and curve of the table indentation/%s name them all",
+                        group);
+        return status;
+    }
+    if (shown->n == 0)
+        return WT_OK;
+    table_writer t = {0};
+    if (*table == NULL) {
+        t = table_begin(&curves_schema, err);
+        if (table_end(&t, table) != WT_OK)
+            return t.status;
+    }
+    t = table_continue(*table, &curves_schema, group, err);
+    for (size_t i = 0; i < shown->n; i++) {
+        const shown_curve *c = &shown->curve[i];
+        table_block(&t);
+        for (size_t j = 0; j < c->n; j++) {
+            const shown_sample *s = &c->sample[j];
+            TABLE_ADD(curves, &t, group, c->file, c->curve, s->segment, s->displacement, s->force,
+                      s->indentation, s->fitted_force, s->force - s->fitted_force);
+        }
+    }
+    return table_end(&t, NULL);
+}
+
+void shown_curves_clear(shown_curves *shown)
+{
+    for (size_t i = 0; i < shown->n; i++)
+        free(shown->curve[i].sample);
+    free(shown->curve);
+    free(shown->met);
+    *shown = (shown_curves){0};
+}

@@ -1,0 +1,142 @@
+/* Curves as rows of tables: what was found of each; of the representative one the whole curve for
+ * force against displacement, the contact part with its fit for force against indentation.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#include "indentation/curve_tables.h"
+
+#include "core/data/force_curve.h"
+#include "core/table/table_rows.h"
+#include "indentation/fitted_force.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+TABLE_ROW(force_displacement, FORCE_DISPLACEMENT, const char *group, *segment;
+          double displacement, force;)
+
+TABLE_ROW(force_indentation, FORCE_INDENTATION, const char *group;
+          double indentation, force, fitted_force;)
+
+/* A new block of a table that is made with the first one; a failure stays in the writer. */
+static table_writer next_block(wt_table **table, const table_schema *schema, const char *group,
+                               wt_error *err)
+{
+    table_writer t = {0};
+    if (*table == NULL) {
+        t = table_begin(schema, err);
+        if (table_end(&t, table) != WT_OK)
+            return t;
+    }
+    t = table_continue(*table, schema, group, err);
+    table_block(&t);
+    return t;
+}
+
+static void set_keys(table_writer *t, const char *file, const wt_force_curve *curve,
+                     const wt_indent_fit *fit)
+{
+    force_displacement_set_print(t, FORCE_DISPLACEMENT_KEY_CURVE, "%s curve %zu", file,
+                                 curve->index);
+    force_displacement_set_value(t, FORCE_DISPLACEMENT_KEY_CONTACT_POINT, 0,
+                                 fit->contact_point.standard_error, 0);
+    force_displacement_set_value(t, FORCE_DISPLACEMENT_KEY_CONTACT_FORCE, 0,
+                                 fit->baseline_offset.standard_error, 0);
+}
+
+static void add_segment(table_writer *t, const wt_segment *segment, const wt_indent_fit *fit,
+                        const double *force)
+{
+    const double *height = segment_height(segment);
+    for (size_t i = 0; height != NULL && i < segment->n_points; i++) {
+        if (!isfinite(height[i]) || !isfinite(force[i]))
+            continue;
+        TABLE_ADD(force_displacement, t, t->suffix, wt_segment_kind_name(segment->kind),
+                  fit->direction * height[i] - fit->contact_point.value,
+                  force[i] - fit->baseline_offset.value);
+    }
+}
+
+wt_status flow_curve_tables_add(wt_indent_tables *tables, const char *group, const char *file,
+                                const wt_force_curve *curve, const wt_indent_fit *fit,
+                                const wt_contact_table *contact, const wt_indent_options *options,
+                                wt_error *err)
+{
+    const wt_segment *approach = wt_force_curve_segment(curve, WT_SEGMENT_APPROACH);
+    const wt_segment *retract = wt_force_curve_segment(curve, WT_SEGMENT_RETRACT);
+    const double *height = approach == NULL ? NULL : segment_height(approach);
+    if (height == NULL || approach->n_points < 2)
+        return WT_OK;
+    double k = curve->cantilever.spring_constant;
+    size_t longest = approach->n_points;
+    if (retract != NULL && retract->n_points > longest)
+        longest = retract->n_points;
+    double *scratch = malloc(5 * longest * sizeof *scratch);
+    if (scratch == NULL)
+        return wt_fail(err, WT_E_MEMORY, "out of memory");
+    double *delta = scratch + longest, *shown = scratch + 2 * longest,
+           *model = scratch + 3 * longest, *time = scratch + 4 * longest;
+    const double *force = segment_force(approach, &curve->cantilever, scratch);
+    if (force == NULL) {
+        free(scratch);
+        return WT_OK;
+    }
+    table_writer whole =
+        next_block(&tables->force_displacement, &force_displacement_schema, group, err);
+    set_keys(&whole, file, curve, fit);
+    add_segment(&whole, approach, fit, force);
+
+    size_t n = wt_indent_curve(fit, height, force, approach->n_points, k, delta, shown);
+    wt_status status = fitted_forces(fit, options, contact, approach, delta, n, time, model, err);
+    if (status == WT_OK) {
+        table_writer branch =
+            next_block(&tables->force_indentation, &force_indentation_schema, group, err);
+        for (size_t i = 0; i < n; i++)
+            TABLE_ADD(force_indentation, &branch, group, delta[i], shown[i], model[i]);
+        force = retract == NULL ? NULL : segment_force(retract, &curve->cantilever, scratch);
+        if (force != NULL)
+            add_segment(&whole, retract, fit, force);
+        status = table_end(&whole, NULL);
+        if (status == WT_OK)
+            status = table_end(&branch, NULL);
+    }
+    free(scratch);
+    return status;
+}
+
+/* ---- rows of indentation -------------------------------------------------------------------- */
+
+/* What an elastic fit of rubber with loss returns is |E*| at 1/(loading time) where the contact
+ * point is fitted, too. Where it is given: local exponent p of F ~ delta^p at the deepest point. */
+static double equivalent_frequency(const wt_indent_job *job, const wt_indent_fit *fit)
+{
+    const wt_tip *tip = &job->tip;
+    double g = (double)NAN, slope = (double)NAN;
+    if (!(fit->load_time > 0) || !(fit->max_indentation > 0))
+        return (double)NAN;
+    if (isnan(job->options.fixed_contact_point) || !isnan(fit->spectrum_factor.value) ||
+        fit->loss_power > 0)
+        return 1.0 / fit->load_time;
+    wt_contact_function(tip, fit->max_indentation, &g, &slope);
+    return wt_equivalent_frequency(fit->load_time, fit->max_indentation * slope / g);
+}
+
+TABLE_ROW(indentation, INDENTATION, const char *file, *spot, *verdict; size_t curve;
+          double x, y, equivalent_frequency; wt_indent_fit fit; wt_depth_curve deep;)
+
+void flow_indentation_row(table_writer *t, const wt_indent_job *job, const char *file,
+                          const char *spot, const wt_force_curve *curve, const wt_indent_fit *fit,
+                          const wt_depth_curve *deep)
+{
+    indentation_row row = {.file = file,
+                           .spot = spot,
+                           .verdict = wt_curve_verdict_id(fit->verdict),
+                           .curve = curve->index,
+                           .x = curve->x,
+                           .y = curve->y,
+                           .equivalent_frequency = equivalent_frequency(job, fit),
+                           .fit = *fit,
+                           .deep = *deep};
+    if (!job->rates)
+        row.equivalent_frequency = row.fit.piezo_rate = row.fit.indentation_rate =
+            row.fit.load_time = (double)NAN;
+    indentation_add_row(t, &row);
+}

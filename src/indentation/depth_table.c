@@ -1,0 +1,131 @@
+/* The modulus against depth, and in words whether it changes and what that may mean.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#include "core/base/clocale.h"
+#include "core/base/number.h"
+#include "core/table/table_rows.h"
+#include "indentation/curve_tables.h"
+
+#include <math.h>
+
+TABLE_ROW(modulus_depth, MODULUS_DEPTH, const char *group; double depth; wt_interval modulus;
+          size_t n, n_units;)
+
+TABLE_KEYS(modulus_depth, MODULUS_DEPTH, const char *changes, *reading; wt_interval ratio;
+           double chance, misfit_chance;)
+
+typedef struct depth_words {
+    char text[48];
+} depth_words;
+
+static depth_words si_words(double value, const char *unit)
+{
+    depth_words w;
+    wt_format_si(value, unit, 3, w.text, sizeof w.text);
+    return w;
+}
+
+/* What would settle it; other: a residual that is no change with depth. */
+static const char *depth_advice(const wt_curve_depth *d, bool other)
+{
+    if (d->loss_share > 0.5 || (other && d->loss_share > 0))
+        return "the DMA of the rubber would tell";
+    if (d->bend_share > 0.5 || (other && d->bend_share > 0))
+        return "the baselines are bent: a straight piezo, or one that has settled, would tell";
+    return other ? "another tip or rate would tell" : "more curves would tell";
+}
+
+static void say_change(const wt_curve_depth *d, char text[320])
+{
+    const depth_words shallow = si_words(d->depth[0], "m"),
+                      deep = si_words(d->depth[WT_DEPTHS - 1], "m");
+    const double margin = 100 * WT_DEPTH_MARGIN;
+    const bool small = fabs(log(d->change.low)) < log1p(WT_DEPTH_MARGIN) &&
+                       fabs(log(d->change.high)) < log1p(WT_DEPTH_MARGIN);
+    char range[96];
+    clocale_print(range, sizeof range, "%.3f, 95 %% interval %.3f to %.3f", d->change.value,
+                  d->change.low, d->change.high);
+    if (d->n_lossy > 0 && d->n_lossy >= d->n)
+        clocale_print(text, 320,
+                      "cannot say: %zu of %zu curves lose work on the way out, and what that does "
+                      "to their moduli is not known; the DMA of the rubber would tell",
+                      d->n_lossy, d->n + d->n_lossy);
+    else if (isnan(d->change.value))
+        clocale_print(text, 320,
+                      "cannot say: %zu curves without adhesion do not tell, 12 are "
+                      "needed that differ by noise alone",
+                      d->n);
+    else if (d->verdict == WT_DEPTH_OTHERWISE)
+        clocale_print(
+            text, 320,
+            "cannot say: the curves have a residual in common that no modulus that changes "
+            "with depth leaves (chance %s); %s",
+            number_chance(d->misfit_chance).text, depth_advice(d, true));
+    else if (d->verdict == WT_DEPTH_CHANGES && d->change.low < 1 && d->change.high > 1)
+        clocale_print(text, 320,
+                      "yes: between %s and %s the modulus changes, by how much and which way the "
+                      "curves do not tell (factor %s)",
+                      shallow.text, deep.text, range);
+    else if (d->verdict == WT_DEPTH_CHANGES)
+        clocale_print(text, 320,
+                      "yes%s: at %s the modulus is another than at %s, by a factor of %s",
+                      small ? ", but hardly" : "", deep.text, shallow.text, range);
+    else if (d->verdict == WT_DEPTH_SAME)
+        clocale_print(text, 320,
+                      "no: between %s and %s the modulus changes by less than %g %% (factor %s)",
+                      shallow.text, deep.text, margin, range);
+    else
+        clocale_print(text, 320,
+                      "cannot say: between %s and %s the modulus may be the same or change by more "
+                      "than %g %% (factor %s); %s",
+                      shallow.text, deep.text, margin, range, depth_advice(d, false));
+}
+
+/* What a change would mean if a layer made it, and what else may. */
+static void say_reading(const wt_curve_depth *d, char text[640])
+{
+    char numbers[256] = "";
+    if (!isnan(d->thickness.value))
+        clocale_print(
+            numbers, sizeof numbers, "; one of %s (%s to %s) with %s on %s would look like that",
+            si_words(d->thickness.value, "m").text, si_words(d->thickness.low, "m").text,
+            si_words(d->thickness.high, "m").text, si_words(d->layer_modulus.value, "Pa").text,
+            si_words(d->ground_modulus.value, "Pa").text);
+    clocale_print(text, 640,
+                  "if a layer thinner than the indentation makes it, the layer is %s than what is "
+                  "below; then shallow indentations tell the layer, deep ones what is below, and "
+                  "the modulus of a whole curve is that of neither%s; another radius of the tip, "
+                  "loss, adhesion and an uneven piezo do the same, which a second rate, a second "
+                  "tip or the untouched bulk tells apart",
+                  d->change.low > 1    ? "softer"
+                  : d->change.high < 1 ? "stiffer"
+                                       : "softer or stiffer",
+                  numbers);
+}
+
+wt_status flow_depth_table_add(wt_indent_tables *tables, const char *group, const wt_curve_depth *d,
+                               wt_error *err)
+{
+    table_writer t = {0};
+    char text[320], reading[640];
+    if (tables->modulus_depth == NULL) {
+        t = table_begin(&modulus_depth_schema, err);
+        if (table_end(&t, &tables->modulus_depth) != WT_OK)
+            return t.status;
+    }
+    t = table_continue(tables->modulus_depth, &modulus_depth_schema, group, err);
+    table_block(&t);
+    say_change(d, text);
+    modulus_depth_keys keys = {text, NULL, d->change, (double)NAN, (double)NAN};
+    if (d->verdict == WT_DEPTH_CHANGES) {
+        say_reading(d, reading);
+        keys.reading = reading;
+    }
+    if (!isnan(d->change.value)) {
+        keys.chance = d->chance;
+        keys.misfit_chance = d->misfit_chance;
+    }
+    modulus_depth_set_keys(&t, &keys);
+    for (size_t i = 0; i < WT_DEPTHS && !isnan(d->change.value); i++)
+        TABLE_ADD(modulus_depth, &t, group, d->depth[i], d->modulus[i], d->n, d->n_units);
+    return table_end(&t, NULL);
+}

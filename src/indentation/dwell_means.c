@@ -1,0 +1,106 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "indentation/dwell.h"
+
+#include "core/table/registry.h"
+
+#include "core/math/normal_quantile.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* Frequencies that differ by less are one: they are set. */
+static const double same_frequency = 1e-3;
+
+typedef struct place {
+    double frequency;
+    size_t row;
+    long unit;
+} place;
+
+static int by_frequency(const void *a, const void *b)
+{
+    const place *x = a, *y = b;
+    return x->frequency != y->frequency ? (x->frequency > y->frequency ? 1 : -1)
+                                        : (x->row > y->row) - (x->row < y->row);
+}
+
+static int by_row(const void *a, const void *b)
+{
+    const place *x = a, *y = b;
+    return (x->row > y->row) - (x->row < y->row);
+}
+
+/* Of n rows of one frequency, whose files stand one behind another. values: scratch. */
+static wt_interval mean_of(const table_view *v, const place *at, size_t n, bool loss,
+                           double *values, long *units, size_t *n_units)
+{
+    double common = 0, known = 0;
+    for (size_t i = 0; i < n; i++) {
+        const size_t row = at[i].row;
+        values[i] = dwell_moduli_get(v, row, loss ? DWELL_MODULI_LOSS : DWELL_MODULI_STORAGE);
+        units[i] = at[i].unit;
+        const double own =
+            dwell_moduli_get(v, row, loss ? DWELL_MODULI_LOSS_COMMON : DWELL_MODULI_STORAGE_COMMON);
+        common += isfinite(own) ? own * own : 0;
+        known += isfinite(own) ? 1 : 0;
+    }
+    /* what most curves are off by alike their scatter does not show */
+    common = known > 0 && 2 * known >= (double)n ? common / known : (double)NAN;
+    wt_interval m = wt_student_mean(values, units, n, n_units);
+    double half = hypot(m.high - m.value, NORMAL_95 * sqrt(common));
+    m.standard_error = hypot(m.standard_error, sqrt(common));
+    if (n == 1) {
+        m.standard_error = dwell_moduli_get(v, at->row,
+                                            loss ? DWELL_MODULI_LOSS_STANDARD_ERROR
+                                                 : DWELL_MODULI_STORAGE_STANDARD_ERROR);
+        half = NORMAL_95 * m.standard_error;
+    }
+    m.low = m.value - half;
+    m.high = m.value + half;
+    return m;
+}
+
+wt_status dwell_means(const wt_table *moduli, dwell_mean **means, size_t *n, wt_error *err)
+{
+    table_view v;
+    wt_status status = table_bind(moduli, &dwell_moduli_schema, "", &v, err);
+    *means = NULL;
+    *n = 0;
+    if (status != WT_OK)
+        return status;
+    place *at = calloc(v.n_rows + 1, sizeof *at);
+    double *values = calloc(v.n_rows + 1, sizeof *values);
+    long *units = calloc(v.n_rows + 1, sizeof *units);
+    dwell_mean *made = calloc(v.n_rows + 1, sizeof *made);
+    if (at == NULL || values == NULL || units == NULL || made == NULL) {
+        status = wt_fail(err, WT_E_MEMORY, "out of memory for the means of dwells");
+        free(made);
+        made = NULL;
+    }
+    for (size_t row = 0; status == WT_OK && row < v.n_rows; row++) {
+        const bool same = row > 0 && strcmp(dwell_moduli_text(&v, row, DWELL_MODULI_FILE),
+                                            dwell_moduli_text(&v, row - 1, DWELL_MODULI_FILE)) == 0;
+        at[row] = (place){dwell_moduli_get(&v, row, DWELL_MODULI_ANGULAR_FREQUENCY), row,
+                          row == 0 ? 0 : at[row - 1].unit + (same ? 0 : 1)};
+    }
+    if (status == WT_OK)
+        qsort(at, v.n_rows, sizeof *at, by_frequency);
+    for (size_t from = 0, to; status == WT_OK && from < v.n_rows; from = to) {
+        for (to = from + 1;
+             to < v.n_rows && at[to].frequency < at[from].frequency * (1 + same_frequency);)
+            to++;
+        dwell_mean *m = &made[(*n)++];
+        m->angular_frequency = at[from].frequency;
+        /* by frequency, what is nearly one, files interleave, and each curve would be a unit */
+        qsort(at + from, to - from, sizeof *at, by_row);
+        m->n = to - from;
+        m->storage = mean_of(&v, at + from, m->n, false, values, units, &m->n_units);
+        m->loss = mean_of(&v, at + from, m->n, true, values, units, &m->n_units);
+    }
+    free(at);
+    free(values);
+    free(units);
+    *means = made;
+    return status;
+}

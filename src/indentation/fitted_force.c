@@ -1,0 +1,90 @@
+/* The force of a fit along a curve, for tables and figures: elastic, with memory or with adhesion.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#include "indentation/fitted_force.h"
+
+#include "core/data/force_curve.h"
+#include "indentation/law/adhesion.h"
+#include "indentation/law/hereditary.h"
+#include "indentation/numerics/curve.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+/* Turns elastic forces over modulus into those of rubber with memory. */
+static wt_status apply_memory(const wt_prony *spectrum, const double *time, size_t n, double *force,
+                              wt_error *err)
+{
+    hereditary law = {0};
+    double before = 0, shortest = (double)INFINITY;
+    wt_status status = hereditary_reserve(&law, spectrum->n, err);
+    for (size_t i = 1; i < n; i++)
+        shortest = fmin(shortest, time[i] - time[i - 1]);
+    if (status == WT_OK && n > 1 && shortest > 0) {
+        hereditary_begin(&law, spectrum, 1, shortest, time[n - 1] - time[0]);
+        for (size_t i = 0; i < n; i++) {
+            const double f = force[i];
+            hereditary_step(&law, i > 0 ? time[i] - time[i - 1] : shortest);
+            force[i] = hereditary_force(&law, hereditary_fade(&law, law.memory[0]), before, f);
+            hereditary_add(&law, law.memory[0], f - before);
+            before = f;
+        }
+    }
+    hereditary_clear(&law);
+    return status;
+}
+
+/* With adhesion, at the indentation as it was measured, which a lever of no compliance holds. */
+static wt_status apply_adhesion(const wt_indent_fit *fit, double reduced,
+                                const wt_contact_table *contact, const double *delta, size_t n,
+                                double *force, wt_error *err)
+{
+    const double at_fixed_depth = (double)INFINITY;
+    const adhesion law = {contact, reduced, fit->work_of_adhesion.value};
+    double *bare = malloc((n > 0 ? n : 1) * sizeof *bare);
+    if (bare == NULL)
+        return wt_fail(err, WT_E_MEMORY, "out of memory");
+    adhesion_balance(&law, at_fixed_depth, adhesion_release(&law, at_fixed_depth), delta, n, bare);
+    for (size_t i = 0; i < n; i += ADHESION_BLOCK) {
+        const size_t m = n - i < ADHESION_BLOCK ? n - i : ADHESION_BLOCK;
+        adhesive_contacts at;
+        adhesion_along(&law, bare + i, m, &at);
+        for (size_t j = 0; j < m; j++)
+            force[i + j] = at.force[j];
+    }
+    free(bare);
+    return WT_OK;
+}
+
+wt_status fitted_forces(const wt_indent_fit *fit, const wt_indent_options *options,
+                        const wt_contact_table *contact, const wt_segment *approach,
+                        const double *delta, size_t n, double *time, double *model, wt_error *err)
+{
+    const double *height = segment_height(approach), *all = segment_time(approach, time);
+    const double reduced = 1 - options->poisson_ratio * options->poisson_ratio;
+    const bool known = options->spectrum != NULL && isnan(fit->work_of_adhesion.value) &&
+                       !isnan(fit->spectrum_factor.value);
+    curve_power power;
+    double modulus = fit->modulus.value;
+    wt_status status = WT_OK;
+    if (fit->work_of_adhesion.value > 0 && modulus > 0)
+        return apply_adhesion(fit, modulus / reduced, contact, delta, n, model, err);
+    wt_contact_table_eval(contact, delta, n, model, NULL);
+    if (all != NULL && (known || fit->loss_power > 0)) {
+        size_t m = 0; /* those that wt_indent_curve takes */
+        for (size_t i = 0; i < approach->n_points && m < n; i++)
+            if (fit->direction * height[i] >= fit->contact_point.value)
+                time[m++] = all[i];
+        if (known) {
+            modulus = fit->spectrum_factor.value;
+        } else {
+            curve_power_make(&power, fit->loss_power, fit->load_time);
+            modulus /=
+                (1 + fit->loss_shift) * hereditary_modulus(&power.series, 1 / fit->load_time);
+        }
+        status = apply_memory(known ? options->spectrum : &power.series, time, m, model, err);
+    }
+    for (size_t i = 0; i < n; i++)
+        model[i] = model[i] * (modulus / reduced) -
+                   (fit->contact_pull.value > 0 ? fit->contact_pull.value : 0);
+    return status;
+}

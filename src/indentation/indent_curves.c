@@ -1,0 +1,338 @@
+/* The curves of a group: streamed from their files, fitted in parallel, written in order.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#include "indentation/curve_set.h"
+#include "indentation/curve_tables.h"
+#include "indentation/indent_task.h"
+
+#include "core/base/array.h"
+#include "core/base/utf8.h"
+#include "indentation/numerics/curve.h"
+
+#include <math.h>
+#include <string.h>
+
+/* Of curves at once, if every thread has one: it bounds memory. */
+#define MOST_SAMPLES ((size_t)1 << 18)
+
+wt_read_options indent_read_options(indent_task *task, const flow_file *file, bool time)
+{
+    const wt_indent_job *job = task->job;
+    wt_read_options options = flow_read_options(file);
+    if (!isnan(job->spring_constant.value))
+        options.spring_constant = job->spring_constant.value;
+    if (!isnan(job->sensitivity.value))
+        options.sensitivity = job->sensitivity.value;
+    task->file_contact = task->contact;
+    task->file_tip = &job->tip;
+    choices_of_file(&task->choices, file, &options, &task->file_contact, &task->file_tip);
+    options.want &= WT_Q_BIT(WT_Q_HEIGHT) | WT_Q_BIT(WT_Q_MEASURED_HEIGHT) | WT_Q_BIT(WT_Q_FORCE) |
+                    (time ? WT_Q_BIT(WT_Q_TIME) : 0);
+    options.one_height = true;
+    options.segments &= WT_SEGMENT_BIT(WT_SEGMENT_APPROACH) | WT_SEGMENT_BIT(WT_SEGMENT_RETRACT);
+    return options;
+}
+
+wt_indent_options indent_curve_options(const indent_task *task, const curve_choice *choice)
+{
+    wt_indent_options options = task->options;
+    if (!isnan(choice->contact_point))
+        options.fixed_contact_point = choice->contact_point;
+    return options;
+}
+
+/* ---- failures of curves ---------------------------------------------------------------------- */
+
+static wt_status flush_failures(indent_task *task, wt_error *err)
+{
+    if (task->n_equal == 0)
+        return WT_OK;
+    wt_error failure = task->failure;
+    if (task->n_equal > 1)
+        wt_error_place(&failure, "curve %zu and %zu more", task->first_equal, task->n_equal - 1);
+    else
+        wt_error_place(&failure, "curve %zu", task->first_equal);
+    task->n_equal = 0;
+    task->n_failed++;
+    return wt_job_failed(task->work, task->file->name, failure.status, &failure, err);
+}
+
+static wt_status note_failure(indent_task *task, size_t curve, const wt_error *failure,
+                              wt_error *err)
+{
+    if (task->n_equal > 0 && strcmp(failure->message, task->failure.message) == 0) {
+        task->n_equal++;
+        return WT_OK;
+    }
+    wt_status status = flush_failures(task, err);
+    task->failure = *failure;
+    task->first_equal = curve;
+    task->n_equal = 1;
+    return status;
+}
+
+/* ---- one curve ------------------------------------------------------------------------------- */
+
+static bool has_room(const indent_task *task)
+{
+    return task->n_taken < task->n_items &&
+           (task->n_taken < task->n_workers || task->n_samples < MOST_SAMPLES);
+}
+
+/* Reads the next curve; NULL if there is none. */
+static item *take_curve(indent_task *task)
+{
+    while (task->status == WT_OK && task->source != NULL && !has_room(task))
+        (void)pthread_cond_wait(&task->written, &task->lock);
+    if (task->status != WT_OK || task->source == NULL)
+        return NULL;
+    item *it = task->items;
+    while (it->state != ITEM_FREE)
+        it++;
+    it->error = (wt_error)WT_ERROR_INIT;
+    it->status = wt_force_next(task->source, &it->curve, &it->error);
+    if (it->status == WT_END) {
+        wt_force_close(task->source);
+        task->source = NULL;
+        return NULL;
+    }
+    it->samples = 0;
+    for (size_t i = 0; it->status == WT_OK && i < it->curve.n_segments; i++)
+        it->samples += it->curve.segments[i].n_points * it->curve.segments[i].n_channels;
+    it->choice = choices_of_curve(&task->choices, task->file, it->curve.index);
+    it->state = ITEM_TAKEN;
+    it->order = task->n_read++;
+    task->n_taken++;
+    task->n_samples += it->samples;
+    return it;
+}
+
+static void mark_unreadable(wt_indent_fit *fit, const wt_error *error)
+{
+    curve_fit_empty(fit);
+    fit->verdict = WT_CURVE_UNREADABLE;
+    utf8_copy(fit->reason, sizeof fit->reason, error->message);
+}
+
+static wt_status keep_modulus(indent_task *task, const item *it, wt_error *err)
+{
+    accepted *moduli = array_grow(task->moduli, task->n_moduli, sizeof *moduli);
+    if (moduli == NULL)
+        return wt_fail(err, WT_E_MEMORY, "out of memory");
+    task->moduli = moduli;
+    task->moduli[task->n_moduli] = (accepted){.modulus = it->fit.modulus.value,
+                                              .file = task->file,
+                                              .curve = it->curve.index,
+                                              .choice = it->choice,
+                                              .order = task->n_moduli};
+    task->n_moduli++;
+    return indent_together_add(&task->together, &it->fit, &task->options, err);
+}
+
+static bool is_described_alike(const wt_tip *a, const wt_tip *b)
+{
+    char words[2][256];
+    wt_tip_describe(a, words[0], sizeof words[0]);
+    wt_tip_describe(b, words[1], sizeof words[1]);
+    return strcmp(words[0], words[1]) == 0;
+}
+
+/* What the curve was measured with, for what is said of all. */
+static wt_status note_calibration(indent_task *task, const wt_cantilever *used, wt_error *err)
+{
+    task->k_low = fmin(task->k_low, used->spring_constant);
+    task->k_high = fmax(task->k_high, used->spring_constant);
+    task->s_low = fmin(task->s_low, used->sensitivity);
+    task->s_high = fmax(task->s_high, used->sensitivity);
+    task->by_sensitivity = task->by_sensitivity || used->sensitivity_given;
+    for (size_t i = 0; i < task->n_tips; i++)
+        if (task->tips[i] == task->file_tip || is_described_alike(task->tips[i], task->file_tip))
+            return WT_OK;
+    const wt_tip **tips = array_grow(task->tips, task->n_tips, sizeof(const wt_tip *));
+    if (tips == NULL)
+        return wt_fail(err, WT_E_MEMORY, "out of memory");
+    task->tips = tips;
+    task->tips[task->n_tips++] = task->file_tip;
+    return WT_OK;
+}
+
+/* What was found of a curve, and what it tells of depth if it was fitted as all are. */
+static wt_status write_row(indent_task *task, const item *it, const wt_indent_options *options,
+                           bool alike, wt_error *err)
+{
+    const unsigned left_out = task->work->left_out;
+    const bool columns = (left_out & WT_EXTRA_DEPTH_CURVES) == 0,
+               table = (left_out & WT_EXTRA_MODULUS_DEPTH) == 0;
+    const bool may_tell = alike && !options->plain_least_squares;
+    wt_indent_job job = *task->job;
+    wt_depth_curve deep, shown;
+    job.tip = *task->file_tip;
+    job.options = *options;
+    const bool tells = indent_depth_curve(&it->fit, &it->curve, may_tell && table, &deep);
+    (void)indent_depth_curve(&it->fit, &it->curve, may_tell && columns, &shown);
+    task->rows.err = err;
+    flow_indentation_row(&task->rows, &job, task->file->name, task->spot, &it->curve, &it->fit,
+                         &shown);
+    return tells ? indent_depths_add(&task->depths, &deep, task->spot, err) : WT_OK;
+}
+
+static wt_status write_item(indent_task *task, item *it, wt_error *err)
+{
+    wt_status status = WT_OK;
+    if (it->status != WT_OK) {
+        if (!flow_goes_on(task->work, it->status))
+            return wt_job_failed(task->work, task->file->name, it->status, &it->error, err);
+        mark_unreadable(&it->fit, &it->error);
+        status = note_failure(task, it->curve.index, &it->error, err);
+    }
+    if (status != WT_OK)
+        return status;
+    const bool own_tip = task->file_contact != task->contact,
+               as_fitted = isnan(it->choice.contact_point);
+    const bool alike = !own_tip && as_fitted;
+    const wt_indent_options options = indent_curve_options(task, &it->choice);
+    task->n_curves++;
+    status = write_row(task, it, &options, alike, err);
+    if (status == WT_OK)
+        status = shown_curves_add(&task->shown, task->file, &it->curve, &it->fit,
+                                  task->file_contact, &options, err);
+    if (status != WT_OK)
+        return status;
+    if (task->rows.status != WT_OK || !wt_curve_usable(it->fit.verdict))
+        return task->rows.status;
+    task->n_accepted++;
+    task->n_doubtful += it->fit.verdict == WT_CURVE_DOUBTFUL;
+    status = note_calibration(task, &it->curve.cantilever, err);
+    const double error = it->fit.modulus.standard_error / it->fit.modulus.value;
+    task->squares += error * error;
+    if (status == WT_OK && as_fitted) /* a contact point by hand is not that of moved sources */
+        status = common_errors_keep(&task->common, &it->curve, task->file_contact, own_tip, err);
+    if (status == WT_OK && task->job->keep != NULL)
+        status = alike ? curve_set_add(task->job->keep, &it->curve, &it->fit, err)
+                       : curve_set_give_up(task->job->keep);
+    return status == WT_OK ? keep_modulus(task, it, err) : status;
+}
+
+static bool is_cancelled(const indent_task *task)
+{
+    const wt_progress *progress = &task->work->progress;
+    char what[64] = "indentation: curve";
+    if (progress->report == NULL)
+        return false;
+    if (task->n_files > 1)
+        snprintf(what, sizeof what, "indentation: file %zu of %zu, curve", task->file_number,
+                 task->n_files);
+    return !progress->report(progress->user, what, task->n_written + 1, task->n_of_file);
+}
+
+/* Those that are next in order. */
+static void write_done(indent_task *task)
+{
+    for (size_t i = 0; task->status == WT_OK && i < task->n_items; i++) {
+        item *it = &task->items[i];
+        if (it->state != ITEM_DONE || it->order != task->n_written)
+            continue;
+        task->status = write_item(task, it, task->err);
+        if (task->status == WT_OK && is_cancelled(task))
+            task->status = wt_fail(task->err, WT_E_CANCELLED, "cancelled");
+        it->state = ITEM_FREE;
+        task->n_written++;
+        task->n_taken--;
+        task->n_samples -= it->samples;
+        i = (size_t)-1; /* the next may stand before it */
+    }
+    (void)pthread_cond_broadcast(&task->written);
+}
+
+/* With a tip of its own, whose errors are not those that the job states. */
+static void fit_item(const indent_task *task, item *it, wt_indent_workspace *workspace)
+{
+    const wt_indent_options options = indent_curve_options(task, &it->choice);
+    const bool own_tip = task->file_contact != task->contact;
+    told_tips told;
+    if (own_tip)
+        told = common_errors_untell(workspace);
+    it->status = wt_indent_force_curve(task->file_contact, &options, &it->curve, workspace,
+                                       &it->fit, &it->error);
+    if (own_tip)
+        common_errors_tell_again(&told, workspace);
+    if (it->status == WT_OK)
+        choices_judge(&it->choice, &it->fit);
+}
+
+static wt_status fit_curves(void *user, size_t i, unsigned worker)
+{
+    indent_task *task = user;
+    item *it;
+    if (i == 0 && task->beside != NULL)
+        return flow_record(task->work, task->beside, task->file, task->job->group,
+                           task->beside_err);
+    (void)pthread_mutex_lock(&task->lock);
+    while ((it = take_curve(task)) != NULL) {
+        (void)pthread_mutex_unlock(&task->lock);
+        if (it->status == WT_OK)
+            fit_item(task, it, task->scratch[worker]);
+        (void)pthread_mutex_lock(&task->lock);
+        it->state = ITEM_DONE;
+        write_done(task);
+    }
+    (void)pthread_mutex_unlock(&task->lock);
+    return WT_OK; /* that of the task says more */
+}
+
+/* ---- one file -------------------------------------------------------------------------------- */
+
+static wt_status read_file(indent_task *task, wt_error *err)
+{
+    wt_input *input = NULL;
+    wt_error failure = WT_ERROR_INIT;
+    wt_status status = flow_open_beside(task->work, task->file, task->job->group, WT_KIND_FORCE,
+                                        &input, task->n_workers > 1 ? &task->beside : NULL, err);
+    const wt_read_options options =
+        indent_read_options(task, task->file, task->job->rates || task->options.spectrum != NULL);
+    if (status == WT_OK)
+        status = wt_force_open(task->work->formats, input, &options, task->work->log, &task->source,
+                               err);
+    if (status == WT_OK) {
+        const size_t count = wt_force_count(task->source), n = count > 0 ? count : 1;
+        for (size_t i = 0; i < task->n_items; i++) /* a file before may have failed half-way */
+            task->items[i].state = ITEM_FREE;
+        task->n_of_file = count;
+        task->n_read = task->n_written = task->n_taken = task->n_samples = 0;
+        task->status = WT_OK;
+        task->err = err;
+        task->beside_err = &failure;
+        const size_t fits = n < task->n_workers ? n : task->n_workers;
+        status = wt_parallel_for(fits + (task->beside != NULL), task->n_workers, fit_curves, task,
+                                 NULL, "fitting curves");
+        if (status == WT_OK || task->status != WT_OK)
+            status = task->status;
+        else
+            *err = failure;
+    }
+    if (status == WT_OK)
+        status = flush_failures(task, err);
+    wt_force_close(task->source);
+    task->source = NULL;
+    wt_input_close(task->beside);
+    task->beside = NULL;
+    wt_input_close(input);
+    return status;
+}
+
+static wt_status take_file(void *user, flow_file *file, size_t i, wt_error *err)
+{
+    indent_task *task = user;
+    task->file = file;
+    task->file_number = i + 1;
+    task->spot = file->set->spot != NULL ? file->set->spot : file->name;
+    return read_file(task, err);
+}
+
+wt_status indent_read_files(indent_task *task, const flow_files *files, wt_error *err)
+{
+    size_t n_failed; /* beside the curves that did */
+    task->n_files = files->n;
+    const wt_status status = flow_files_take(files, task->work, take_file, task, &n_failed, err);
+    task->n_failed += n_failed;
+    return status;
+}

@@ -1,0 +1,81 @@
+/* What the curves of a group say of the modulus against depth.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#include "core/base/array.h"
+#include "indentation/curve_tables.h"
+#include "indentation/indent.h"
+#include "indentation/numerics/curve.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+bool indent_loss_is_unknown(const wt_indent_fit *fit)
+{
+    const bool pull = fit->adhesion_force > 0 || fit->pull_off_force > 0; /* loses work, too */
+    return fit->loss > CURVE_LEAST_LOSS && isnan(fit->loss_bias) &&
+           isnan(fit->spectrum_factor.value) && !pull;
+}
+
+/* Whether the curve tells of depth. What a law misses at small depths is not in a fit from a depth
+ * on. */
+static bool tells_depth(const wt_indent_fit *fit)
+{
+    const bool pull = fit->adhesion_force > 0 || fit->pull_off_force > 0;
+    return !(fit->fitted_from > 0) &&
+           (wt_curve_usable(fit->verdict) || fit->verdict == WT_CURVE_POOR_FIT) &&
+           !(fit->verdict == WT_CURVE_DOUBTFUL && pull) && isnan(fit->work_of_adhesion.value) &&
+           isnan(fit->contact_pull.value) && fit->modulus.value > 0 && !isnan(fit->misfit[0]);
+}
+
+bool indent_depth_curve(const wt_indent_fit *fit, const wt_force_curve *curve, bool asked,
+                        wt_depth_curve *to)
+{
+    const double none = (double)NAN;
+    *to = (wt_depth_curve){.baseline = none, .window = none, .curvature = none, .loss_error = none};
+    for (size_t i = 0; i < WT_CURVE_WAVES; i++)
+        to->misfit[i] = none;
+    if (!asked || !tells_depth(fit))
+        return false;
+    *to = (wt_depth_curve){.modulus = fit->modulus.value,
+                           .depth = fit->max_indentation,
+                           .spring_constant = curve->cantilever.spring_constant,
+                           .baseline = fit->baseline_length,
+                           .window = fit->misfit_length,
+                           .curvature = fit->baseline_curvature,
+                           .loss_error = indent_loss_is_unknown(fit) ? none : fit->loss_error};
+    memcpy(to->misfit, fit->misfit, sizeof to->misfit);
+    return true;
+}
+
+wt_status indent_depths_add(indent_depths *to, const wt_depth_curve *curve, const char *spot,
+                            wt_error *err)
+{
+    wt_depth_curve *deep = array_grow(to->curve, to->n, sizeof *deep);
+    if (deep == NULL)
+        return wt_fail(err, WT_E_MEMORY, "out of memory");
+    to->curve = deep;
+    deep += to->n++;
+    if (to->last_spot == NULL || strcmp(spot, to->last_spot) != 0)
+        to->n_spots++;
+    to->last_spot = spot;
+    *deep = *curve;
+    deep->spot = to->n_spots;
+    return WT_OK;
+}
+
+wt_status indent_depths_table(const indent_depths *depths, const wt_indent_job *job,
+                              const wt_contact_table *contact, wt_indent_tables *tables,
+                              wt_error *err)
+{
+    wt_curve_depth depth;
+    if (job->options.plain_least_squares || depths->n == 0)
+        return WT_OK;
+    const wt_status status = wt_curve_depth_make(contact, job->options.poisson_ratio, depths->curve,
+                                                 depths->n, &depth, err);
+    return status == WT_OK ? flow_depth_table_add(tables, job->group, &depth, err) : status;
+}
+
+void indent_depths_clear(indent_depths *depths)
+{
+    free(depths->curve);
+}

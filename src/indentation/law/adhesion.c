@@ -1,0 +1,391 @@
+/* The general construction behind Johnson, Kendall and Roberts, Proc. R. Soc. Lond. A 324 (1971)
+ * 301: with the contact radius a, depth delta0 and force F0 of the contact without adhesion and
+ * s = sqrt(2 pi w / E*),
+ *
+ *   delta = delta0 - s sqrt(a),   F = F0 - 2 E* s a^(3/2),
+ *
+ * is the least energy for any convex tip. A place on this branch is given by delta0, of which the
+ * contact table has F0, dF0/ddelta0 = 2 E* a and its derivative. The pyramid's a is that of the
+ * circle with its mean distances; its edge is longer, and the work of adhesion carries that error.
+ *
+ * SPDX-License-Identifier: GPL-3.0-or-later
+ */
+#include "indentation/law/adhesion.h"
+
+#include "core/math/root.h"
+#include "core/math/simd.h"
+#include "indentation/law/tip.h"
+
+#include <float.h>
+#include <math.h>
+
+/* Range of atomic forces [m], an interatomic distance, in Tabor's parameter (J. Colloid Interface
+ * Sci. 58 (1977) 2): it names the regime, which goes over some decades. */
+static const double force_range = 0.3e-9;
+/* Between them a work of adhesion is looked for [J/m^2]: surfaces have 1e-3 to 1, and welded ones
+ * are no contact; beyond there is none. */
+static const double least_work = 1e-9, most_work = 1e3;
+/* Halves and false positions to the last digit of a double need some 60 and 10. */
+/* Of a place: after it the error is of the order of its square. */
+static const double close_step = 1e-7;
+enum {
+    MAX_ROUNDS = 200,
+    MAX_STEPS = 600,               /* by 4: more than a double has */
+    CORNER_NODES = ADHESION_BLOCK, /* where the end of the branch is looked for beside a corner */
+    NODES = 64,                    /* of the branch, from which a place on it is guessed, to 1e-7 */
+    BLOCK = ADHESION_BLOCK,
+};
+
+bool adhesion_applies(const wt_tip *tip)
+{
+    return tip->shape != WT_TIP_PUNCH && !(tip->sample_thickness > 0.0);
+}
+
+/* Contact without adhesion at so many bare depths: a place of the branch follows from it. */
+typedef struct bare_contacts {
+    double g[BLOCK], slope[BLOCK], curvature[BLOCK];
+} bare_contacts;
+
+static void bare_at(const adhesion *law, const double *bare, size_t n, bare_contacts *to)
+{
+    contact_table_values(law->table, bare, n, to->g, to->slope, to->curvature);
+}
+
+static double pull_of(const adhesion *law)
+{
+    return sqrt(2.0 * M_PI * law->work / law->reduced);
+}
+
+WIDE_REGISTERS void adhesion_along(const adhesion *law, const double *bare, size_t n,
+                                   adhesive_contacts *to)
+{
+    bare_contacts v;
+    const double e = law->reduced, pull = pull_of(law);
+    bare_at(law, bare, n, &v);
+    for (size_t i = 0; i < n; i++) {
+        const double a = 0.5 * v.slope[i], root = sqrt(a), fall = pull * root,
+                     q = 0.25 * pull * v.curvature[i] / root,
+                     stiffness = 2.0 * e * a * (1.0 - 3.0 * q) / (1.0 - q);
+        to->radius[i] = a;
+        to->depth[i] = bare[i] - fall;
+        to->force[i] = e * (v.g[i] - 2.0 * fall * a);
+        to->stiffness[i] = stiffness;
+        to->by_modulus[i] = v.g[i] - fall * a - stiffness * fall / (2.0 * e);
+        to->by_work[i] = (0.5 * stiffness - e * a) * fall / law->work;
+    }
+}
+
+adhesive_contact adhesion_at(const adhesion *law, double bare)
+{
+    adhesive_contacts c;
+    adhesion_along(law, &bare, 1, &c);
+    return (adhesive_contact){c.radius[0],    c.depth[0],      c.force[0],
+                              c.stiffness[0], c.by_modulus[0], c.by_work[0]};
+}
+
+/* ---- the end of the branch ------------------------------------------------------------------- */
+
+typedef struct release_search {
+    const adhesion *law;
+    double k;
+} release_search;
+
+/* Of n places; rises where the branch is stable against the lever: dF + k ddelta along it, over the
+ * change of the bare depth, and over k if that is infinite. */
+WIDE_REGISTERS static void restoring_at(const release_search *s, const double *bare, size_t n,
+                                        double *to)
+{
+    bare_contacts v;
+    const double e = s->law->reduced, pull = pull_of(s->law), k = s->k;
+    const bool fixed = isinf(k);
+    bare_at(s->law, bare, n, &v);
+    for (size_t i = 0; i < n; i++) {
+        const double a = 0.5 * v.slope[i], q = 0.25 * pull * v.curvature[i] / sqrt(a);
+        to[i] = fixed ? 1.0 - q : 2.0 * e * a * (1.0 - 3.0 * q) + k * (1.0 - q);
+    }
+}
+
+static double restoring(double bare, void *user)
+{
+    double value;
+    restoring_at(user, &bare, 1, &value);
+    return value;
+}
+
+static bool holds(release_search *s, double bare)
+{
+    return restoring(bare, s) > 0.0;
+}
+
+static double end_between(release_search *s, double low, double high)
+{
+    double end = high;
+    return root_find(restoring, s, low, high, 0.0, &end, NULL) == WT_OK ? end : (double)NAN;
+}
+
+/* Where there is one end, from any place. */
+static double end_from(release_search *s, double bare)
+{
+    const bool inside = holds(s, bare);
+    double next = bare;
+    for (int i = 0; i < MAX_STEPS && holds(s, next) == inside; i++) {
+        bare = next;
+        next *= inside ? 0.25 : 4.0;
+    }
+    return inside ? end_between(s, next, bare) : end_between(s, bare, next);
+}
+
+/* The radius over the square root of the slope of the profile rises with the radius below a corner
+ * at radius b, and from 2b on, and faster than the end asks for, so that there is one end. Between
+ * the two it falls right behind the corner, which holds for a stretch. */
+double adhesion_release(const adhesion *law, double k)
+{
+    if (!(law->work > 0.0))
+        return 0.0;
+    release_search search = {law, k};
+    const wt_tip *tip = contact_table_tip(law->table);
+    const double corner = contact_switch_depth(tip);
+    if (!(corner > 0.0) || isinf(corner))
+        return end_from(&search, 1e-9);
+    double top = corner;
+    for (bare_contacts v = {.slope = {0.0}}; v.slope[0] < 4.0 * tip->transition_radius;
+         bare_at(law, &top, 1, &v))
+        top *= 2.0;
+    if (!holds(&search, top))
+        return end_from(&search, top);
+    double bare[CORNER_NODES + 1], force[CORNER_NODES];
+    for (int i = 0; i <= CORNER_NODES; i++) {
+        const double share = (double)i / CORNER_NODES;
+        bare[i] = corner + share * share * (top - corner);
+    }
+    restoring_at(&search, bare, CORNER_NODES, force);
+    for (int i = CORNER_NODES - 1; i > 0; i--)
+        if (!(force[i] > 0.0))
+            return end_between(&search, bare[i], bare[i + 1]);
+    return holds(&search, corner) ? end_from(&search, corner) : corner; /* below it the cap */
+}
+
+/* ---- in balance with a lever ----------------------------------------------------------------- */
+
+/* Positions of the base at places of the branch, and how they rise with these. */
+WIDE_REGISTERS static void bases_at(const adhesion *law, double k, const double *bare, size_t n,
+                                    double *base, double *rise)
+{
+    bare_contacts v;
+    const double pull = pull_of(law), soft = law->reduced / k;
+    bare_at(law, bare, n, &v);
+    for (size_t i = 0; i < n; i++) {
+        const double a = 0.5 * v.slope[i], root = sqrt(a), fall = pull * root,
+                     q = 0.25 * pull * v.curvature[i] / root;
+        base[i] = bare[i] - fall + soft * (v.g[i] - 2.0 * fall * a);
+        rise[i] = 1.0 - q + 2.0 * soft * a * (1.0 - 3.0 * q);
+    }
+}
+
+static double base_at(const adhesion *law, double k, double bare)
+{
+    double base, rise;
+    bases_at(law, k, &bare, 1, &base, &rise);
+    return base;
+}
+
+/* A block of positions, and between which places theirs are. */
+typedef struct balance_block {
+    double position[BLOCK], bare[BLOCK], low[BLOCK], high[BLOCK];
+} balance_block;
+
+WIDE_PART void choose(wide *to, const wide_bits *which, const wide *one, const wide *other)
+{
+    *to = (wide)((*which & (wide_bits)*one) | (~*which & (wide_bits)*other));
+}
+
+/* One of Newton's steps, or a half where it leads out; returns the largest share of a bare depth.
+ */
+WIDE_REGISTERS static double step_on(const adhesion *law, double k, balance_block *b)
+{
+    double base[BLOCK], rise[BLOCK], most = 0.0;
+    wide largest = {0.0};
+    bases_at(law, k, b->bare, BLOCK, base, rise);
+    for (size_t i = 0; i < BLOCK; i += WIDE) {
+        wide bare, low, high, at, excess, slope;
+        wide_load(&bare, b->bare + i);
+        wide_load(&low, b->low + i);
+        wide_load(&high, b->high + i);
+        wide_load(&at, b->position + i);
+        wide_load(&excess, base + i);
+        wide_load(&slope, rise + i);
+        excess -= at;
+        const wide_bits above = excess > 0.0;
+        choose(&low, &above, &low, &bare);
+        choose(&high, &above, &bare, &high);
+        wide next = bare - excess / slope;
+        const wide half = 0.5 * (low + high);
+        const wide_bits inside = (next >= low) & (next <= high);
+        choose(&next, &inside, &next, &half);
+        const wide share = (next - bare) / next, other = -share;
+        wide_raise(&largest, &share);
+        wide_raise(&largest, &other);
+        wide_store(b->low + i, &low);
+        wide_store(b->high + i, &high);
+        wide_store(b->bare + i, &next);
+    }
+    for (size_t j = 0; j < WIDE; j++)
+        most = largest[j] > most ? largest[j] : most;
+    return most;
+}
+
+/* Between node j and the next: the rise of the bare depth and that of the base, and how far the
+ * cubic is from the line at either end. */
+typedef struct branch {
+    double bare[NODES + 1], base[NODES + 1], rise[NODES + 1];
+    double up[NODES], span[NODES], near_low[NODES], near_high[NODES];
+} branch;
+
+/* From its end to beyond a position. At its end the position is a square. */
+static void nodes_to(const adhesion *law, double k, double release, double farthest, branch *to)
+{
+    double top = release > 0.0 ? 2.0 * release : 1e-6 * farthest;
+    while (base_at(law, k, top) < farthest)
+        top *= 2.0;
+    for (size_t j = 0; j <= NODES; j++) {
+        const double share = (double)j / NODES;
+        to->bare[j] = release + share * share * (top - release);
+    }
+    for (size_t j = 0; j <= NODES; j += BLOCK)
+        bases_at(law, k, to->bare + j, j + BLOCK <= NODES ? BLOCK : NODES + 1 - j, to->base + j,
+                 to->rise + j);
+    for (size_t j = 0; j < NODES; j++) {
+        to->up[j] = to->bare[j + 1] - to->bare[j];
+        to->span[j] = to->base[j + 1] - to->base[j];
+        to->near_low[j] = to->span[j] / to->rise[j] - to->up[j];
+        to->near_high[j] = to->span[j] / to->rise[j + 1] - to->up[j];
+    }
+}
+
+/* Where places are on the branch, node[j] the last below place j: by the cubic with the slopes of
+ * the nodes; beside the end, where the slope is infinite, by a line. */
+WIDE_REGISTERS static void guess(const branch *nodes, const size_t node[BLOCK], balance_block *b)
+{
+    double part[6][BLOCK];
+    for (size_t j = 0; j < BLOCK; j++) {
+        const size_t at = node[j];
+        b->low[j] = nodes->bare[at];
+        b->high[j] = nodes->bare[at + 1];
+        part[0][j] = nodes->up[at];
+        part[1][j] = nodes->base[at];
+        part[2][j] = nodes->span[at];
+        part[3][j] = nodes->near_low[at];
+        part[4][j] = nodes->near_high[at];
+        part[5][j] = (double)at;
+    }
+    for (size_t i = 0; i < BLOCK; i += WIDE) {
+        wide z, low, high, up, base, span, near_low, near_high, at;
+        wide_load(&z, b->position + i);
+        wide_load(&low, b->low + i);
+        wide_load(&high, b->high + i);
+        wide_load(&up, part[0] + i);
+        wide_load(&base, part[1] + i);
+        wide_load(&span, part[2] + i);
+        wide_load(&near_low, part[3] + i);
+        wide_load(&near_high, part[4] + i);
+        wide_load(&at, part[5] + i);
+        const wide t = (z - base) / span, u = 1.0 - t, line = low + up * t;
+        wide place = line + u * t * (u * near_low - t * near_high);
+        const wide_bits cubic = (at > 0.0) & (place > low) & (place < high);
+        choose(&place, &cubic, &place, &line);
+        wide_store(b->bare + i, &place);
+    }
+}
+
+void adhesion_balance(const adhesion *law, double k, double release, const double *position,
+                      size_t n, double *bare)
+{
+    double farthest = -(double)INFINITY;
+    for (size_t i = 0; i < n; i++)
+        farthest = position[i] > farthest ? position[i] : farthest;
+    const double held = release > 0.0 ? base_at(law, k, release) : 0.0;
+    branch nodes;
+    if (!(farthest > held)) { /* all of them are held */
+        for (size_t i = 0; i < n; i++)
+            bare[i] = release;
+        return;
+    }
+    nodes_to(law, k, release, farthest, &nodes);
+    size_t at = 0;
+    for (size_t i = 0; i < n; i += BLOCK) {
+        balance_block b;
+        size_t node[BLOCK], n_held = 0;
+        for (size_t j = 0; j < BLOCK; j++) {
+            const double z = position[i + j < n ? i + j : n - 1];
+            b.position[j] = z;
+            n_held += !(z > held);
+            while (at > 0 && z < nodes.base[at])
+                at--;
+            while (at + 2 <= NODES && !(z < nodes.base[at + 1]))
+                at++;
+            node[j] = at;
+        }
+        if (n_held < BLOCK)
+            guess(&nodes, node, &b);
+        for (size_t j = 0; j < BLOCK && n_held > 0; j++)
+            if (!(b.position[j] > held))
+                b.bare[j] = b.low[j] = b.high[j] = release;
+        for (int round = 0;
+             n_held < BLOCK && round < MAX_ROUNDS && step_on(law, k, &b) > close_step; round++) {
+        }
+        for (size_t j = 0; j < BLOCK && i + j < n; j++)
+            bare[i + j] = b.bare[j];
+    }
+}
+
+/* ---- work of adhesion ------------------------------------------------------------------------ */
+
+/* ln of the force at which it comes off. */
+static double log_pull_off(const wt_contact_table *table, double reduced, double k, double log_work)
+{
+    const adhesion law = {table, reduced, exp(log_work)};
+    return log(fmax(-adhesion_at(&law, adhesion_release(&law, k)).force, DBL_MIN));
+}
+
+/* By the false position of Illinois: in logarithms it is close to a line. */
+double adhesion_work(const wt_contact_table *table, double reduced, double k, double pull_off)
+{
+    const wt_tip *tip = contact_table_tip(table);
+    if (tip->sample_thickness > 0.0)
+        return (double)NAN;
+    if (tip->shape == WT_TIP_PUNCH)
+        return pull_off * pull_off / (8.0 * M_PI * reduced * pow(tip->radius, 3));
+    const double wanted = log(pull_off), close = 1e-12;
+    double low = log(least_work), high = log(most_work);
+    double below = log_pull_off(table, reduced, k, low) - wanted;
+    double above = log_pull_off(table, reduced, k, high) - wanted;
+    if (!(below < 0.0) || !(above > 0.0))
+        return (double)NAN;
+    for (int i = 0, side = 0; i < MAX_ROUNDS && high - low > close; i++) {
+        const double middle = high - above * (high - low) / (above - below);
+        const double off = log_pull_off(table, reduced, k, middle) - wanted;
+        const int now = off > 0.0 ? 1 : -1;
+        if (fabs(off) < close)
+            return exp(middle);
+        if (off > 0.0) {
+            high = middle;
+            above = off;
+            below *= side == now ? 0.5 : 1.0;
+        } else {
+            low = middle;
+            below = off;
+            above *= side == now ? 0.5 : 1.0;
+        }
+        side = now;
+    }
+    return exp(0.5 * (low + high));
+}
+
+double adhesion_tabor(const adhesion *law)
+{
+    const wt_tip *tip = contact_table_tip(law->table);
+    if (tip->shape == WT_TIP_CONE || tip->shape == WT_TIP_PUNCH || !(tip->radius > 0.0))
+        return (double)NAN;
+    const double x = law->work / law->reduced;
+    return cbrt(tip->radius * x * x / (force_range * force_range * force_range));
+}

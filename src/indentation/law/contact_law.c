@@ -1,0 +1,168 @@
+/* Contact laws of rigid tips on an elastic half-space: Hertz, Sneddon, blunted pyramid.
+ *
+ * Sphere: Sneddon, Int. J. Eng. Sci. 3 (1965) 47, with t = atanh(a/R): delta = R t tanh(t) and
+ * G = R^2 { (1 + tanh(t)^2) t - tanh(t) }, the difference t - tanh(t) by a continued fraction.
+ *
+ * Blunted pyramid: Rico et al., Phys. Rev. E 72 (2005) 021914, with a parabolic cap r^2/(2R) up to
+ * the transition radius b. The published pair delta(a), F(a) loses digits at both ends in double
+ * precision; here it is written in s = sqrt(a^2 - b^2)/b, h = sqrt(1 + s^2), a = b h:
+ *
+ *   delta = b^2 h / (R (h + s)) + m cot(theta) b h atan(s)
+ *   G     = 2 { b^3 (2h + s) / (3 R (h + s)^2) + (m/2) cot(theta) (a^2 atan(s) + b^2 s) }
+ *
+ * in which nothing cancels. delta(s) is convex and rises, so Newton's method from above converges
+ * without a safeguard.
+ *
+ * SPDX-License-Identifier: GPL-3.0-or-later
+ */
+#include "indentation/law/tip.h"
+
+#include <float.h>
+#include <math.h>
+
+double tip_facet_factor(unsigned sides)
+{
+    return sides == 0 ? 1.0 : sides / M_PI * sin(M_PI / sides);
+}
+
+bool contact_law_holds(const wt_tip *tip, double depth)
+{
+    const bool faced = tip->shape == WT_TIP_CONE || tip->shape == WT_TIP_BLUNTED_PYRAMID;
+    return (faced || !(depth > ROUND_TIP_REACH * tip->radius)) &&
+           !(thin_sample_reach(tip, depth) > THIN_SAMPLE_REACH);
+}
+
+double contact_switch_depth(const wt_tip *tip)
+{
+    switch (tip->shape) {
+    case WT_TIP_PARABOLOID:
+        return (double)INFINITY;
+    case WT_TIP_CONE:
+    case WT_TIP_SPHERE:
+    case WT_TIP_PUNCH:
+        return 0.0;
+    case WT_TIP_BLUNTED_PYRAMID:
+        break;
+    }
+    return tip->transition_radius == 0.0
+               ? 0.0
+               : tip->transition_radius * tip->transition_radius / tip->radius;
+}
+
+static contact_point_values paraboloid(double radius, double delta)
+{
+    double a = sqrt(radius * delta);
+    return (contact_point_values){4.0 / 3.0 * a * delta, 2.0 * a, a / delta};
+}
+
+static double sphere_force(double radius, double t)
+{
+    const double share = tanh(t);
+    double rest = t - share;
+    if (t < 1.0) {
+        double w = 0.0;
+        for (int odd = 19; odd > 1; odd -= 2)
+            w = t * t / (odd + w);
+        rest = w * share;
+    }
+    return radius * radius * (share * share * t + rest);
+}
+
+static contact_point_values sphere(double radius, double delta)
+{
+    enum { MAX_ROUNDS = 60 }; /* a bound of Newton's steps from above */
+    const double x = delta / radius;
+    double t = sqrt(x) * sqrt(1.0 + x), share = 0.0, left = 0.0; /* not below the root */
+    for (int i = 0; i < MAX_ROUNDS; i++) {
+        share = tanh(t);
+        left = 1.0 / (cosh(t) * cosh(t));
+        const double next = t - (t * share - x) / (share + t * left);
+        if (!(fabs(next - t) > DBL_EPSILON * t))
+            break;
+        t = next;
+    }
+    return (contact_point_values){sphere_force(radius, t), 2.0 * radius * share,
+                                  2.0 * left / (share + t * left)};
+}
+
+static contact_point_values sharp_contact(const wt_tip *tip, double delta)
+{
+    unsigned sides = tip->shape == WT_TIP_CONE ? 0 : tip->sides;
+    double c = 2.0 / (M_PI * tip_facet_factor(sides)) * tan(tip->half_angle);
+    return (contact_point_values){c * delta * delta, 2.0 * c * delta, 2.0 * c};
+}
+
+/* G beyond the transition radius. */
+static double faces_force(const wt_tip *tip, double mcot, double s)
+{
+    const double b = tip->transition_radius, h = hypot(1.0, s), hs = h + s, a = b * h;
+    return 2.0 * (b * b / tip->radius * b * (2.0 * h + s) / (3.0 * hs * hs) +
+                  0.5 * mcot * (a * a * atan(s) + b * (b * s)));
+}
+
+/* The equation is solved for the depth beyond the switch, or the root near it would be lost in the
+ * rounding of the depth:  delta - b^2/R = m cot(theta) b h atan(s) - b^2 s / (R (h + s)). */
+static contact_point_values faces_contact(const wt_tip *tip, double delta)
+{
+    const double b = tip->transition_radius;
+    const double cap = b * b / tip->radius, beyond = delta - cap;
+    const double mcot = tip_facet_factor(tip->sides) / tan(tip->half_angle);
+    /* h atan(s) >= pi s/2 - 1 makes this an upper bound of the root. */
+    double s = 2.0 / M_PI * (delta / (mcot * b) + 1.0);
+    double h = 0.0, hs = 0.0, rise = 0.0;
+    for (;;) {
+        h = hypot(1.0, s);
+        hs = h + s;
+        rise = mcot * b * (1.0 + s * atan(s)) - cap / (hs * hs); /* h ddelta/ds */
+        double excess = mcot * b * h * atan(s) - cap * s / hs - beyond;
+        double next = fmax(s - excess * h / rise, 0.0);
+        /* The iterates fall until rounding stops them: that is the root. */
+        if (!(next < s))
+            break;
+        s = next;
+    }
+    /* At the switch itself the contact grows no faster than s, but that of a smooth cap. */
+    const double growth = rise > 0.0 ? b * s / rise : 0.5 * tip->radius / b;
+    return (contact_point_values){faces_force(tip, mcot, s), 2.0 * b * h, 2.0 * growth};
+}
+
+contact_point_values contact_values(const wt_tip *tip, double delta)
+{
+    switch (tip->shape) {
+    case WT_TIP_PARABOLOID:
+        return paraboloid(tip->radius, delta);
+    case WT_TIP_CONE:
+        return sharp_contact(tip, delta);
+    case WT_TIP_SPHERE:
+        return sphere(tip->radius, delta);
+    case WT_TIP_PUNCH:
+        return (contact_point_values){2.0 * tip->radius * delta, 2.0 * tip->radius, 0.0};
+    case WT_TIP_BLUNTED_PYRAMID:
+        break;
+    }
+    if (tip->transition_radius == 0.0)
+        return sharp_contact(tip, delta);
+    if (delta < contact_switch_depth(tip))
+        return paraboloid(tip->radius, delta);
+    return faces_contact(tip, delta);
+}
+
+double thin_sample_reach(const wt_tip *tip, double delta)
+{
+    return tip->sample_thickness > 0.0 && delta > 0.0
+               ? 0.5 * contact_values(tip, delta).slope / tip->sample_thickness
+               : 0.0;
+}
+
+void wt_contact_function(const wt_tip *tip, double delta, double *g, double *slope)
+{
+    contact_point_values v = {0.0, 0.0, 0.0};
+    if (isnan(delta))
+        v.g = v.slope = delta;
+    else if (delta > 0.0)
+        v = contact_values(tip, delta);
+    if (tip->sample_thickness > 0.0 && delta > 0.0)
+        v = thin_sample_values(tip, v);
+    *g = v.g;
+    *slope = v.slope;
+}

@@ -1,0 +1,94 @@
+/* Rubber with memory: a Prony series along a motion in steps of time. f is taken as linear within a
+ * step, for which the recursion is exact.
+ *
+ * SPDX-License-Identifier: GPL-3.0-or-later
+ */
+#include "indentation/law/hereditary.h"
+
+#include "dma/law/prony_law.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+/* Relaxation times in steps and in the whole motion beyond which a term is a dashpot or a spring:
+ * exp(-20) and 1e-5 of it are lost. */
+static const double quickest = 0.05, slowest = 1e5;
+
+wt_status hereditary_reserve(hereditary *m, size_t terms, wt_error *err)
+{
+    enum { N_ARRAYS = 7 }; /* below */
+    if (terms <= m->capacity && m->block != NULL)
+        return WT_OK;
+    double *block = calloc(N_ARRAYS * (terms + 1), sizeof *block);
+    if (block == NULL)
+        return wt_fail(err, WT_E_MEMORY, "out of memory for a Prony series of %zu terms", terms);
+    free(m->block);
+    *m = (hereditary){.block = block, .capacity = terms};
+    double **const arrays[N_ARRAYS] = {&m->modulus,   &m->time,      &m->fade,     &m->gain,
+                                       &m->memory[0], &m->memory[1], &m->memory[2]};
+    for (size_t i = 0; i < N_ARRAYS; i++)
+        *arrays[i] = block + i * (terms + 1);
+    return WT_OK;
+}
+
+void hereditary_clear(hereditary *m)
+{
+    free(m->block);
+    *m = (hereditary){0};
+}
+
+void hereditary_begin(hereditary *m, const wt_prony *series, double scale, double shortest,
+                      double longest)
+{
+    m->n = 0;
+    m->rest = scale * series->equilibrium_modulus;
+    m->viscosity = m->step = 0.0;
+    for (size_t i = 0; i < series->n; i++) {
+        const double e = scale * series->modulus[i], tau = series->relaxation_time[i];
+        if (tau > slowest * longest) {
+            m->rest += e;
+        } else if (tau < quickest * shortest) {
+            m->viscosity += e * tau;
+        } else {
+            m->modulus[m->n] = e;
+            m->time[m->n++] = tau;
+        }
+    }
+}
+
+void hereditary_step(hereditary *m, double step)
+{
+    if (step <= m->step && step >= m->step)
+        return;
+    m->step = step;
+    m->gains = 0.0;
+    for (size_t i = 0; i < m->n; i++) {
+        const double x = step / m->time[i];
+        m->fade[i] = exp(-x);
+        m->gain[i] = m->modulus[i] * (x > 0.0 ? -expm1(-x) / x : 1.0);
+        m->gains += m->gain[i];
+    }
+}
+
+double hereditary_fade(const hereditary *m, double *memory)
+{
+    double sum = 0.0;
+    for (size_t i = 0; i < m->n; i++) {
+        memory[i] *= m->fade[i];
+        sum += memory[i];
+    }
+    return sum;
+}
+
+void hereditary_add(const hereditary *m, double *memory, double change)
+{
+    for (size_t i = 0; i < m->n; i++)
+        memory[i] += m->gain[i] * change;
+}
+
+double hereditary_modulus(const wt_prony *series, double omega)
+{
+    double storage, loss;
+    prony_moduli(series, omega, &storage, &loss);
+    return hypot(storage, loss);
+}

@@ -1,0 +1,183 @@
+/* A tip that goes into rubber with memory and out again (Lee and Radok; Ting). On the way out the
+ * contact has shrunk to what it was at an earlier time t1 of the way in, for which the integral of
+ * E(t - t') ddelta from t1 to t is zero; only what was pressed in before t1 pushes. t1 falls: it is
+ * followed back through the steps of the way in.
+ *
+ * SPDX-License-Identifier: GPL-3.0-or-later
+ */
+#include "core/math/root.h"
+#include "indentation/law/hereditary.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { MAX_NEWTON = 60 };          /* a bound of steps */
+static const double close = 1e-15; /* of a step: t1 */
+/* In relaxation times: what it leaves of a memory is a double's last digit. */
+static const double long_step = 36.0;
+
+/* The way in, and where the way out is. */
+typedef struct loop {
+    hereditary *law;
+    const wt_contact_table *table;
+    double compliance;
+    const double *time;
+    double *depth, *f;      /* [steps] of the way in */
+    double *pushed, *moved; /* [steps][terms]: memories of f and of the depth */
+    size_t step;            /* t1 lies in the one that ends here */
+    double since;           /* the time since it began */
+    double *left;           /* [terms] what is left of what was there then */
+    double *now;            /* [terms] memory of the depth */
+} loop;
+
+/* base = depth + compliance (past + now f(depth)), from a depth that is not too small. */
+static double depth_in(const wt_contact_table *table, double compliance, double base, double past,
+                       double now, double *f)
+{
+    const double most = base - compliance * past;
+    double x = fmax(most, 0.0), slope;
+    for (int i = 0; i < MAX_NEWTON && x > 0.0; i++) {
+        wt_contact_table_eval(table, &x, 1, f, &slope);
+        const double step = (most - x - compliance * now * *f) / (1.0 + compliance * now * slope);
+        x = fmax(x + step, 0.0);
+        if (fabs(step) <= 1e-15 * x)
+            break;
+    }
+    wt_contact_table_eval(table, &x, 1, f, &slope);
+    return x;
+}
+
+static double step_in(loop *l, size_t i, double base)
+{
+    hereditary *law = l->law;
+    const size_t n = law->n;
+    double *pushed = l->pushed + i * n, *moved = l->moved + i * n;
+    memcpy(pushed, pushed - n, n * sizeof *pushed);
+    memcpy(moved, moved - n, n * sizeof *moved);
+    const double faded = hereditary_fade(law, pushed), before = l->f[i - 1];
+    hereditary_fade(law, moved);
+    const double past = hereditary_force(law, faded, before, 0.0);
+    const double now = hereditary_force(law, 0.0, 0.0, 1.0);
+    l->depth[i] = depth_in(l->table, l->compliance, base, past, now, &l->f[i]);
+    hereditary_add(law, pushed, l->f[i] - before);
+    hereditary_add(law, moved, l->depth[i] - l->depth[i - 1]);
+    return past + now * l->f[i];
+}
+
+static void begin_step(loop *l, double t)
+{
+    l->since = l->step > 0 ? t - l->time[l->step - 1] : 0.0;
+    for (size_t i = 0; i < l->law->n && l->step > 0; i++)
+        l->left[i] = exp(-l->since / l->law->time[i]);
+}
+
+/* With t1 a share of the step after its beginning: the force, and in `open` what the depth took of
+ * the integral since t1. */
+static double force_since(const loop *l, double share, double *depth, double *open)
+{
+    const hereditary *law = l->law;
+    const size_t j = l->step;
+    const double part = share * (l->time[j] - l->time[j - 1]), since = l->since - part;
+    const double moved = share * (l->depth[j] - l->depth[j - 1]);
+    double f, slope, force = 0.0;
+    *depth = l->depth[j - 1] + moved;
+    *open = 0.0;
+    wt_contact_table_eval(l->table, depth, 1, &f, &slope);
+    for (size_t i = 0; i < law->n; i++) {
+        const double x = part / law->time[i];
+        const double risen = x < long_step ? l->left[i] * expm1(x) : exp(-since / law->time[i]);
+        const double gain = law->modulus[i] * (x > 0.0 ? risen / x : l->left[i]);
+        const size_t at = (j - 1) * law->n + i;
+        force += l->left[i] * l->pushed[at] + gain * (f - l->f[j - 1]);
+        *open -= l->left[i] * l->moved[at] + gain * moved;
+    }
+    return law->rest * f + force;
+}
+
+/* A moment of the way out, with what the depth took of the integral before. */
+typedef struct moment {
+    const loop *l;
+    double base, before, faded;
+    double force, depth; /* of the latest t1 */
+} moment;
+
+/* The integral since t1, a share of the step, which falls as t1 rises; at its root the force is
+ * that of the contact. */
+static double integral_since(double share, void *user)
+{
+    moment *m = user;
+    const loop *l = m->l;
+    const hereditary *law = l->law;
+    double then, open;
+    m->force = force_since(l, share, &then, &open);
+    m->depth = m->base - l->compliance * m->force;
+    return law->rest * (m->depth - then) + open + m->faded +
+           (law->gains + law->viscosity / law->step) * (m->depth - m->before);
+}
+
+static wt_status step_out(loop *l, double t, double base, double *depth, double *force,
+                          wt_error *err)
+{
+    moment m = {.l = l, .base = base, .before = *depth, .faded = hereditary_fade(l->law, l->now)};
+    *depth = base;
+    *force = 0.0;
+    begin_step(l, t);
+    while (l->step > 0 && integral_since(0.0, &m) <= 0.0) {
+        l->step--;
+        begin_step(l, t);
+    }
+    if (l->step == 0)
+        return WT_OK;
+    /* not below zero: the contact holds on to its radius */
+    double share = 1.0;
+    if (integral_since(1.0, &m) < 0.0) {
+        const wt_status status = root_find(integral_since, &m, 0.0, 1.0, close, &share, err);
+        if (status != WT_OK)
+            return status;
+        (void)integral_since(share, &m);
+    }
+    hereditary_add(l->law, l->now, m.depth - m.before);
+    *depth = m.depth;
+    *force = m.force;
+    return WT_OK;
+}
+
+wt_status hereditary_loop(hereditary *law, const wt_contact_table *table, double compliance,
+                          const double *time, const double *base, size_t n, double *force,
+                          wt_error *err)
+{
+    const size_t terms = law->n;
+    double *block = calloc(n * (2 + 2 * terms) + 2 * terms + 1, sizeof *block);
+    if (block == NULL)
+        return wt_fail(err, WT_E_MEMORY, "out of memory for %zu steps of an indentation", n);
+    loop l = {.law = law,
+              .table = table,
+              .compliance = compliance,
+              .time = time,
+              .depth = block,
+              .f = block + n,
+              .pushed = block + 2 * n,
+              .moved = block + (2 + terms) * n,
+              .left = block + (2 + 2 * terms) * n,
+              .now = block + (2 + 2 * terms) * n + terms};
+    double depth = 0.0;
+    bool out = false;
+    wt_status status = WT_OK;
+    force[0] = 0.0;
+    for (size_t i = 1; i < n && status == WT_OK; i++) {
+        hereditary_step(law, time[i] - time[i - 1]);
+        if (!out) { /* with a lever it goes deeper for a while after the base has turned */
+            force[i] = step_in(&l, i, base[i]);
+            if (l.depth[i] >= l.depth[i - 1])
+                continue;
+            out = true;
+            l.step = i - 1;
+            depth = l.depth[i - 1];
+            memcpy(l.now, l.moved + (i - 1) * terms, terms * sizeof *l.now);
+        }
+        status = step_out(&l, time[i], base[i], &depth, &force[i], err);
+    }
+    free(block);
+    return status;
+}

@@ -1,0 +1,20 @@
+/* Internal to the library: a layer (E1, thickness h) bonded to a half-space (E2), both
+ * incompressible, under a rigid tip without friction.
+ *
+ * SPDX-License-Identifier: GPL-3.0-or-later
+ */
+#ifndef WT_INDENTATION_LAW_THIN_LAYER_H
+#define WT_INDENTATION_LAW_THIN_LAYER_H
+
+#include <stdbool.h>
+
+/* Of the moduli, between which the law is within 2 % of what it was fitted to. */
+#define THIN_LAYER_LEAST_RATIO 0.3
+#define THIN_LAYER_LARGEST_RATIO 3.0
+
+/* What a homogeneous model makes of one point, over E1: ratio = E1/E2, x = contact radius of the
+ * homogeneous half-space at that depth over h. Within 2 % where thin_layer_holds. */
+double thin_layer_apparent(double ratio, double x);
+bool thin_layer_holds(double ratio, double x);
+
+#endif

@@ -1,0 +1,293 @@
+/* Tips: the short text form of the command line and the case file, and the description in words.
+ *
+ * SPDX-License-Identifier: GPL-3.0-or-later
+ */
+#include "indentation/law/tip.h"
+
+#include "core/base/array.h"
+#include "core/base/clocale.h"
+#include "core/base/spell_suggest.h"
+
+#include <math.h>
+#include <string.h>
+
+/* What each shape takes: "allowed" includes "needed". */
+static const struct {
+    const char *name, *example;
+    unsigned allowed, needed;
+    wt_tip_shape shape;
+} shapes[] = {
+    {"pyramid", "pyramid:half-angle=35deg,radius=20nm",
+     1u << TIP_HALF_ANGLE | 1u << TIP_RADIUS | 1u << TIP_SIDES | 1u << TIP_TRANSITION,
+     1u << TIP_HALF_ANGLE | 1u << TIP_RADIUS, WT_TIP_BLUNTED_PYRAMID},
+    {"cone", "cone:half-angle=20deg",
+     1u << TIP_HALF_ANGLE | 1u << TIP_RADIUS | 1u << TIP_TRANSITION, 1u << TIP_HALF_ANGLE,
+     WT_TIP_CONE},
+    {"sphere", "sphere:radius=5um", 1u << TIP_RADIUS, 1u << TIP_RADIUS, WT_TIP_SPHERE},
+    {"paraboloid", "paraboloid:radius=5um", 1u << TIP_RADIUS, 1u << TIP_RADIUS, WT_TIP_PARABOLOID},
+    {"punch", "punch:radius=2um", 1u << TIP_RADIUS, 1u << TIP_RADIUS, WT_TIP_PUNCH},
+};
+enum { PYRAMID, N_SHAPES = sizeof shapes / sizeof shapes[0] };
+
+enum { LIST = 256 }; /* letters of a list of words */
+
+/* "a, b or c": adds one more word, of which `after` follow. */
+static void add_word(char list[LIST], const char *word, size_t after)
+{
+    const size_t used = strlen(list);
+    snprintf(list + used, LIST - used, "%s%s", used == 0 ? "" : after == 0 ? " or " : ", ", word);
+}
+
+/* With the name that was meant, if any is near. */
+static void advise_shape(wt_error *err, size_t shape, const nearest_name *near)
+{
+    char examples[LIST] = "";
+    for (size_t i = 0; i < N_SHAPES; i++)
+        if (shape == N_SHAPES || shape == i)
+            add_word(examples, shapes[i].example, N_SHAPES - 1 - i);
+    if (near != NULL && near->name != NULL)
+        wt_error_advice(err, "did you mean %s? Write it like %s", near->name, examples);
+    else
+        wt_error_advice(err, "write it like %s", examples);
+}
+
+static wt_status tip_syntax(wt_error *err, size_t shape, const char *text, const char *expected,
+                            const nearest_name *found)
+{
+    wt_status status = wt_fail(err, WT_E_ARG, "tip \"%s\" is not understood", text);
+    wt_error_expected(err, "%s", expected);
+    wt_error_found(err, "\"%.*s\"", (int)found->length, found->word);
+    advise_shape(err, shape, found);
+    return status;
+}
+
+static wt_status parse_item(const char *text, size_t shape, const char *item, size_t length,
+                            wt_estimate values[TIP_N_DIMENSIONS], unsigned *seen, wt_error *err)
+{
+    const char *equals = memchr(item, '=', length);
+    if (equals == NULL)
+        return tip_syntax(err, shape, text, "name=value",
+                          &(nearest_name){.word = item, .length = length});
+    size_t name_length = (size_t)(equals - item), key = 0;
+    while (key < TIP_N_DIMENSIONS && (strlen(tip_dimensions[key].name) != name_length ||
+                                      strncmp(tip_dimensions[key].name, item, name_length) != 0))
+        key++;
+    if (key == TIP_N_DIMENSIONS || !(shapes[shape].allowed & 1u << key)) {
+        char names[LIST] = "";
+        nearest_name near = nearest_to(item, name_length);
+        for (size_t i = 0; i < TIP_N_DIMENSIONS; i++)
+            if (shapes[shape].allowed & 1u << i) {
+                add_word(names, tip_dimensions[i].name, shapes[shape].allowed >> (i + 1));
+                nearest_try(&near, tip_dimensions[i].name, strlen(tip_dimensions[i].name));
+            }
+        return tip_syntax(err, shape, text, names, &near);
+    }
+    if (*seen & 1u << key)
+        return tip_syntax(err, shape, text, "every name once",
+                          &(nearest_name){.word = item, .length = length});
+    *seen |= 1u << key;
+
+    char value[64];
+    size_t value_length = length - name_length - 1;
+    if (value_length >= sizeof value)
+        return tip_syntax(err, shape, text, "a number with its unit",
+                          &(nearest_name){.word = equals + 1, .length = value_length});
+    memcpy(value, equals + 1, value_length);
+    value[value_length] = '\0';
+    wt_status status = wt_estimate_parse(value, tip_dimensions[key].quantity, &values[key], err);
+    if (status == WT_OK && values[key].standard_error > 0.0 && key != TIP_HALF_ANGLE &&
+        key != TIP_RADIUS) {
+        status = wt_fail(err, WT_E_ARG, "an error stated here would not be used");
+        wt_error_found(err, "%s", value);
+        wt_error_advice(err, "leave out what follows +-");
+    }
+    if (status != WT_OK)
+        wt_error_place(err, "tip \"%s\", %s", text, tip_dimensions[key].name);
+    return status;
+}
+
+static wt_status find_shape(const char *text, size_t length, size_t *shape, wt_error *err)
+{
+    char names[LIST] = "";
+    nearest_name near = nearest_to(text, length);
+    size_t meant = N_SHAPES;
+    for (*shape = 0; *shape < N_SHAPES; ++*shape) {
+        if (strlen(shapes[*shape].name) == length &&
+            strncmp(shapes[*shape].name, text, length) == 0)
+            return WT_OK;
+        add_word(names, shapes[*shape].name, N_SHAPES - 1 - *shape);
+        nearest_try(&near, shapes[*shape].name, strlen(shapes[*shape].name));
+        if (near.name == shapes[*shape].name)
+            meant = *shape;
+    }
+    return tip_syntax(err, near.name != NULL ? meant : N_SHAPES, text, names, &near);
+}
+
+wt_status wt_tip_parse(const char *text, wt_tip *tip, wt_error *err)
+{
+    const char *colon = strchr(text, ':');
+    size_t name_length = colon != NULL ? (size_t)(colon - text) : strlen(text);
+    size_t shape = 0;
+    wt_status status = find_shape(text, name_length, &shape, err);
+    if (status != WT_OK)
+        return status;
+    wt_estimate values[TIP_N_DIMENSIONS] = {{0.0, 0.0, 0.0, NULL}};
+    unsigned seen = 0;
+    for (const char *item = colon != NULL ? colon + 1 : ""; *item != '\0';) {
+        size_t length = strcspn(item, ",");
+        status = parse_item(text, shape, item, length, values, &seen, err);
+        if (status != WT_OK)
+            return status;
+        item += length;
+        if (*item == ',')
+            item++;
+    }
+    unsigned missing = shapes[shape].needed & ~seen;
+    if (!(seen & 1u << TIP_RADIUS) && (seen & 1u << TIP_TRANSITION))
+        missing |= 1u << TIP_RADIUS; /* a transition without a cap */
+    for (size_t key = 0; key < TIP_N_DIMENSIONS; key++) {
+        if (missing & 1u << key) {
+            status =
+                wt_fail(err, WT_E_ARG, "tip \"%s\" lacks its %s", text, tip_dimensions[key].name);
+            advise_shape(err, shape, NULL);
+            return status;
+        }
+    }
+    if ((seen & 1u << TIP_SIDES) &&
+        (param_check_number(&tip_dimensions[TIP_SIDES], values[TIP_SIDES].value, NULL) != WT_OK ||
+         floor(values[TIP_SIDES].value) != values[TIP_SIDES].value)) {
+        status = wt_fail(err, WT_E_RANGE, "tip \"%s\": sides is not usable", text);
+        wt_error_expected(err, "a whole number of 3 or more");
+        wt_error_found(err, "%g", values[TIP_SIDES].value);
+        return status;
+    }
+
+    wt_tip made = {.shape = shapes[shape].shape,
+                   .half_angle = values[TIP_HALF_ANGLE].value,
+                   .radius = values[TIP_RADIUS].value,
+                   .half_angle_error = values[TIP_HALF_ANGLE].standard_error,
+                   .radius_error = values[TIP_RADIUS].standard_error};
+    if (seen & 1u << TIP_HALF_ANGLE && seen & 1u << TIP_RADIUS) {
+        made.shape = WT_TIP_BLUNTED_PYRAMID;
+        if (shape == PYRAMID)
+            made.sides = seen & 1u << TIP_SIDES ? (unsigned)values[TIP_SIDES].value : 4;
+        made.transition_radius = seen & 1u << TIP_TRANSITION
+                                     ? values[TIP_TRANSITION].value
+                                     : wt_tip_tangent_transition(made.radius, made.half_angle);
+    }
+    status = wt_tip_check(&made, err);
+    if (status != WT_OK) {
+        wt_error_place(err, "tip \"%s\"", text);
+        return status;
+    }
+    *tip = made;
+    return WT_OK;
+}
+
+size_t wt_tip_describe(const wt_tip *tip, char *buffer, size_t size)
+{
+    char radius[32], transition[32];
+    wt_format_si(tip->radius, "m", 4, radius, sizeof radius);
+    wt_format_si(tip->transition_radius, "m", 4, transition, sizeof transition);
+    double angle = tip->half_angle * 180.0 / M_PI;
+    int length = 0;
+    switch (tip->shape) {
+    case WT_TIP_PARABOLOID:
+        length = snprintf(buffer, size, "paraboloid, radius %s", radius);
+        break;
+    case WT_TIP_SPHERE:
+        length = snprintf(buffer, size, "sphere, radius %s", radius);
+        break;
+    case WT_TIP_PUNCH:
+        length = snprintf(buffer, size, "flat punch, radius %s", radius);
+        break;
+    case WT_TIP_CONE:
+        length = clocale_print(buffer, size, "cone, half-angle %.4g degrees", angle);
+        break;
+    case WT_TIP_BLUNTED_PYRAMID:
+        if (tip->transition_radius == 0.0 && tip->sides == 0)
+            length = clocale_print(buffer, size, "cone, half-angle %.4g degrees", angle);
+        else if (tip->transition_radius == 0.0)
+            length = clocale_print(buffer, size,
+                                   "sharp pyramid, %u sides, half-angle %.4g degrees from the axis "
+                                   "to a face",
+                                   tip->sides, angle);
+        else if (tip->sides == 0)
+            length =
+                clocale_print(buffer, size,
+                              "blunted cone, half-angle %.4g degrees, cap radius %s, transition "
+                              "radius b %s",
+                              angle, radius, transition);
+        else
+            length = clocale_print(
+                buffer, size,
+                "blunted pyramid, %u sides, half-angle %.4g degrees from the axis to a face, cap "
+                "radius %s, transition radius b %s",
+                tip->sides, angle, radius, transition);
+        break;
+    }
+    if (length > 0 && tip->sample_thickness > 0.0) {
+        const size_t used = (size_t)length < size ? (size_t)length : size;
+        wt_format_si(tip->sample_thickness, "m", 4, radius, sizeof radius);
+        length += snprintf(buffer + used, size - used, "; sample %s thick, %s its rigid base",
+                           radius, tip->unbonded ? "sliding on" : "bonded to");
+    }
+    return length > 0 ? (size_t)length : 0;
+}
+
+/* What stands behind a word, up to a comma or the end, as a quantity; false if it is none. */
+static bool quantity_behind(const char *words, const char *word, const char *unit,
+                            wt_quantity quantity, double *value)
+{
+    char text[48];
+    const char *at = strstr(words, word);
+    if (at == NULL)
+        return false;
+    at += strlen(word);
+    const size_t n = strcspn(at, unit[0] != '\0' ? " " : ",;");
+    if (n + strlen(unit) >= sizeof text)
+        return false;
+    snprintf(text, sizeof text, "%.*s%s", (int)n, at, unit);
+    return wt_quantity_parse(text, quantity, value, NULL) == WT_OK;
+}
+
+bool tip_from_description(const char *words, wt_tip *tip)
+{
+    double sides = 0;
+    const bool cone = strncmp(words, "blunted cone, ", 14) == 0;
+    *tip = (wt_tip){.shape = WT_TIP_BLUNTED_PYRAMID};
+    if (!(cone || quantity_behind(words, "blunted pyramid, ", " ", WT_Q_NONE, &sides)) ||
+        !quantity_behind(words, "half-angle ", "deg", WT_Q_ANGLE, &tip->half_angle) ||
+        !quantity_behind(words, "cap radius ", "", WT_Q_LENGTH, &tip->radius) ||
+        !quantity_behind(words, "transition radius b ", "", WT_Q_LENGTH, &tip->transition_radius))
+        return false;
+    tip->sides = (unsigned)sides;
+    return wt_tip_check(tip, NULL) == WT_OK;
+}
+
+bool tip_of_any_description(const char *words, wt_tip *tip)
+{
+    static const struct {
+        const char *words;
+        wt_tip_shape shape;
+        bool round; /* a radius, else an angle */
+    } plain[] = {{"paraboloid, ", WT_TIP_PARABOLOID, true},
+                 {"sphere, ", WT_TIP_SPHERE, true},
+                 {"flat punch, ", WT_TIP_PUNCH, true},
+                 {"cone, ", WT_TIP_CONE, false}};
+    double sides = 0;
+    for (size_t i = 0; i < COUNT_OF(plain); i++) {
+        if (strncmp(words, plain[i].words, strlen(plain[i].words)) != 0)
+            continue;
+        *tip = (wt_tip){.shape = plain[i].shape};
+        return (plain[i].round
+                    ? quantity_behind(words, "radius ", "", WT_Q_LENGTH, &tip->radius)
+                    : quantity_behind(words, "half-angle ", "deg", WT_Q_ANGLE, &tip->half_angle)) &&
+               wt_tip_check(tip, NULL) == WT_OK;
+    }
+    if (!quantity_behind(words, "sharp pyramid, ", " ", WT_Q_NONE, &sides))
+        return tip_from_description(words, tip);
+    *tip = (wt_tip){.shape = WT_TIP_BLUNTED_PYRAMID, .sides = (unsigned)sides};
+    return quantity_behind(words, "half-angle ", "deg", WT_Q_ANGLE, &tip->half_angle) &&
+           wt_tip_check(tip, NULL) == WT_OK;
+}

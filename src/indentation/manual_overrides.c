@@ -1,0 +1,325 @@
+/* Choices by hand: a table of them as a file, the files and curves that they are for, and the table
+ * of what was applied, which is such a file again.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#include "indentation/manual_overrides.h"
+
+#include "core/base/array.h"
+#include "core/base/param.h"
+#include "core/base/utf8.h"
+#include "core/table/table_rows.h"
+#include "indentation/indent.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+TABLE_ROW(choices, CHOICES, const char *group, *file; double curve;
+          const char *choice, *value, *note; size_t applied;)
+
+static choice_values no_values(void)
+{
+    return (choice_values){(double)NAN, (double)NAN, (double)NAN, {0}};
+}
+
+/* The words of the kinds that have a value, and its limits. */
+static const wt_param rows[] = {
+    {PARAM("contact-point", choice_values, contact_point, WT_Q_LENGTH, ANY_NUMBER), .unset = ""},
+    {PARAM("spring-constant", choice_values, spring_constant, WT_Q_SPRING_CONSTANT, ABOVE(0)),
+     .unset = ""},
+    {PARAM("sensitivity", choice_values, sensitivity, WT_Q_SENSITIVITY, ABOVE(0)), .unset = ""},
+    {PARAM_OTHER_OF("tip", choice_values, tip, indent_read_tip), .check = indent_check_tip},
+};
+PARAM_LOCAL_TABLE(value_params, choice_values, rows, no_values, NO_PARTS)
+
+static const struct {
+    const char *word;
+    bool of_curve, of_file; /* what it may be for */
+} kinds[CHOICE_KINDS] = {[CHOICE_EXCLUDE] = {"exclude", true, true},
+                         [CHOICE_CONTACT_POINT] = {"contact-point", true, false},
+                         [CHOICE_SPRING_CONSTANT] = {"spring-constant", false, true},
+                         [CHOICE_SENSITIVITY] = {"sensitivity", false, true},
+                         [CHOICE_TIP] = {"tip", false, true}};
+
+/* Whose choice it is, as the place of an error. */
+static wt_status at_choice(const hand_choices *choices, const hand_choice *c, wt_error *err)
+{
+    wt_error_file(err, choices->path);
+    if (isnan(c->curve))
+        wt_error_place(err, "row %zu, %s of %s", c->row + 1, kinds[c->kind].word, c->file);
+    else
+        wt_error_place(err, "row %zu, %s of %s curve %.0f", c->row + 1, kinds[c->kind].word,
+                       c->file, c->curve);
+    return err != NULL ? err->status : WT_E_ARG;
+}
+
+/* ---- reading --------------------------------------------------------------------------------- */
+
+static wt_status check_place(const hand_choice *c, wt_error *err)
+{
+    if (isnan(c->curve) ? !kinds[c->kind].of_file : !kinds[c->kind].of_curve) {
+        const wt_status status =
+            wt_fail(err, WT_E_ARG, "%s is chosen for %s", kinds[c->kind].word,
+                    kinds[c->kind].of_file ? "a file, not for one curve" : "one curve");
+        wt_error_advice(err, "%s in the column curve",
+                        kinds[c->kind].of_file ? "write nan" : "write the number of the curve");
+        return status;
+    }
+    if (!isnan(c->curve) && !(c->curve >= 0 && c->curve < 0x1p53 && floor(c->curve) == c->curve)) {
+        const wt_status status = wt_fail(err, WT_E_RANGE, "that is no number of a curve");
+        wt_error_expected(err, "0, 1, 2, ..., or nan for all of the file");
+        wt_error_found(err, "%g", c->curve);
+        return status;
+    }
+    return WT_OK;
+}
+
+static wt_status read_value(hand_choice *c, const wt_indent_job *job, const wt_job *work,
+                            wt_error *err)
+{
+    uint64_t given = 0;
+    c->values = no_values();
+    c->values.tip = job->tip; /* what is known of the sample stays */
+    if (c->kind == CHOICE_EXCLUDE)
+        return c->value[0] == '\0'
+                   ? WT_OK
+                   : wt_fail(err, WT_E_ARG, "exclude has no value, but \"%s\"; a reason is a note",
+                             c->value);
+    wt_status status =
+        wt_params_set(value_params(), kinds[c->kind].word, &c->values, c->value, &given, err);
+    if (status != WT_OK || c->kind != CHOICE_TIP)
+        return status;
+    const bool has_error = c->values.tip.radius_error > 0 || c->values.tip.half_angle_error > 0;
+    if (has_error)
+        wt_parselog_add(work->log, WT_WARNING, c->file, NULL,
+                        "errors of a tip that is chosen for a file are not in those of its moduli");
+    c->values.tip.radius_error = c->values.tip.half_angle_error = 0;
+    return indent_contact_table(&c->values.tip, &c->contact, err);
+}
+
+static wt_status read_choice(const table_view *view, size_t row, const wt_indent_job *job,
+                             const wt_job *work, hand_choices *to, wt_error *err)
+{
+    const char *word = choices_text(view, row, CHOICES_CHOICE);
+    hand_choice *grown = array_grow(to->choice, to->n, sizeof *grown);
+    if (grown == NULL)
+        return wt_fail(err, WT_E_MEMORY, "out of memory");
+    to->choice = grown;
+    hand_choice *c = &to->choice[to->n++];
+    *c = (hand_choice){.kind = CHOICE_EXCLUDE,
+                       .row = row,
+                       .file = choices_text(view, row, CHOICES_FILE),
+                       .value = choices_text(view, row, CHOICES_VALUE),
+                       .note = choices_text(view, row, CHOICES_NOTE),
+                       .curve = choices_get(view, row, CHOICES_CURVE)};
+    while (c->kind < CHOICE_KINDS && strcmp(kinds[c->kind].word, word) != 0)
+        c->kind++;
+    if (c->kind == CHOICE_KINDS) {
+        const wt_status status = wt_fail(err, WT_E_ARG, "no choice is called \"%s\"", word);
+        wt_error_file(err, to->path);
+        wt_error_place(err, "row %zu", row + 1);
+        wt_error_expected(err, "exclude, contact-point, spring-constant, sensitivity or tip");
+        return status;
+    }
+    wt_status status = check_place(c, err);
+    if (status == WT_OK)
+        status = read_value(c, job, work, err);
+    for (size_t i = 0; status == WT_OK && i + 1 < to->n; i++) {
+        const hand_choice *before = &to->choice[i];
+        const bool same_curve =
+            before->curve == c->curve || (isnan(before->curve) && isnan(c->curve));
+        if (before->kind == c->kind && same_curve && strcmp(before->file, c->file) == 0)
+            status =
+                wt_fail(err, WT_E_ARG, "chosen twice, the first time in row %zu", before->row + 1);
+    }
+    return status == WT_OK ? WT_OK : at_choice(to, c, err);
+}
+
+/* A file is read by each group of a case, and is one input. */
+static bool is_recorded(const wt_job *work, const char *path)
+{
+    for (size_t i = 0; work->provenance != NULL && i < wt_provenance_n_inputs(work->provenance);
+         i++)
+        if (strcmp(wt_provenance_get_input(work->provenance, i)->path, path) == 0)
+            return true;
+    return false;
+}
+
+wt_status choices_read(const wt_indent_job *job, const wt_job *work, hand_choices *choices,
+                       wt_error *err)
+{
+    static const wt_tables_role role = {.of_curves = "choices",
+                                        .of_others = "choices",
+                                        .instead = "a table of choices, as report --browse writes "
+                                                   "it: weartrack-indent(1)"};
+    *choices = (hand_choices){.path = job->choices, .group = job->group};
+    if (job->choices == NULL)
+        return WT_OK;
+    table_view view;
+    wt_status status =
+        wt_tables_read(job->choices, job->choices, is_recorded(work, job->choices) ? NULL : work,
+                       role, &choices->tables, err);
+    if (status != WT_OK)
+        return status;
+    /* a table by hand need not say its name */
+    const wt_table *table = wt_result_find(choices->tables, choices_schema.name);
+    status = table_bind(table != NULL ? table : wt_result_table(choices->tables, 0),
+                        &choices_schema, "", &view, err);
+    if (status != WT_OK)
+        wt_error_file(err, job->choices);
+    for (size_t row = 0; status == WT_OK && row < view.n_rows; row++) {
+        const char *group = choices_text(&view, row, CHOICES_GROUP);
+        if (group[0] == '\0' || strcmp(group, job->group) == 0)
+            status = read_choice(&view, row, job, work, choices, err);
+    }
+    if (status == WT_OK && choices->n == 0 && view.n_rows > 0)
+        wt_parselog_add(work->log, WT_WARNING, job->choices, NULL,
+                        "no choice is for the group \"%s\"", job->group);
+    return status;
+}
+
+/* The file of a choice; one that has that very name before others whose paths end alike. */
+static wt_status find_file(const hand_choices *choices, hand_choice *c, const flow_files *files,
+                           wt_error *err)
+{
+    flow_naming best = FLOW_OTHER_FILE;
+    const flow_file *other = NULL;
+    for (size_t k = 0; k < files->n; k++) {
+        const flow_naming as = flow_file_is(&files->file[k], c->file, strlen(c->file));
+        if (as == FLOW_OTHER_FILE || as < best)
+            continue;
+        other = as == best ? c->of : NULL;
+        c->of = &files->file[k];
+        best = as;
+    }
+    if (c->of == NULL) {
+        (void)wt_fail(err, WT_E_NOT_FOUND, "no file of the group \"%s\" is called so",
+                      choices->group);
+        wt_error_advice(err, "correct the column file, delete the row, or name another group in "
+                             "the column group");
+        return at_choice(choices, c, err);
+    }
+    if (other == NULL)
+        return WT_OK;
+    (void)wt_fail(err, WT_E_ARG, "two files are called so");
+    wt_error_found(err, "%s and %s", other->name, c->of->name);
+    wt_error_advice(err, "write more of the path in the column file");
+    return at_choice(choices, c, err);
+}
+
+wt_status choices_bind(hand_choices *choices, const flow_files *files, wt_error *err)
+{
+    wt_status status = WT_OK;
+    for (size_t i = 0; status == WT_OK && i < choices->n; i++)
+        status = find_file(choices, &choices->choice[i], files, err);
+    return status;
+}
+
+/* ---- using ----------------------------------------------------------------------------------- */
+
+void choices_of_file(const hand_choices *choices, const flow_file *file, wt_read_options *read,
+                     const wt_contact_table **contact, const wt_tip **tip)
+{
+    for (size_t i = 0; i < choices->n; i++) {
+        const hand_choice *c = &choices->choice[i];
+        if (c->of != file)
+            continue;
+        if (c->kind == CHOICE_SPRING_CONSTANT)
+            read->spring_constant = c->values.spring_constant;
+        if (c->kind == CHOICE_SENSITIVITY)
+            read->sensitivity = c->values.sensitivity;
+        if (c->kind != CHOICE_TIP)
+            continue;
+        *contact = c->contact;
+        *tip = &c->values.tip;
+    }
+}
+
+curve_choice choices_of_curve(hand_choices *choices, const flow_file *file, size_t curve)
+{
+    curve_choice of = {(double)NAN, NULL};
+    for (size_t i = 0; i < choices->n; i++) {
+        hand_choice *c = &choices->choice[i];
+        if (c->of != file || (!isnan(c->curve) && (size_t)c->curve != curve))
+            continue;
+        c->n_curves++;
+        if (c->kind == CHOICE_CONTACT_POINT)
+            of.contact_point = c->values.contact_point;
+        if (c->kind == CHOICE_EXCLUDE && (of.exclude == NULL || !isnan(c->curve)))
+            of.exclude = c;
+    }
+    return of;
+}
+
+void choices_judge(const curve_choice *choice, wt_indent_fit *fit)
+{
+    enum { NOTE = 60 }; /* of it, so that the verdict of the fit has room */
+    char said[2 * sizeof fit->reason], text[4 * sizeof fit->reason];
+    const char *verdict = wt_curve_verdict_id(fit->verdict);
+    const bool by_hand = !isnan(choice->contact_point), some = fit->reason[0] != '\0';
+    snprintf(said, sizeof said, "%s%s%s", by_hand ? "contact point by hand" : "",
+             by_hand && some ? "; " : "", fit->reason);
+    if (choice->exclude == NULL) {
+        utf8_copy(fit->reason, sizeof fit->reason, said);
+        return;
+    }
+    const char *note = choice->exclude->note;
+    const bool says_verdict = strncmp(said, verdict, strlen(verdict)) == 0;
+    snprintf(text, sizeof text, "left out by hand%s%.*s; the fit: %s%s%s",
+             note[0] != '\0' ? ": " : "", (int)utf8_cut(note, strlen(note), NOTE), note,
+             says_verdict ? "" : verdict, says_verdict || said[0] == '\0' ? "" : ", ", said);
+    utf8_copy(fit->reason, sizeof fit->reason, text);
+    fit->verdict = WT_CURVE_EXCLUDED;
+}
+
+/* ---- the table ------------------------------------------------------------------------------- */
+
+/* What a reader of the result should know: what was done by hand. */
+static void note_choices(const hand_choices *choices, const wt_job *work)
+{
+    size_t n_curves[CHOICE_KINDS] = {0}, used = 0;
+    char text[256] = "";
+    for (size_t i = 0; i < choices->n; i++)
+        n_curves[choices->choice[i].kind] += choices->choice[i].n_curves;
+    for (int k = 0; k < CHOICE_KINDS; k++)
+        if (n_curves[k] > 0)
+            used += (size_t)snprintf(text + used, sizeof text - used, "%s%s of %zu",
+                                     used > 0 ? ", " : "", kinds[k].word, n_curves[k]);
+    wt_parselog_add(work->log, WT_NOTE, choices->path, NULL,
+                    "%s: chosen by hand, in curves: %s (table choices)", choices->group, text);
+}
+
+wt_status choices_table(const hand_choices *choices, const wt_job *work, wt_table **table,
+                        wt_error *err)
+{
+    if (choices->n == 0)
+        return WT_OK;
+    note_choices(choices, work);
+    table_writer t = {0};
+    if (*table == NULL) {
+        t = table_begin(&choices_schema, err);
+        if (table_end(&t, table) != WT_OK)
+            return t.status;
+    }
+    t = table_continue(*table, &choices_schema, choices->group, err);
+    for (size_t i = 0; i < choices->n; i++) {
+        const hand_choice *c = &choices->choice[i];
+        if (c->n_curves == 0) {
+            (void)wt_fail(err, WT_E_NOT_FOUND,
+                          isnan(c->curve) ? "no curve of the file could be read"
+                                          : "the file has no such curve");
+            return at_choice(choices, c, err);
+        }
+        TABLE_ADD(choices, &t, choices->group, c->file, c->curve, kinds[c->kind].word, c->value,
+                  c->note, c->n_curves);
+    }
+    return table_end(&t, NULL);
+}
+
+void choices_clear(hand_choices *choices)
+{
+    for (size_t i = 0; i < choices->n; i++)
+        wt_contact_table_free(choices->choice[i].contact);
+    free(choices->choice);
+    wt_result_free(choices->tables);
+    *choices = (hand_choices){0};
+}

@@ -1,0 +1,283 @@
+/* Means of the samples of an approach, its dwell and the free part of its retract, and how the
+ * noise of the baseline makes them scatter together.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#include "indentation/numerics/relaxation.h"
+
+#include <gsl/gsl_linalg.h>
+#include <math.h>
+
+/* Means of the parts of a curve: a line is told by 8 and 16 of them, what bends by 64 and as many
+ * as are told of the dwell. More only make the covariance of all larger, which goes with their
+ * cube. */
+enum { FREE_BINS = 16, PRESSED_BINS = 64, HELD_BINS = WT_DWELL_POINTS, RETRACT_BINS = 8 };
+enum { MOST_NODES = FREE_BINS + PRESSED_BINS + 1 + HELD_BINS + RETRACT_BINS };
+/* Two samples in each mean of a baseline. */
+enum { LEAST_BASELINE = 2 * FREE_BINS };
+/* The first mean of the dwell is at least this part of it: three decades of times, which is what
+ * the means in steps of one factor are shared out over. */
+static const double first_share = 1e-3;
+/* Where the contact of the approach begins for its means, before the contact point, in parts of its
+ * length: a contact point that is off by as much is still among them. Chosen; the means beside it
+ * are fitted wherever they lie. */
+static const double margin = 0.2;
+/* The last part of a retract that is taken for free of contact and adhesion. Chosen; with 0.75 the
+ * neck of an adhesive contact may be in it, with 0.25 the line of drift is told three times
+ * worse. */
+static const double free_share = 0.5;
+
+static void open_node(const wt_dwell_history *h, dwell_nodes *to, size_t i)
+{
+    to->from[to->n] = h->time[i];
+    to->n++;
+}
+
+static void put_sample(const wt_dwell_history *h, dwell_nodes *to, size_t i, double step)
+{
+    const size_t k = to->n - 1;
+    to->count[k]++;
+    to->time[k] += h->time[i];
+    to->position[k] += h->position[i];
+    to->force[k] += h->force[i];
+    to->to[k] = h->time[i] + step;
+}
+
+/* Equal numbers of samples. */
+static void put_equal(const wt_dwell_history *h, size_t from, size_t to, size_t bins, double step,
+                      dwell_nodes *nodes)
+{
+    const size_t n = to - from;
+    size_t last = bins;
+    bins = bins < n ? bins : n;
+    for (size_t i = 0; i < n; i++) {
+        const size_t bin = i * bins / n;
+        if (bin != last)
+            open_node(h, nodes, from + i);
+        last = bin;
+        put_sample(h, nodes, from + i, step);
+    }
+}
+
+/* Times since the approach that grow by one factor. */
+static void put_held(const wt_dwell_history *h, double step, dwell_nodes *nodes)
+{
+    const size_t from = h->n_approach, n = h->n_dwell;
+    const double start = h->time[from] - step, duration = h->time[from + n - 1] - start;
+    const double first = fmax(step, first_share * duration), ratio = log(duration / first);
+    double last = -1;
+    for (size_t i = from; i < from + n; i++) {
+        const double since = h->time[i] - start;
+        const double bin =
+            since < first ? 0 : fmin(floor(log(since / first) / ratio * HELD_BINS), HELD_BINS - 1);
+        if (!(bin <= last))
+            open_node(h, nodes, i);
+        last = bin;
+        put_sample(h, nodes, i, step);
+    }
+}
+
+/* The retract behind its strongest pull, the farther part of what is farther out than the sample
+ * was pressed in. */
+static void put_retract(const wt_dwell_history *h, dwell_nodes *nodes)
+{
+    const size_t from = h->n_approach + h->n_dwell, end = from + h->n_retract;
+    const double deep = h->position[h->n_approach - 1] - h->contact_point;
+    size_t first = from;
+    for (size_t i = from; i < end; i++)
+        if (h->force[i] < h->force[first])
+            first = i;
+    while (first < end && !(h->position[first] < h->contact_point - deep))
+        first++;
+    if (end - first < LEAST_BASELINE)
+        return;
+    const size_t begin = first + (size_t)(free_share * (double)(end - first));
+    put_equal(h, begin, end, RETRACT_BINS,
+              (h->time[end - 1] - h->time[begin]) / (double)(end - 1 - begin), nodes);
+}
+
+/* ---- noise ----------------------------------------------------------------------------------- */
+
+/* Noise as white noise and processes of the first order whose times are octaves; those slower than
+ * the baseline tells are as strong as the slowest that it does. */
+enum { OCTAVES = 24 }; /* more samples, 2^24, than curves have */
+/* Of a multiplicative step that comes near by its root: a bound of time, for an estimate that is
+ * known to some per cent. */
+enum { ROUNDS = 400 };
+typedef struct noise {
+    double white, slow[OCTAVES], time[OCTAVES]; /* variances of a sample; [s] */
+    size_t n;
+    double extra; /* more in contact */
+} noise;
+
+/* Of a line through n samples against their time, the residuals. */
+static void take_line(const double *time, const double *force, size_t n, double *residual)
+{
+    double t = 0, f = 0, tt = 0, tf = 0;
+    for (size_t i = 0; i < n; i++) {
+        t += time[i] / (double)n;
+        f += force[i] / (double)n;
+    }
+    for (size_t i = 0; i < n; i++) {
+        tt += (time[i] - t) * (time[i] - t);
+        tf += (time[i] - t) * (force[i] - f);
+    }
+    for (size_t i = 0; i < n; i++)
+        residual[i] = force[i] - f - (tt > 0 ? tf / tt : 0) * (time[i] - t);
+}
+
+/* Mean square of the differences of means of m samples from those of the m before. */
+static double mean_square_difference(const double *x, size_t n, size_t m)
+{
+    double sum = 0, count = 0, step = 0;
+    for (size_t i = 0; i < m; i++)
+        step += (x[m + i] - x[i]) / (double)m;
+    for (size_t i = 0;; i++) {
+        sum += step * step;
+        count++;
+        if (i + 2 * m >= n)
+            break;
+        step += (x[i] - 2 * x[i + m] + x[i + 2 * m]) / (double)m;
+    }
+    return sum / count;
+}
+
+/* The same of a process with this time and the variance 1, x = duration of a mean over it. */
+static double difference_of(double x)
+{
+    const double within = x < 1e-3 ? 1 - x / 3 : 2 * (x + expm1(-x)) / (x * x),
+                 across = x < 1e-3 ? 1 - x : pow(expm1(-x) / x, 2);
+    return fmax(2 * (within - across), 0);
+}
+
+/* Half the mean square of the steps from sample to sample of force - stiffness position. */
+static double step_variance(const wt_dwell_history *h, size_t from, size_t n, double stiffness)
+{
+    double sum = 0;
+    for (size_t i = from + 1; i < from + n; i++) {
+        const double step =
+            h->force[i] - h->force[i - 1] - stiffness * (h->position[i] - h->position[i - 1]);
+        sum += 0.5 * step * step;
+    }
+    return n > 1 ? sum / (double)(n - 1) : 0;
+}
+
+/* Variances that give those differences, in the logarithm as near as can be without one below 0. */
+static void share_out(const double *seen, size_t n, double response[OCTAVES][OCTAVES + 1],
+                      double *variance)
+{
+    for (size_t k = 0; k <= n; k++)
+        variance[k] = seen[0] / (double)(n + 1);
+    for (int round = 0; round < ROUNDS; round++) {
+        double up[OCTAVES + 1] = {0}, down[OCTAVES + 1] = {0};
+        for (size_t i = 0; i < n; i++) {
+            double sum = 0;
+            for (size_t k = 0; k <= n; k++)
+                sum += response[i][k] * variance[k];
+            for (size_t k = 0; k <= n; k++) {
+                const double part = response[i][k] / sum;
+                up[k] += part * seen[i] / sum;
+                down[k] += part;
+            }
+        }
+        for (size_t k = 0; k <= n; k++)
+            variance[k] *= sqrt(up[k] / down[k]);
+    }
+}
+
+static noise noise_of(const wt_dwell_history *h, size_t n, double stiffness, double step,
+                      double *residual)
+{
+    noise v = {0};
+    double seen[OCTAVES] = {0}, response[OCTAVES][OCTAVES + 1], variance[OCTAVES + 1];
+    const double whole = h->time[h->n_approach + h->n_dwell - 1] - h->time[0];
+    size_t seen_n = 0;
+    take_line(h->time, h->force, n, residual);
+    for (size_t m = 1; 8 * m <= n && seen_n < OCTAVES; m *= 2) {
+        seen[seen_n] = mean_square_difference(residual, n, m);
+        response[seen_n][0] = 2 / (double)m;
+        seen_n++;
+    }
+    for (size_t i = 0; i < seen_n; i++)
+        for (size_t k = 0; k < seen_n; k++)
+            response[i][k + 1] = difference_of(ldexp(1, (int)i - (int)k));
+    share_out(seen, seen_n, response, variance);
+    v.white = variance[0];
+    for (; v.n < OCTAVES; v.n++) {
+        v.time[v.n] = step * ldexp(1, (int)v.n);
+        v.slow[v.n] = variance[1 + (v.n < seen_n ? v.n : seen_n - 1)];
+        if (v.n >= seen_n && v.time[v.n] > whole)
+            break;
+    }
+    v.extra =
+        fmax(0, step_variance(h, h->n_approach, h->n_dwell, stiffness) - step_variance(h, 0, n, 0));
+    return v;
+}
+
+/* Covariance of the means of a noise that decays over a time, over its variance. */
+static double noise_covariance(const dwell_nodes *n, size_t i, size_t k, double time)
+{
+    const double x = (n->to[i] - n->from[i]) / time, y = (n->to[k] - n->from[k]) / time;
+    if (i == k)
+        return x < 1e-4 ? 1 - x / 3 : 2 * (x + expm1(-x)) / (x * x);
+    return exp(-fmax(0, n->from[k] - n->to[i]) / time) * (-expm1(-x) / x) * (-expm1(-y) / y);
+}
+
+static bool make_factor(dwell_nodes *n, const noise *v, pool *memory)
+{
+    n->factor = pool_matrix(memory, n->n, n->n);
+    if (memory->failed)
+        return false;
+    for (size_t i = 0; i < n->n; i++)
+        for (size_t k = i; k < n->n; k++) {
+            const bool pressed = i >= n->first_pressed && i < n->first_free;
+            double c = 0;
+            for (size_t j = 0; j < v->n; j++)
+                c += v->slow[j] * noise_covariance(n, i, k, v->time[j]);
+            c += i == k ? (v->white + (pressed ? v->extra : 0)) / n->count[i] : 0;
+            gsl_matrix_set(n->factor, i, k, c);
+            gsl_matrix_set(n->factor, k, i, c);
+        }
+    return gsl_linalg_cholesky_decomp1(n->factor) == GSL_SUCCESS;
+}
+
+const char *dwell_nodes_make(const wt_dwell_history *h, double stiffness, pool *memory,
+                             dwell_nodes *nodes)
+{
+    double **const arrays[] = {&nodes->time, &nodes->position, &nodes->force,
+                               &nodes->from, &nodes->to,       &nodes->count};
+    *nodes = (dwell_nodes){0};
+    for (size_t i = 0; i < sizeof arrays / sizeof arrays[0]; i++)
+        *arrays[i] = pool_numbers(memory, MOST_NODES);
+    double *residual = pool_numbers(memory, h->n_approach);
+    if (memory->failed)
+        return "";
+    const double end = h->position[h->n_approach - 1],
+                 begin = h->contact_point - margin * (end - h->contact_point);
+    size_t split = 0;
+    while (split < h->n_approach && h->position[split] < begin)
+        split++;
+    if (split < LEAST_BASELINE)
+        return "too little baseline to tell its noise";
+    if (h->n_approach - split < HELD_BINS || h->n_dwell < HELD_BINS)
+        return "too few samples in contact";
+    const double before = (h->time[h->n_approach - 1] - h->time[0]) / (double)(h->n_approach - 1),
+                 step = (h->time[h->n_approach + h->n_dwell - 1] - h->time[h->n_approach]) /
+                        (double)(h->n_dwell - 1);
+    put_equal(h, 0, split, FREE_BINS, before, nodes);
+    nodes->first_pressed = nodes->n;
+    put_equal(h, split, h->n_approach - 1, PRESSED_BINS, before, nodes);
+    put_equal(h, h->n_approach - 1, h->n_approach, 1, before, nodes); /* where the height stops */
+    nodes->first_held = nodes->n;
+    put_held(h, step, nodes);
+    nodes->first_free = nodes->n;
+    if (h->n_retract > 0)
+        put_retract(h, nodes);
+    for (size_t i = 0; i < nodes->n; i++) {
+        nodes->time[i] /= nodes->count[i];
+        nodes->position[i] /= nodes->count[i];
+        nodes->force[i] /= nodes->count[i];
+    }
+    const noise v = noise_of(h, split, stiffness, before, residual);
+    if (isnan(v.white) || !make_factor(nodes, &v, memory)) /* shares of nothing are NaN */
+        return "no noise in the baseline";
+    return "";
+}

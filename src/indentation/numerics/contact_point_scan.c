@@ -1,0 +1,497 @@
+/* Search for the contact point: the cost as a function of the contact point alone.
+ *
+ * For a given contact point the modulus, the offset and the tilt are linear and are projected out.
+ * The cost has several minima on real curves, so it is scanned first, over contact points whose
+ * depths below the deepest point form octaves, because a length that does not scale with the
+ * indentation of the curve itself has no meaning. The lowest minima are then refined (Brent).
+ *
+ * Each octave has a grid of tip positions, even from its depth to the deepest point. A sample is
+ * shared between the two nodes beside it, so that a sum over nodes is the sum over all samples with
+ * the contact function between nodes a line, whatever lies between them. The contact points are
+ * nodes, too: one column of values of the contact function serves them all.
+ *
+ * In the scan the tilt is not yet taken out of the deflection (that makes the tip position depend
+ * on it); the refinement does that.
+ *
+ * SPDX-License-Identifier: GPL-3.0-or-later
+ */
+#include "core/data/force_curve.h"
+#include "core/math/simd.h"
+#include "indentation/numerics/curve.h"
+
+#include <gsl/gsl_errno.h>
+#include <math.h>
+#include <string.h>
+
+/* Of a contact point below the deepest, of all depths: the last of the octaves, 2^-SCAN_OCTAVES. */
+static const double least_depth = 1e-5;
+/* Of the cost between two minima: 1.6 sigma of one from the other in 2,500 samples. */
+static const double least_rise = 1.001;
+/* Of the distance of points of the scan: of weights, which change slowly, and where least squares
+ * begin, which end by themselves. */
+static const double rough = 1e-2, fine = 1e-3;
+/* Largest 1 + S/k: weights from 0.7 to 1 move a minimum by little, and least squares mend that. */
+static const double weights_matter = 1.2;
+enum {
+    NODES = SCAN_NODES,
+    REACH = SCAN_REACH, /* how far before the start a contact point is looked for, in all depths */
+    PER_OCTAVE = 16,    /* contact points that are tried: a power of 2, as the nodes */
+    MAX_DEPTHS = (SCAN_OCTAVES + REACH) * PER_OCTAVE,
+    MAX_ITERATIONS = 40, /* of Brent: golden sections alone are at 4e-9 then */
+    SAMPLES_BEHIND = 4,  /* of 1024, the deepest: spikes and noise of the end */
+    STRIDE = NODES + 2,  /* of the octaves */
+};
+
+/* Samples with what does not depend on the contact point. */
+typedef struct projection {
+    const wt_contact_table *table;
+    const curve_samples *samples;
+    wt_indent_workspace *workspace;
+    bool tilt;
+    double s_w, inverse_w, inverse_zz;
+    double origin_position, origin_force; /* means */
+    double s_zz, s_zf, s_ff;              /* centred sums */
+    double deepest, top; /* tip position, and how far below it the farthest sample is */
+    size_t n_octaves;
+    size_t octave; /* for Brent */
+} projection;
+
+/* Weighted sums of the contact function. */
+typedef struct contact_sums {
+    double g, gg, gf, gz;
+} contact_sums;
+
+typedef struct projected {
+    double modulus, offset, tilt; /* offset at the origin of the position */
+    double cost;
+} projected;
+
+WIDE_REGISTERS static void find_tips(projection *p)
+{
+    const curve_samples *s = p->samples;
+    const double k = s->spring_constant;
+    double *tip = p->workspace->tip;
+    for (size_t i = 0; i < s->n; i++)
+        tip[i] = tip_position(s->position[i], s->force[i], k);
+    const curve_span all = curve_span_of(tip, s->n);
+    p->deepest = all.high;
+    p->top = all.high - all.low;
+}
+
+/* The sums of all samples with the weights of the workspace, or 1. */
+WIDE_REGISTERS static void weigh(projection *p, bool weighted)
+{
+    const curve_samples *s = p->samples;
+    double *const weight = p->workspace->weight;
+    wide w = {0.0}, z = w, f = w, zz = w, zf = w, ff = w;
+    for (size_t i = 0; i < s->n && !weighted; i++)
+        weight[i] = 1.0;
+    for (size_t i = 0; i < s->n; i += WIDE) {
+        wide weights = {0.0}, position = {0.0}, force = {0.0};
+        if (i + WIDE <= s->n) {
+            wide_load(&weights, weight + i);
+            wide_load(&position, s->position + i);
+            wide_load(&force, s->force + i);
+        }
+        for (size_t j = i; j < s->n && i + WIDE > s->n; j++) {
+            weights[j - i] = weight[j];
+            position[j - i] = s->position[j];
+            force[j - i] = s->force[j];
+        }
+        const wide wz = weights * position, wf = weights * force;
+        w += weights;
+        z += wz;
+        f += wf;
+        zz += wz * position;
+        zf += wz * force;
+        ff += wf * force;
+    }
+    p->s_w = wide_sum(&w);
+    p->inverse_w = 1.0 / p->s_w;
+    p->origin_position = wide_sum(&z) / p->s_w;
+    p->origin_force = wide_sum(&f) / p->s_w;
+    p->s_zz = wide_sum(&zz) - wide_sum(&z) * p->origin_position;
+    p->s_zf = wide_sum(&zf) - wide_sum(&z) * p->origin_force;
+    p->s_ff = wide_sum(&ff) - wide_sum(&f) * p->origin_force;
+    p->inverse_zz = 1.0 / p->s_zz;
+}
+
+static projection begin(const wt_contact_table *table, const curve_samples *samples, bool tilt,
+                        wt_indent_workspace *w)
+{
+    projection p = {.table = table, .samples = samples, .workspace = w, .tilt = tilt};
+    find_tips(&p);
+    weigh(&p, false);
+    return p;
+}
+
+static double cost_without_contact(const projection *p)
+{
+    return p->tilt && p->s_zz > 0.0 ? p->s_ff - p->s_zf * p->s_zf * p->inverse_zz : p->s_ff;
+}
+
+static projected project(const projection *p, contact_sums s)
+{
+    const double along = p->tilt ? s.gz * p->inverse_zz : 0.0;
+    const double free_gg = s.gg - s.g * s.g * p->inverse_w - s.gz * along,
+                 free_gf = s.gf - p->s_zf * along;
+    projected result = {0.0, p->origin_force, p->tilt ? p->s_zf * p->inverse_zz : 0.0,
+                        cost_without_contact(p)};
+    /* Where the contact part looks like a straight line nothing is left to decide. */
+    if (free_gf > 0.0 && free_gg > 1e-12 * s.gg) {
+        result.modulus = free_gf / free_gg;
+        const double cost = result.cost - free_gf * result.modulus;
+        result.cost = cost > 0.0 ? cost : 0.0;
+        result.offset -= result.modulus * s.g * p->inverse_w;
+        result.tilt -= result.modulus * along;
+    }
+    return result;
+}
+
+/* From the tip position at contact, on all samples, to the position at which the lever is straight
+ * there. */
+WIDE_REGISTERS static curve_minimum to_minimum(const projection *p, double contact)
+{
+    wt_indent_workspace *w = p->workspace;
+    const double *position = p->samples->position, *force = p->samples->force;
+    const double k = p->samples->spring_constant;
+    size_t first = 0;
+    while (first < p->samples->n && !(w->tip[first] > contact))
+        first++;
+    for (size_t i = first; i < p->samples->n; i++)
+        w->delta[i] = w->tip[i] - contact;
+    wt_contact_table_eval(p->table, w->delta + first, p->samples->n - first, w->g + first, NULL);
+    wide g = {0.0}, gg = g, gf = g, gz = g;
+    for (size_t i = first; i < p->samples->n; i += WIDE) {
+        wide weight = {0.0}, value = {0.0}, f = {0.0}, z = {0.0};
+        if (i + WIDE <= p->samples->n) {
+            wide_load(&weight, w->weight + i);
+            wide_load(&value, w->g + i);
+            wide_load(&f, force + i);
+            wide_load(&z, position + i);
+        }
+        for (size_t j = i; j < p->samples->n && i + WIDE > p->samples->n; j++) {
+            weight[j - i] = w->weight[j];
+            value[j - i] = w->g[j];
+            f[j - i] = force[j];
+            z[j - i] = position[j];
+        }
+        const wide weighted = weight * value;
+        g += weighted;
+        gg += weighted * value;
+        gf += weighted * (f - p->origin_force);
+        gz += weighted * (z - p->origin_position);
+    }
+    const projected at =
+        project(p, (contact_sums){wide_sum(&g), wide_sum(&gg), wide_sum(&gf), wide_sum(&gz)});
+    const double offset0 = at.offset - at.tilt * p->origin_position; /* at position 0 */
+    const double c = (contact + offset0 / k) / (1.0 - at.tilt / k);
+    return (curve_minimum){c, at.modulus, offset0 + at.tilt * c, at.tilt, at.cost};
+}
+
+/* ---- octaves --------------------------------------------------------------------------------- */
+
+/* Where the samples lie: octave l and node as l STRIDE + node, and the share of the node right of
+ * it behind the point. With x = fraction 2^-l of the depth, the fraction from 1/2 to 1, or below it
+ * in the last octave. */
+WIDE_REGISTERS static void find_places(const projection *p)
+{
+    const double scale = (1.0 - 0x1p-50) / p->top, last = ldexp(1.0, -(int)p->n_octaves);
+    const size_t n = p->samples->n;
+    const double *tip = p->workspace->tip;
+    double *place = p->workspace->scratch;
+    for (size_t i = 0; i < n; i += WIDE) {
+        wide part, normal = last - (wide){0.0};
+        for (size_t j = 0; j < WIDE; j++)
+            part[j] = tip[i + j < n ? i + j : n - 1];
+        part = (p->deepest - part) * scale;
+        wide_raise(&normal, &part);
+        const wide_bits exponent = (wide_bits)normal >> 52; /* 1022 - l */
+        const wide power = (wide)((2045 - exponent) << 52);
+        const wide_bits whole = (1022 - exponent) | (wide_bits)(0x1p52 - (wide){0.0});
+        part = ((wide)whole - 0x1p52) * STRIDE + NODES * (1.0 - part * power);
+        for (size_t j = 0; j < WIDE && i + j < n; j++)
+            place[i + j] = part[j];
+    }
+}
+
+/* Shares the samples between the nodes of the octaves that they lie in, and those of each octave
+ * between the nodes of the one before, whose step is twice theirs. */
+WIDE_REGISTERS static void share_samples(const projection *p)
+{
+    scan_octave *octaves = p->workspace->octave;
+    const curve_samples *s = p->samples;
+    const wide origin = {0.0, p->origin_force, p->origin_position, 0.0};
+    const double *place = p->workspace->scratch, *weight = p->workspace->weight;
+    static const wide nothing = {0.0};
+    wide node[SCAN_OCTAVES * STRIDE]; /* sums of weight, force and position */
+    for (size_t i = 0; i < p->n_octaves * STRIDE; i++)
+        node[i] = nothing;
+    for (size_t i = 0; i < s->n;) { /* those between two nodes, mostly one behind the other */
+        const int at = (int)place[i];
+        wide to_left = node[at], to_right = node[at + 1];
+        for (; i < s->n && (int)place[i] == at; i++) {
+            const double right = weight[i] * (place[i] - at), left = weight[i] - right;
+            const wide sample = (wide){1.0, s->force[i], s->position[i], 0.0} - origin;
+            to_left += left * sample;
+            to_right += right * sample;
+        }
+        node[at] = to_left;
+        node[at + 1] = to_right;
+    }
+    for (size_t l = 0; l < p->n_octaves; l++)
+        for (size_t i = 0; i < STRIDE; i++) {
+            octaves[l].weight[i] = node[l * STRIDE + i][0];
+            octaves[l].force[i] = node[l * STRIDE + i][1];
+            octaves[l].position[i] = node[l * STRIDE + i][2];
+        }
+    for (size_t l = p->n_octaves - 1; l > 0; l--) {
+        const double *from[] = {octaves[l].weight, octaves[l].force, octaves[l].position};
+        double *to[] = {octaves[l - 1].weight, octaves[l - 1].force, octaves[l - 1].position};
+        for (size_t c = 0; c < 3; c++) {
+            double *upper = to[c] + NODES / 2;
+            upper[0] += from[c][0] + 0.5 * from[c][1];
+            for (size_t i = 1; i <= NODES / 2; i++)
+                upper[i] += from[c][2 * i] + 0.5 * (from[c][2 * i - 1] + from[c][2 * i + 1]);
+        }
+    }
+}
+
+/* The contact function at distances of a step, in the first octave also of what lies before it. */
+static void make_values(const projection *p)
+{
+    wt_indent_workspace *w = p->workspace;
+    double depth[REACH * NODES + 1], *far = w->before_start[0];
+    for (size_t l = p->n_octaves; l-- > 0;) {
+        scan_octave *o = &w->octave[l];
+        const size_t known = l + 1 < p->n_octaves ? NODES / 2 : 0,
+                     n = l > 0 ? NODES : REACH * NODES;
+        const double step = ldexp(p->top, -(int)l) / NODES;
+        double *g = l > 0 ? o->g : far;
+        for (size_t i = 0; i < known; i++)
+            g[i] = w->octave[l + 1].g[2 * i];
+        for (size_t i = known; i <= n; i++)
+            depth[i] = (double)i * step;
+        wt_contact_table_eval(p->table, depth + known, n + 1 - known, g + known, NULL);
+        for (size_t i = 0; i <= NODES; i++) {
+            o->g[i] = g[i];
+            o->gg[i] = g[i] * g[i];
+        }
+    }
+    for (size_t i = 0; i <= REACH * NODES; i++)
+        w->before_start[1][i] = far[i] * far[i];
+}
+
+/* Of nodes from `first` on, with values of the contact function and of its square. */
+WIDE_REGISTERS static contact_sums sums_of(const scan_octave *o, size_t first, const double *g,
+                                           const double *gg)
+{
+    const size_t n = NODES + 1 - first;
+    wide s = {0.0}, ss = s, sf = s, sz = s;
+    size_t i = 0;
+    for (; i + WIDE <= n; i += WIDE) {
+        wide weight, force, position, value, square;
+        wide_load(&weight, o->weight + first + i);
+        wide_load(&force, o->force + first + i);
+        wide_load(&position, o->position + first + i);
+        wide_load(&value, g + i);
+        wide_load(&square, gg + i);
+        s += weight * value;
+        ss += weight * square;
+        sf += force * value;
+        sz += position * value;
+    }
+    for (; i < n; i++) {
+        s[0] += o->weight[first + i] * g[i];
+        ss[0] += o->weight[first + i] * gg[i];
+        sf[0] += o->force[first + i] * g[i];
+        sz[0] += o->position[first + i] * g[i];
+    }
+    return (contact_sums){wide_sum(&s), wide_sum(&ss), wide_sum(&sf), wide_sum(&sz)};
+}
+
+static double cost_of(const projection *p, const scan_octave *o, size_t first, const double *g,
+                      const double *gg)
+{
+    return project(p, sums_of(o, first, g, gg)).cost;
+}
+
+/* Of any contact point, on the grid of one octave. */
+WIDE_REGISTERS static double cost_between(double depth, void *projection_)
+{
+    const projection *p = projection_;
+    const scan_octave *o = &p->workspace->octave[p->octave];
+    const double step = ldexp(p->top, -(int)p->octave) / NODES;
+    const double before = NODES - depth / step; /* nodes, not a whole number of them */
+    const size_t first = before > 0.0 ? (size_t)fmin(before, NODES) : 0;
+    double delta[NODES + 1] = {0.0}, g[NODES + 1], gg[NODES + 1];
+    for (size_t i = first; i <= NODES; i++)
+        delta[i] = depth - (double)(NODES - i) * step;
+    wt_contact_table_eval(p->table, delta + first, NODES + 1 - first, g + first, NULL);
+    for (size_t i = first; i <= NODES; i++)
+        gg[i] = g[i] * g[i];
+    return cost_of(p, o, first, g + first, gg + first);
+}
+
+/* To a share of the bracket. */
+static double brent(projection *p, double lo, double middle, double hi, double accuracy)
+{
+    gsl_min_fminimizer *minimizer = p->workspace->minimizer;
+    gsl_function function = {cost_between, p};
+    if (gsl_min_fminimizer_set(minimizer, &function, middle, lo, hi) != GSL_SUCCESS)
+        return middle; /* flat to rounding */
+    for (int i = 0; i < MAX_ITERATIONS; i++) {
+        if (gsl_min_fminimizer_iterate(minimizer) != GSL_SUCCESS)
+            break;
+        double a = gsl_min_fminimizer_x_lower(minimizer), b = gsl_min_fminimizer_x_upper(minimizer);
+        if (b - a < accuracy * (hi - lo))
+            break;
+    }
+    return gsl_min_fminimizer_x_minimum(minimizer);
+}
+
+/* Indices of the minima of the scan, lowest first, no more than CURVE_MAX_MINIMA. One that no
+ * rise parts from a lower one is only a ripple. A minimum at the far end counts: contact before the
+ * start. */
+static size_t find_bottoms(const double *cost, size_t n, double nothing, size_t *bottom)
+{
+    size_t m = 0;
+    double highest_since = 0.0;
+    for (size_t i = 0; i < n; i++) {
+        highest_since = fmax(highest_since, cost[i]);
+        bool falls = i == 0 || cost[i] < cost[i - 1];
+        bool rises = i + 1 == n || cost[i] <= cost[i + 1];
+        if (!falls || !rises || !(cost[i] < nothing))
+            continue;
+        if (m > 0 && highest_since <= least_rise * fmax(cost[bottom[m - 1]], cost[i])) {
+            if (cost[i] >= cost[bottom[m - 1]])
+                continue;
+            m--;
+        }
+        bottom[m++] = i;
+        highest_since = cost[i];
+    }
+    for (size_t i = 1; i < m; i++) { /* by insertion: they are few */
+        size_t index = bottom[i], j = i;
+        for (; j > 0 && cost[bottom[j - 1]] > cost[index]; j--)
+            bottom[j] = bottom[j - 1];
+        bottom[j] = index;
+    }
+    return m < CURVE_MAX_MINIMA ? m : CURVE_MAX_MINIMA;
+}
+
+static void keep_best(curve_minimum *minima, size_t *n, curve_minimum candidate)
+{
+    size_t at = *n;
+    while (at > 0 && minima[at - 1].cost > candidate.cost)
+        at--;
+    if (at == CURVE_MAX_MINIMA)
+        return;
+    if (*n < CURVE_MAX_MINIMA)
+        ++*n;
+    for (size_t i = *n - 1; i > at; i--)
+        minima[i] = minima[i - 1];
+    minima[at] = candidate;
+}
+
+/* Costs of contact points from far before the start to the deepest. */
+typedef struct profile {
+    double depth[MAX_DEPTHS], cost[MAX_DEPTHS];
+    size_t octave[MAX_DEPTHS], n;
+} profile;
+
+static void add_point(profile *to, double depth, double cost, size_t octave)
+{
+    to->depth[to->n] = depth;
+    to->cost[to->n] = cost;
+    to->octave[to->n++] = octave;
+}
+
+static void scan(const projection *p, double shallowest, profile *to)
+{
+    const wt_indent_workspace *w = p->workspace;
+    const double *g = w->before_start[0], *gg = w->before_start[1];
+    to->n = 0;
+    for (size_t octave = REACH * NODES; octave > NODES; octave /= 2)
+        for (size_t i = octave; i > octave / 2; i -= octave / 2 / PER_OCTAVE)
+            add_point(to, p->top * (double)i / NODES,
+                      cost_of(p, &w->octave[0], 0, g + i - NODES, gg + i - NODES), 0);
+    for (size_t l = 0; l < p->n_octaves; l++) {
+        const scan_octave *o = &w->octave[l];
+        for (size_t node = 0; node < NODES / 2; node += NODES / 2 / PER_OCTAVE) {
+            const double depth = ldexp(p->top, -(int)l) * (1.0 - (double)node / NODES);
+            if (depth >= shallowest)
+                add_point(to, depth, cost_of(p, o, node + 1, o->g + 1, o->gg + 1), l);
+        }
+    }
+}
+
+/* The lowest minima of the scan, refined. */
+static size_t find_minima(projection *p, const profile *points, double accuracy,
+                          curve_minimum minima[CURVE_MAX_MINIMA])
+{
+    size_t bottom[MAX_DEPTHS], n = 0;
+    const size_t n_bottoms = find_bottoms(points->cost, points->n, cost_without_contact(p), bottom);
+    for (size_t i = 0; i < n_bottoms; i++) {
+        const size_t j = bottom[i];
+        double at = points->depth[j];
+        if (j > 0 && j + 1 < points->n) {
+            p->octave = points->octave[j - 1];
+            at = brent(p, points->depth[j + 1], at, points->depth[j - 1], accuracy);
+        }
+        const curve_minimum minimum = to_minimum(p, p->deepest - at);
+        if (minimum.reduced_modulus > 0.0)
+            keep_best(minima, &n, minimum);
+    }
+    return n;
+}
+
+size_t curve_scan(const wt_contact_table *table, const curve_samples *samples, bool tilt,
+                  bool weighted, wt_indent_workspace *w, curve_minimum minima[CURVE_MAX_MINIMA])
+{
+    projection p = begin(table, samples, tilt, w);
+    const size_t behind = SAMPLES_BEHIND * ((samples->n + 1023) / 1024);
+    double nearest = -(double)INFINITY;
+    profile points;
+    for (size_t i = 0; i + behind <= samples->n; i++)
+        nearest = w->tip[i] > nearest ? w->tip[i] : nearest;
+    /* nonsense may be as large as numbers get, or too small to divide by */
+    if (!isnormal(p.top) || p.top < 0.0)
+        return 0;
+    const double shallowest = fmax(p.deepest - nearest, least_depth * p.top);
+    p.n_octaves = 1;
+    while (p.n_octaves < SCAN_OCTAVES && ldexp(p.top, -(int)p.n_octaves) > shallowest)
+        p.n_octaves++;
+    find_places(&p);
+    share_samples(&p);
+    make_values(&p);
+    scan(&p, shallowest, &points);
+    if (weighted) { /* for weights any solution that describes the curve will do */
+        if (find_minima(&p, &points, rough, minima) == 0)
+            return 0;
+        const bool matter = curve_weights(table, samples, &minima[0], w) > weights_matter;
+        weigh(&p, matter);
+        if (matter) {
+            share_samples(&p);
+            scan(&p, shallowest, &points);
+        }
+    }
+    return find_minima(&p, &points, fine, minima);
+}
+
+bool curve_scan_at(const wt_contact_table *table, const curve_samples *samples, bool tilt,
+                   double contact_point, wt_indent_workspace *w, curve_minimum *minimum)
+{
+    const projection p = begin(table, samples, tilt, w);
+    /* The tip position of the contact depends on the baseline, which is part of the answer. */
+    double tip = tip_position(contact_point, p.origin_force, samples->spring_constant);
+    for (int i = 0; i < MAX_ITERATIONS; i++) {
+        *minimum = to_minimum(&p, tip);
+        double step = contact_point - minimum->contact_point;
+        tip += step;
+        if (fabs(step) <= 1e-12 * fabs(p.top))
+            break;
+    }
+    minimum->contact_point = contact_point;
+    return minimum->reduced_modulus > 0.0;
+}

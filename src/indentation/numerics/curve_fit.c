@@ -1,0 +1,491 @@
+/* The fit of one force curve: scan, refinement, and the verdict with its reason.
+ *
+ * SPDX-License-Identifier: GPL-3.0-or-later
+ */
+#include "core/base/param.h"
+#include "core/math/gsl_quiet.h"
+#include "core/math/normal_quantile.h"
+#include "core/math/root.h"
+#include "dma/law/material.h"
+#include "indentation/law/adhesion.h"
+#include "indentation/law/tip.h"
+#include "indentation/numerics/curve_fitting.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+wt_indent_options wt_indent_defaults(void)
+{
+    return (wt_indent_options){.poisson_ratio = 0.5,
+                               .fit_depth = 0.0,
+                               .fit_force_fraction = 1.0,
+                               .fit_tilt = true,
+                               .least_chance = 0.01,
+                               .largest_error = 0.5,
+                               .doubtful_error = 0.05,
+                               .plain_least_squares = false,
+                               .fixed_contact_point = (double)NAN};
+}
+
+static const wt_param rows[] = {
+    POISSON_RATIO(wt_indent_options),
+    {PARAM("fit-depth", wt_indent_options, fit_depth, WT_Q_LENGTH, AT_LEAST(0)), .value = "D",
+     .help = "fit indentations up to this depth, such as 50nm; 0 is all"},
+    {PARAM("fit-force-fraction", wt_indent_options, fit_force_fraction, WT_Q_NONE, ABOVE_TO(0, 1)),
+     .value = "X", .help = "fit forces up to this share of the largest"},
+    {PARAM("fit-radii", wt_indent_options, fit_radii, WT_Q_NONE, AT_LEAST(0)), .value = "X",
+     .help = "fit indentations up to so many radii of the tip; 0 is all"},
+    {PARAM("fit-force", wt_indent_options, fit_force, WT_Q_FORCE, AT_LEAST(0)), .value = "F",
+     .help = "fit forces up to this above the baseline, such as 10nN; 0 is all"},
+    {PARAM("fit-depth-from", wt_indent_options, fit_depth_from, WT_Q_LENGTH, AT_LEAST(0)),
+     .value = "D", .help = "of the contact fit indentations from this on; the baseline stays"},
+    {PARAM("fit-force-from", wt_indent_options, fit_force_from, WT_Q_FORCE, AT_LEAST(0)),
+     .value = "F", .help = "of the contact fit forces from this on; the baseline stays"},
+    {PARAM("fit-force-fraction-from", wt_indent_options, fit_force_fraction_from, WT_Q_NONE,
+           FROM_BELOW(0, 1)),
+     .value = "X",
+     .help = "of the contact fit forces from this share of the largest on; the baseline stays"},
+    {PARAM("least-chance", wt_indent_options, least_chance, WT_Q_NONE, FROM_BELOW(0, 1)),
+     .value = "P",
+     .help = "residuals that noise makes with a smaller chance are called a misfit; larger calls "
+             "more curves so, moduli stay; 0: no misfit is looked for, errors are those of noise "
+             "alone"},
+    {PARAM("doubtful-error", wt_indent_options, doubtful_error, WT_Q_NONE, ABOVE(0)), .value = "X",
+     .help = "mark a modulus as doubtful to which a misfit gives a larger error, as a share of it; "
+             "it stays in all means; larger marks fewer"},
+    {PARAM("largest-error", wt_indent_options, largest_error, WT_Q_NONE, ABOVE(0)), .value = "X",
+     .help = "leave a modulus with a larger standard error, as a share of it, out of all means; at "
+             "0.5 its 95 % interval reaches twice the modulus; smaller keeps fewer, surer curves"},
+    {PARAM("fixed-contact-point", wt_indent_options, fixed_contact_point, WT_Q_LENGTH, ANY_NUMBER),
+     .value = "Z", .unset = "", .flags = PARAM_NO_CASE,
+     .help = "do not fit the contact point: take this tip position"},
+    {PARAM_FLAG_OF("contact-estimators", wt_indent_options, contact_estimators),
+     .help = "also how far contact points by other estimators lie from those fitted"},
+    {PARAM_FLAG_OF("fit-retract", wt_indent_options, fit_retract),
+     .help = "also fit an elastic contact to the retract alone, with its own modulus and adhesion: "
+             "a check, which changes no other number"},
+    {PARAM_FLAG_OF("fit-tilt", wt_indent_options, fit_tilt),
+     .help = "tilt of the baseline, which without it has an offset only"},
+};
+PARAM_TABLE(wt_indent_params, wt_indent_options, rows, wt_indent_defaults, NO_PARTS)
+
+wt_indent_workspace *wt_indent_workspace_new(void)
+{
+    gsl_quiet();
+    wt_indent_workspace *workspace = calloc(1, sizeof *workspace);
+    if (workspace == NULL)
+        return NULL;
+    workspace->minimizer = gsl_min_fminimizer_alloc(gsl_min_fminimizer_brent);
+    if (workspace->minimizer == NULL) {
+        free(workspace);
+        return NULL;
+    }
+    return workspace;
+}
+
+void wt_indent_workspace_free(wt_indent_workspace *workspace)
+{
+    if (workspace == NULL)
+        return;
+    gsl_min_fminimizer_free(workspace->minimizer);
+    hereditary_clear(&workspace->memory);
+    free(workspace->block);
+    free(workspace);
+}
+
+/* ---- rates ----------------------------------------------------------------------------------- */
+
+static bool is_known(const curve_branch *b, size_t i)
+{
+    return isfinite(b->height[i]) && isfinite(b->force[i]);
+}
+
+static void find_rates(const curve_fitting *f, const curve_branch *approach, wt_indent_fit *fit)
+{
+    const double *height = approach->height, *time = approach->time;
+    const size_t n = approach->n;
+    const curve_samples *fitted = &f->input.samples;
+    const double c = fit->contact_point.value,
+                 end = fitted->position[fitted->n - 1] + f->input.position_origin;
+    const double direction = f->input.direction;
+    size_t first = 0, last = n, last_fitted = n, contact = 0;
+    while (first < n && !is_known(approach, first))
+        first++;
+    while (last > first && !is_known(approach, last - 1))
+        last--;
+    while (last_fitted > 0 &&
+           !(direction * height[last_fitted - 1] <= end && is_known(approach, last_fitted - 1)))
+        last_fitted--;
+    while (contact < n && !(direction * height[contact] >= c && is_known(approach, contact)))
+        contact++;
+    last = last > first ? last - 1 : n;
+    last_fitted = last_fitted > 0 ? last_fitted - 1 : n;
+    fit->contact_index = contact;
+    size_t i = fit->contact_index;
+    if (time == NULL || last <= first || i > last)
+        return;
+    double duration = time[last] - time[first];
+    if (duration > 0.0)
+        fit->piezo_rate = fabs(height[last] - height[first]) / duration;
+    double start = time[i];
+    if (i > first && isfinite(height[i - 1])) { /* between the two samples around contact */
+        double before = f->input.direction * height[i - 1], at = f->input.direction * height[i];
+        if (at > before && c > before)
+            start -= (at - c) / (at - before) * (time[i] - time[i - 1]);
+    }
+    if (fitted->n < f->input.n_all - f->n_snap && last_fitted < n)
+        last = last_fitted;
+    if (time[last] > start) {
+        fit->load_time = time[last] - start;
+        fit->indentation_rate = fit->max_indentation / fit->load_time;
+    }
+}
+
+void curve_fit_empty(wt_indent_fit *fit)
+{
+    const double nan_ = (double)NAN;
+    *fit = (wt_indent_fit){.modulus = {nan_, nan_, 0.0, "Pa"},
+                           .contact_point = {nan_, nan_, 0.0, "m"},
+                           .baseline_offset = {nan_, nan_, 0.0, "N"},
+                           .baseline_tilt = {nan_, nan_, 0.0, "N/m"},
+                           .noise = nan_,
+                           .correlation_length = nan_,
+                           .lack_of_fit = nan_,
+                           .lack_of_fit_chance = nan_,
+                           .baseline_chance = nan_,
+                           .bend_shift = nan_,
+                           .max_force = nan_,
+                           .max_indentation = nan_,
+                           .adhesion_force = nan_,
+                           .work_of_adhesion = {nan_, nan_, 0.0, "J/m^2"},
+                           .pull_off_force = nan_,
+                           .pull_off_work = nan_,
+                           .contact_pull = {nan_, nan_, 0.0, "N"},
+                           .tabor_number = nan_,
+                           .loss = nan_,
+                           .loss_bias = nan_,
+                           .loss_power = nan_,
+                           .loss_shift = nan_,
+                           .loss_error = nan_,
+                           .baseline_curvature = nan_,
+                           .piezo_rate = nan_,
+                           .indentation_rate = nan_,
+                           .load_time = nan_,
+                           .second_minimum_ratio = nan_,
+                           .second_contact_point = nan_,
+                           .sensitivity_gain = nan_,
+                           .misfit_error = nan_,
+                           .contact_misfit_error = nan_,
+                           .baseline_length = nan_,
+                           .misfit_length = nan_,
+                           .spectrum_factor = {nan_, nan_, 0.0, "1"},
+                           .fitted_from = nan_,
+                           .interference_amplitude = nan_,
+                           .interference_period = nan_,
+                           .retract_modulus = {nan_, nan_, 0.0, "Pa"},
+                           .retract_work = {nan_, nan_, 0.0, "J/m^2"},
+                           .retract_pull = {nan_, nan_, 0.0, "N"},
+                           .direction = nan_};
+    for (int j = 0; j < CURVE_WAVES; j++)
+        fit->misfit[j] = nan_;
+    for (int j = 0; j < WT_CONTACT_ESTIMATORS; j++)
+        fit->contact_by[j] = nan_;
+}
+
+static void report_adhesion(const curve_fitting *f, wt_indent_fit *fit)
+{
+    const curve_solution *s = &f->solution;
+    const double root = s->p[CURVE_W], k = f->input.samples.spring_constant;
+    adhesion law = {f->table, s->p[CURVE_E], 0.0};
+    fit->adhesion_force = f->snap_on;
+    fit->pull_off_force = f->pull_off;
+    if (f->pull_off >= 0.0)
+        fit->pull_off_work =
+            f->pull_off > 0.0 ? adhesion_work(f->table, law.reduced, k, f->pull_off) : 0.0;
+    const bool long_range = f->kind.adhesive && f->kind.constant_pull;
+    if (long_range) {
+        fit->contact_pull.value = root;
+        fit->contact_pull.standard_error = s->standard_error[CURVE_W];
+    } else if (f->kind.adhesive) {
+        fit->work_of_adhesion.value = root * root;
+        fit->work_of_adhesion.standard_error = 2.0 * root * s->standard_error[CURVE_W];
+    }
+    law.work = fmax(f->kind.adhesive && !long_range ? root * root : 0.0,
+                    f->pull_off > 0.0 ? fit->pull_off_work : 0.0);
+    if (law.work > 0.0)
+        fit->tabor_number = adhesion_tabor(&law);
+}
+
+/* The factor on the spectrum, and the modulus that it is at the loading time of the curve. */
+static void report_spectrum(const curve_fitting *f, wt_indent_fit *fit)
+{
+    const wt_prony *spectrum = f->options->spectrum;
+    /* a memory of a power of time, which is taken where that of the spectrum does not converge, has
+     * another unit */
+    const bool memory = f->kind.memory && !f->kind.adhesive && !(f->loss_power > 0.0);
+    if (spectrum == NULL || !(fit->load_time > 0.0) || (f->another_rubber && !f->kind.adhesive))
+        return;
+    const double here = hereditary_modulus(spectrum, 1.0 / fit->load_time);
+    const double unit = memory ? f->unit : here;
+    fit->spectrum_factor.value = fit->modulus.value / unit;
+    fit->spectrum_factor.standard_error = fit->modulus.standard_error / unit;
+    fit->modulus.value *= here / unit;
+    fit->modulus.standard_error *= here / unit;
+    fit->misfit_error *= here / unit;
+}
+
+static const double outside_95 = 0.05;   /* of an interval of 95 % */
+static const double error_digits = 1e-3; /* of an error, which is said with two */
+
+/* Standard error with which an interval of 95 % about the one fit holds 95 % of what both say. */
+typedef struct two_fits {
+    double error;
+    const curve_other *other;
+} two_fits;
+
+static double held_of_two(double with_other, void *user)
+{
+    const two_fits *of = user;
+    const double end = NORMAL_95 * with_other, width = M_SQRT2 * of->error,
+                 moved = fabs(of->other->moved), chance = of->other->chance;
+    const double beyond =
+        (1.0 - chance) * erfc(end / width) +
+        0.5 * chance * (erfc((end - moved) / width) + erfc((end + moved) / width));
+    return outside_95 - beyond;
+}
+
+/* What the other fit adds to an error, in its square. */
+static double error_by(double error, const curve_other *other)
+{
+    two_fits of = {error, other};
+    double with_other = error;
+    if (!(error > 0.0) || !(fabs(other->moved) > 0.0))
+        return 0.0;
+    if (root_find(held_of_two, &of, error, error + fabs(other->moved), error_digits * error,
+                  &with_other, NULL) != WT_OK)
+        return fabs(other->moved);
+    return sqrt(with_other * with_other - error * error);
+}
+
+static void report(curve_fitting *f, wt_indent_fit *fit)
+{
+    const curve_solution *s = &f->solution;
+    const curve_samples *samples = &f->input.samples;
+    double reduced = 1.0 - f->options->poisson_ratio * f->options->poisson_ratio;
+    const double e = reduced * s->p[CURVE_E] * (1.0 + f->loss_shift);
+    fit->modulus.value = e;
+    const double error = hypot(s->standard_error[CURVE_E] / s->p[CURVE_E], f->loss_error),
+                 by_law = error_by(error, &f->other_law);
+    f->contact_error = error_by(error, &f->other_contact);
+    fit->modulus.standard_error =
+        e * sqrt(error * error + pow(f->contact_error, 2) + by_law * by_law);
+    fit->contact_point.value = s->p[CURVE_C] + f->input.position_origin;
+    fit->contact_point.standard_error = s->standard_error[CURVE_C];
+    fit->misfit_error = e * s->misfit_error[CURVE_E] / s->p[CURVE_E];
+    fit->contact_misfit_error = s->misfit_error[CURVE_C];
+    fit->baseline_offset.value = s->p[CURVE_F0] + f->input.force_origin;
+    fit->baseline_offset.standard_error = s->standard_error[CURVE_F0];
+    fit->baseline_tilt.value = s->p[CURVE_T];
+    fit->baseline_tilt.standard_error = s->standard_error[CURVE_T];
+    fit->baseline_length = s->p[CURVE_C] - samples->position[0];
+    fit->misfit_length = s->lack.window;
+    fit->noise = s->noise;
+    fit->correlation_length = s->correlation_length;
+    fit->loss = f->loss > 1.0 ? 1.0 : f->loss;
+    fit->loss_bias = f->loss_bias;
+    fit->loss_power = f->loss_power;
+    fit->loss_shift = f->loss_shift;
+    fit->loss_error = f->loss_error;
+    fit->baseline_curvature = s->curvature;
+    fit->lack_of_fit = s->lack.statistic;
+    fit->lack_of_fit_chance = s->lack.chance;
+    fit->baseline_chance = s->lack.baseline_chance;
+    fit->bend_shift = reduced * s->bend_shift;
+    fit->max_indentation = s->max_indentation;
+    fit->sensitivity_gain = s->sensitivity_gain;
+    fit->n_fitted = samples->n - (samples->gap_to - samples->gap_from);
+    fit->fitted_from = samples->gap_to > samples->gap_from && samples->gap_to < samples->n
+                           ? fmax(0.0, f->workspace->delta[samples->gap_to])
+                           : 0.0;
+    const size_t n = f->input.n_all - f->n_snap;
+    double *above = f->workspace->scratch;
+    for (size_t i = 0; i < n; i++)
+        above[i] = samples->force[i] - curve_baseline(s, samples->position[i]);
+    fit->max_force = fmax(curve_span_of(above, n).high, 0.0);
+    for (int j = 0; j < CURVE_WAVES; j++)
+        fit->misfit[j] = s->lack.wave[j] / fit->max_force;
+    if (curve_has_wave(&s->wave)) {
+        fit->interference_amplitude = curve_wave_amplitude(&s->wave);
+        fit->interference_period = 2.0 * M_PI / s->wave.p[WAVE_NUMBER];
+    } else {
+        fit->interference_amplitude = 0.0;
+    }
+    report_adhesion(f, fit);
+    if (f->n_minima > 1) {
+        fit->second_minimum_ratio = f->minima[1].cost / f->minima[0].cost;
+        fit->second_contact_point = f->minima[1].contact_point + f->input.position_origin;
+    }
+}
+
+/* 2 ln(likelihood ratio) within which 95 % of the values of one parameter lie. */
+static const double likely_chi2 = 3.84;
+
+/* Two contact points that are about as likely: the better one's modulus, and what the other's is
+ * off as far as it is likely. */
+static void add_other_contact(curve_fitting *f)
+{
+    if (f->n_minima < 2 || f->kind.adhesive)
+        return;
+    const double chi2 = f->solution.effective_n * log(f->minima[1].cost / f->minima[0].cost);
+    const double share = 1.0 / (1.0 + exp(0.5 * fmax(chi2, 0.0)));
+    if (chi2 < likely_chi2)
+        f->other_contact =
+            (curve_other){f->minima[1].reduced_modulus / f->minima[0].reduced_modulus - 1.0, share};
+}
+
+static wt_status check_arguments(const wt_indent_options *options, const wt_tip *tip, size_t n,
+                                 double spring_constant, wt_error *err)
+{
+    if (n == 0)
+        return wt_fail(err, WT_E_ARG, "a force curve without samples");
+    if (!(spring_constant > 0.0) || !isfinite(spring_constant)) {
+        wt_status status = wt_fail(err, WT_E_ARG, "spring constant is not usable");
+        wt_error_expected(err, "a value above 0 N/m");
+        wt_error_found(err, "%g N/m", spring_constant);
+        return status;
+    }
+    const wt_status status = param_check(wt_indent_params(), options, err);
+    return status == WT_OK ? curve_range_check(options, tip, err) : status;
+}
+
+static void fit_once(const curve_fitting *of, const curve_branch *retract, double spring_constant,
+                     curve_fitting *f, wt_indent_fit *fit)
+{
+    const curve_branch *approach = of->approach;
+    *f = *of;
+    curve_fit_empty(fit);
+    fit->verdict = curve_prepare(approach->height, approach->force, approach->n, spring_constant,
+                                 f->options, f->workspace, &f->input, fit->reason);
+    f->input.saturated = f->input.saturated || f->below_saturation;
+    if (fit->verdict != WT_CURVE_ACCEPTED)
+        return;
+    fit->direction = f->input.direction;
+    if (curve_leaves_the_sample(f, fit->reason)) {
+        fit->verdict = WT_CURVE_NO_APPROACH;
+        return;
+    }
+    bool found = curve_scan_and_refine(f) && curve_fit_interference(f);
+    if (found && curve_find_snap(f, &f->snap))
+        f->snap_on = f->snap.pull;
+    if (found && retract->n > 0)
+        curve_read_retract(f, retract->height, retract->force, retract->n);
+    if (found)
+        found = curve_fit_adhesion(f);
+    if (found)
+        found = curve_fit_range(f);
+    if (!found) {
+        fit->verdict = curve_no_contact(f, fit->reason);
+        return;
+    }
+    curve_allow_loss(f);
+    curve_add_misfit(f);
+    add_other_contact(f);
+    report(f, fit);
+    find_rates(f, approach, fit);
+    report_spectrum(f, fit);
+    fit->verdict = curve_judge(f, fit);
+    if (f->options->contact_estimators)
+        curve_estimate_contact(f, fit->contact_by);
+    if (f->options->fit_retract)
+        curve_report_way_out(f, fit);
+}
+
+/* The fit of the forces up to a limit, as fit_force makes it. */
+static void fit_below(const curve_fitting *of, const curve_branch *retract, double spring_constant,
+                      double limit, curve_fitting *f, wt_indent_fit *fit)
+{
+    wt_indent_options options = *of->options;
+    curve_fitting below = *of;
+    options.fit_force = limit;
+    below.options = &options;
+    below.below_saturation = true;
+    fit_once(&below, retract, spring_constant, f, fit);
+    f->options = of->options;
+}
+
+/* Each at most three quarters of the one before: to a third of the force. */
+enum { LIMIT_ROUNDS = 4 };
+
+/* A saturated curve has a modulus below the force that its verdict names, which may take that test
+ * again; it stays refused where the rest has none. */
+static void fit_below_saturation(const curve_fitting *of, const curve_branch *retract,
+                                 double spring_constant, curve_fitting *f, wt_indent_fit *fit)
+{
+    const wt_indent_options *o = of->options;
+    wt_indent_fit below = *fit;
+    curve_fitting rest = *f;
+    double limit = 0.0;
+    for (int round = 0; round < LIMIT_ROUNDS && below.verdict == WT_CURVE_SATURATED; round++) {
+        const double next = curve_linear_to(&rest);
+        if (!(next > o->fit_force_from) || (limit > 0.0 && !(next < limit)))
+            break;
+        limit = next;
+        fit_below(of, retract, spring_constant, limit, &rest, &below);
+    }
+    if (wt_curve_usable(below.verdict)) {
+        *f = rest;
+        *fit = below;
+    } else if (limit > 0.0) {
+        curve_judge_nothing_below(limit, below.verdict, fit->reason);
+    }
+}
+
+wt_status curve_fit_branches(const wt_contact_table *table, const wt_indent_options *options,
+                             const curve_branch *approach, const curve_branch *retract,
+                             double spring_constant, wt_indent_workspace *workspace,
+                             wt_indent_fit *fit, wt_error *err)
+{
+    const wt_indent_options defaults = wt_indent_defaults();
+    const size_t n = approach->n;
+    if (options == NULL)
+        options = &defaults;
+    wt_status status = check_arguments(options, contact_table_tip(table), n, spring_constant, err);
+    if (status == WT_OK)
+        status = curve_reserve(workspace, retract->n > n ? retract->n : n, err);
+    const size_t terms = options->spectrum != NULL ? options->spectrum->n : 0;
+    if (status == WT_OK)
+        status = hereditary_reserve(&workspace->memory,
+                                    terms > CURVE_POWER_TERMS ? terms : CURVE_POWER_TERMS, err);
+    if (status != WT_OK)
+        return status;
+
+    const curve_fitting begin = {.table = table,
+                                 .options = options,
+                                 .approach = approach,
+                                 .workspace = workspace,
+                                 .pull_off = (double)NAN,
+                                 .loss = (double)NAN,
+                                 .loss_bias = (double)NAN,
+                                 .loss_power = (double)NAN,
+                                 .range_settled = true};
+    curve_fitting f;
+    fit_once(&begin, retract, spring_constant, &f, fit);
+    if (fit->verdict == WT_CURVE_SATURATED)
+        fit_below_saturation(&begin, retract, spring_constant, &f, fit);
+    if (wt_curve_usable(fit->verdict)) {
+        workspace->step_allowed = fmax(workspace->step_allowed, f.solution.step_allowed);
+        workspace->step_left = fmax(workspace->step_left, f.solution.step_left);
+    }
+    return WT_OK;
+}
+
+wt_status wt_indent_fit_curve(const wt_contact_table *table, const wt_indent_options *options,
+                              const double *height, const double *force, const double *time,
+                              size_t n, double spring_constant, wt_indent_workspace *workspace,
+                              wt_indent_fit *fit, wt_error *err)
+{
+    const curve_branch approach = {height, force, time, n}, none = {NULL, NULL, NULL, 0};
+    return curve_fit_branches(table, options, &approach, &none, spring_constant, workspace, fit,
+                              err);
+}

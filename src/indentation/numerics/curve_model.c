@@ -1,0 +1,424 @@
+/* The force that lever and sample give together at the height of each sample.
+ *
+ * What is compared. The noise sits in the force, and the force is also in the tip position, so that
+ * a noise e appears in "force minus E* G(measured indentation)" as h e with h = 1 + S/k (S =
+ * contact stiffness, k = spring constant): 13 times larger in contact than before it for rubber of
+ * 20 MPa and a lever of 0.1 N/m, and correlated with the abscissa. Least squares in that residual
+ * is neither efficient nor unbiased. Here the force is compared with the one that lever and sample
+ * together give at the height of the sample, k (z - delta) = E* G(delta), which leaves e as it is.
+ * The plain residual, as most programs use it, is there for comparison with them.
+ *
+ * SPDX-License-Identifier: GPL-3.0-or-later
+ */
+#include "indentation/numerics/curve_model.h"
+
+#include "indentation/law/adhesion.h"
+
+#include <math.h>
+#include <string.h>
+
+enum { N = CURVE_N_PARAMETERS, MAX_NEWTON = 50 /* halves alone are at 1e-15 */ };
+
+/* How far before contact samples begin to be looked at one by one, as a share of the depth. */
+static const double margin = 0.1;
+
+WIDE_REGISTERS static void sum_baseline(curve_law *m, size_t n)
+{
+    const curve_samples *s = m->samples;
+    m->n_baseline = n;
+    m->baseline_end = n > 0 ? curve_span_of(s->position, n).high : -(double)INFINITY;
+    m->z0 = n > 0 ? curve_sum(s->position, n) / (double)n : 0.0;
+    m->f0 = n > 0 ? curve_sum(s->force, n) / (double)n : 0.0;
+    wide z = {0.0}, zz = z, f = z, zf = z, ff = z;
+    for (size_t i = 0; i < n; i += WIDE) {
+        wide position = m->z0 - (wide){0.0}, force = m->f0 - (wide){0.0};
+        if (i + WIDE <= n) {
+            wide_load(&position, s->position + i);
+            wide_load(&force, s->force + i);
+        }
+        for (size_t j = i; j < n && i + WIDE > n; j++) {
+            position[j - i] = s->position[j];
+            force[j - i] = s->force[j];
+        }
+        position -= m->z0;
+        force -= m->f0;
+        z += position;
+        zz += position * position;
+        f += force;
+        zf += position * force;
+        ff += force * force;
+    }
+    m->z = wide_sum(&z);
+    m->zz = wide_sum(&zz);
+    m->f = wide_sum(&f);
+    m->zf = wide_sum(&zf);
+    m->ff = wide_sum(&ff);
+}
+
+/* In the plain residual noise decides which samples are in contact: none is left to the sums. Nor
+ * where a wave changes all of them. */
+static size_t count_baseline(const curve_law *m, double c)
+{
+    const curve_samples *s = m->samples;
+    if (m->wave)
+        return 0;
+    if (m->jump > 0)
+        return m->jump;
+    const double limit = c - margin * fabs(s->position[s->n - 1] - c);
+    const size_t most = s->gap_to > s->gap_from ? s->gap_from : s->n;
+    size_t n = 0;
+    while (!m->plain && n < most && s->position[n] < limit)
+        n++;
+    return n;
+}
+
+/* Indentations as measured. */
+static void measure(curve_law *m, const double p[N], size_t first)
+{
+    m->balanced = false;
+    const curve_samples *s = m->samples;
+    const double k = s->spring_constant, stretch = 1.0 + p[CURVE_T] / k;
+    for (size_t i = first; i < s->n; i++)
+        m->workspace->delta[i] =
+            (s->position[i] - p[CURVE_C]) * stretch - (s->force[i] - p[CURVE_F0]) / k;
+}
+
+/* One of Newton's steps of each sample in contact; returns the largest. */
+WIDE_REGISTERS static double step_on(const curve_law *m, const double p[N], size_t first)
+{
+    const curve_samples *s = m->samples;
+    const wt_indent_workspace *w = m->workspace;
+    const double k = s->spring_constant, e = p[CURVE_E];
+    wide most = {0.0};
+    double largest = 0.0;
+    size_t i = first;
+    for (; i + WIDE <= s->n; i += WIDE) {
+        wide z, delta, g, slope;
+        wide_load(&z, s->position + i);
+        wide_load(&delta, w->delta + i);
+        wide_load(&g, w->g + i);
+        wide_load(&slope, w->slope + i);
+        z -= p[CURVE_C];
+        const wide out = -delta;
+        wide step = (k * (z - delta) - e * g) / (k + e * slope);
+        wide_raise(&step, &out);
+        step = (wide)((wide_bits)step & (z > 0.0));
+        const wide back = -step;
+        wide_raise(&most, &step);
+        wide_raise(&most, &back);
+        g += slope * step;
+        delta += step;
+        wide_store(w->g + i, &g);
+        wide_store(w->delta + i, &delta);
+    }
+    for (size_t j = 0; j < WIDE; j++)
+        largest = most[j] > largest ? most[j] : largest;
+    for (; i < s->n; i++) {
+        const double z = s->position[i] - p[CURVE_C];
+        double step = (k * (z - w->delta[i]) - e * w->g[i]) / (k + e * w->slope[i]);
+        if (step < -w->delta[i])
+            step = -w->delta[i];
+        if (z <= 0.0)
+            step = 0.0;
+        if (fabs(step) > largest)
+            largest = fabs(step);
+        w->g[i] += w->slope[i] * step;
+        w->delta[i] += step;
+    }
+    return largest;
+}
+
+/* Turns the indentations of the workspace into those at which lever and sample are in balance, with
+ * G and G' there. k (z - x) - E* G(x) falls and is concave in x, so Newton's method converges from
+ * anywhere; the indentations of the evaluation before are a good start. */
+WIDE_REGISTERS static void balance(curve_law *m, const double p[N], size_t first)
+{
+    const curve_samples *s = m->samples;
+    wt_indent_workspace *w = m->workspace;
+    if (m->balanced) /* with what is known of where they were */
+        (void)step_on(m, p, first);
+    m->balanced = true;
+    for (size_t i = first; i < s->n; i++) {
+        const double z = s->position[i] - p[CURVE_C], delta = w->delta[i];
+        const bool inside = (delta > 0.0) & (delta < z); /* no branch: noise decides */
+        w->delta[i] = inside ? delta : z;
+    }
+    const double deepest = /* of a curve that does not touch it is not negative */
+        first < s->n ? fmax(0.0, curve_span_of(s->position + first, s->n - first).high - p[CURVE_C])
+                     : 0.0;
+    /* After a step of 1e-7 the error is of the order of its square. */
+    double largest_step = (double)INFINITY;
+    for (int i = 0; i < MAX_NEWTON && largest_step > 1e-7 * deepest; i++) {
+        wt_contact_table_eval(m->table, w->delta + first, s->n - first, w->g + first,
+                              w->slope + first);
+        largest_step = step_on(m, p, first);
+    }
+}
+
+/* Along the branch; samples that are held at its end are all at one place. */
+static void along(const adhesion *law, const double *bare, size_t n, adhesive_contacts *to)
+{
+    size_t same = 1;
+    while (same < n && !(bare[same] > bare[0]) && !(bare[same] < bare[0]))
+        same++;
+    adhesion_along(law, bare, same == n ? 1 : n, to);
+    for (size_t j = 1; j < n && same == n; j++) {
+        to->depth[j] = to->depth[0];
+        to->force[j] = to->force[0];
+        to->stiffness[j] = to->stiffness[0];
+        to->by_modulus[j] = to->by_modulus[0];
+        to->by_work[j] = to->by_work[0];
+    }
+}
+
+/* The same for adhesive contact: lever and sample in balance on the branch of large radii, which a
+ * sample is on from its jump on, or from where the tip touches. */
+static void balance_adhesive(const curve_law *m, const double p[N], size_t first)
+{
+    const curve_samples *s = m->samples;
+    wt_indent_workspace *w = m->workspace;
+    const double k = s->spring_constant, e = p[CURVE_E], root = p[CURVE_W];
+    const adhesion law = {m->table, e, root * root};
+    const double release = adhesion_release(&law, k);
+    double *const z = w->residual, *const bare = w->delta; /* which both are made of them */
+    for (size_t i = first; i < s->n; i++) {
+        z[i] = s->position[i] - p[CURVE_C];
+        w->delta[i] = w->g[i] = w->slope[i] = w->by_modulus[i] = w->by_work[i] = 0.0;
+    }
+    while (first < s->n && (m->jump > 0 ? first < m->jump : !(z[first] > 0.0)))
+        first++;
+    adhesion_balance(&law, k, release, z + first, s->n - first, bare + first);
+    for (size_t i = first; i < s->n; i += ADHESION_BLOCK) {
+        const size_t n = s->n - i < ADHESION_BLOCK ? s->n - i : ADHESION_BLOCK;
+        adhesive_contacts c;
+        along(&law, bare + i, n, &c);
+        for (size_t j = 0; j < n; j++) {
+            const bool touches = m->jump > 0 || z[i + j] > 0.0;
+            const bool moves = touches && bare[i + j] > release * (1.0 + 1e-9); /* else held */
+            w->delta[i + j] = touches ? c.depth[j] : 0.0;
+            w->g[i + j] = touches ? c.force[j] / e : 0.0;
+            w->slope[i + j] = moves ? c.stiffness[j] / e : 0.0;
+            w->by_modulus[i + j] = moves ? c.by_modulus[j] : 0.0;
+            w->by_work[i + j] = moves && root > 0.0 ? 2.0 * root * c.by_work[j] : 0.0;
+        }
+    }
+}
+
+/* Contact with a constant pull P: the lever is at a height that is larger by P/k. */
+static void balance_pull(curve_law *m, const double p[N], size_t first)
+{
+    const curve_samples *s = m->samples;
+    wt_indent_workspace *w = m->workspace;
+    const double k = s->spring_constant, e = p[CURVE_E], pull = p[CURVE_W];
+    double higher[N];
+    memcpy(higher, p, sizeof higher);
+    higher[CURVE_C] -= pull / k;
+    m->balanced = false; /* the forces of before have the pull in them */
+    balance(m, higher, first);
+    for (size_t i = first; i < s->n; i++) {
+        const double z = s->position[i] - p[CURVE_C], g = w->g[i];
+        const bool touches = m->jump > 0 ? i >= m->jump : z > 0.0, rests = z + pull / k > 0.0;
+        const bool presses = touches && rests;
+        w->delta[i] = presses ? w->delta[i] : 0.0;
+        w->g[i] = !touches ? 0.0 : presses ? g - pull / e : k * z / e;
+        w->slope[i] = presses ? w->slope[i] : 0.0;
+        w->by_modulus[i] = presses ? g : 0.0;
+        w->by_work[i] = presses ? -1.0 : 0.0;
+    }
+}
+
+WIDE_REGISTERS static double evaluate(curve_law *m, const double p[N], size_t first)
+{
+    const curve_samples *s = m->samples;
+    wt_indent_workspace *w = m->workspace;
+    w->evaluations++;
+    if (m->plain) {
+        measure(m, p, first);
+        wt_contact_table_eval(m->table, w->delta + first, s->n - first, w->g + first,
+                              w->slope + first);
+    } else if (m->adhesive && m->constant_pull) {
+        balance_pull(m, p, first);
+    } else if (m->adhesive) {
+        balance_adhesive(m, p, first);
+    } else if (m->memory) {
+        curve_balance_memory(m, p, first);
+    } else {
+        balance(m, p, first);
+    }
+    const double e = p[CURVE_E], c = p[CURVE_C], f0 = p[CURVE_F0], t = p[CURVE_T];
+    const double *position = s->position, *force = s->force, *g = w->g;
+    double *restrict residual = w->residual;
+    for (size_t i = first; i < s->n; i++)
+        residual[i] = force[i] - f0 - t * (position[i] - c) - e * g[i];
+    for (size_t i = s->gap_from > first ? s->gap_from : first; i < s->gap_to && i < s->n; i++)
+        residual[i] = 0.0;
+    return curve_dot(residual + first, residual + first, s->n - first);
+}
+
+void curve_model_resume(curve_law *m, const double p[N])
+{
+    sum_baseline(m, count_baseline(m, p[CURVE_C]));
+}
+
+void curve_model_start(curve_law *m, const double p[N])
+{
+    curve_model_resume(m, p);
+    measure(m, p, m->n_baseline);
+}
+
+double curve_model_cost(curve_law *m, const double p[N])
+{
+    if (m->jump == 0 && m->n_baseline > 0 && p[CURVE_C] < m->baseline_end) {
+        sum_baseline(m, count_baseline(m, p[CURVE_C]));
+        measure(m, p, m->n_baseline);
+    }
+    double n = (double)m->n_baseline, t = p[CURVE_T];
+    double offset = m->f0 - p[CURVE_F0] - t * (m->z0 - p[CURVE_C]);
+    double baseline = m->ff + t * t * m->zz - 2.0 * t * m->zf +
+                      offset * (n * offset + 2.0 * m->f - 2.0 * t * m->z);
+    return baseline + evaluate(m, p, m->n_baseline);
+}
+
+void curve_model_complete(const curve_law *m, const double p[N])
+{
+    const curve_samples *s = m->samples;
+    wt_indent_workspace *w = m->workspace;
+    for (size_t i = 0; i < m->n_baseline; i++) {
+        const double z = s->position[i] - p[CURVE_C];
+        w->delta[i] = z;
+        w->g[i] = w->slope[i] = 0.0;
+        w->residual[i] = s->force[i] - p[CURVE_F0] - p[CURVE_T] * z;
+    }
+    for (size_t i = 0; i < m->n_baseline && (m->adhesive || m->memory); i++)
+        w->by_modulus[i] = w->by_contact[i] = w->by_work[i] = 0.0;
+}
+
+/* Of the first n parameters. */
+static inline void add_row(normal_equations *e, const double row[N], double r, size_t n)
+{
+    for (size_t a = 0; a < n; a++) {
+        for (size_t b = a; b < n; b++)
+            e->jj[a][b] += row[a] * row[b];
+        e->jr[a] += row[a] * r;
+    }
+}
+
+/* Rows of curve_model_row for contact without memory, of which all are compared: four at once.
+ * Returns the sample to go on with. */
+WIDE_REGISTERS static size_t sum_four(const curve_law *m, const double p[N], normal_equations *to)
+{
+    const curve_samples *s = m->samples;
+    const wt_indent_workspace *w = m->workspace;
+    const double soft = p[CURVE_E] / s->spring_constant, with_c = m->free[CURVE_C] ? -1.0 : 0.0,
+                 with_t = m->free[CURVE_T] ? 1.0 : 0.0;
+    const double *const by_modulus = m->adhesive ? w->by_modulus : w->g;
+    wide ee = {0.0}, ec = ee, ef = ee, et = ee, cc = ee, cf = ee, ct = ee, tf = ee, tt = ee,
+         er = ee, cr = ee, fr = ee, tr = ee, ew = ee, cw = ee, fw = ee, tw = ee, ww = ee, wr = ee;
+    size_t i = m->n_baseline;
+    for (; i + WIDE <= s->n; i += WIDE) {
+        wide slope, g, r, z;
+        wide_load(&slope, w->slope + i);
+        wide_load(&g, by_modulus + i);
+        wide_load(&r, w->residual + i);
+        wide_load(&z, s->position + i);
+        const wide balanced = 1.0 / (1.0 + soft * slope), by_e = g * balanced,
+                   by_c = with_c * (p[CURVE_T] + p[CURVE_E] * slope * balanced),
+                   by_t = with_t * (z - p[CURVE_C]);
+        ee += by_e * by_e;
+        ec += by_e * by_c;
+        ef += by_e;
+        et += by_e * by_t;
+        cc += by_c * by_c;
+        cf += by_c;
+        ct += by_c * by_t;
+        tf += by_t;
+        tt += by_t * by_t;
+        er += by_e * r;
+        cr += by_c * r;
+        fr += r;
+        tr += by_t * r;
+        if (!m->adhesive)
+            continue;
+        wide by_w;
+        wide_load(&by_w, w->by_work + i);
+        by_w *= balanced;
+        ew += by_e * by_w;
+        cw += by_c * by_w;
+        fw += by_w;
+        tw += by_t * by_w;
+        ww += by_w * by_w;
+        wr += by_w * r;
+    }
+    to->jj[CURVE_E][CURVE_E] += wide_sum(&ee);
+    to->jj[CURVE_E][CURVE_C] += wide_sum(&ec);
+    to->jj[CURVE_E][CURVE_F0] += wide_sum(&ef);
+    to->jj[CURVE_E][CURVE_T] += wide_sum(&et);
+    to->jj[CURVE_C][CURVE_C] += wide_sum(&cc);
+    to->jj[CURVE_C][CURVE_F0] += wide_sum(&cf);
+    to->jj[CURVE_C][CURVE_T] += wide_sum(&ct);
+    to->jj[CURVE_F0][CURVE_F0] += (double)(i - m->n_baseline);
+    to->jj[CURVE_F0][CURVE_T] += wide_sum(&tf);
+    to->jj[CURVE_T][CURVE_T] += wide_sum(&tt);
+    to->jj[CURVE_E][CURVE_W] += wide_sum(&ew);
+    to->jj[CURVE_C][CURVE_W] += wide_sum(&cw);
+    to->jj[CURVE_F0][CURVE_W] += wide_sum(&fw);
+    to->jj[CURVE_T][CURVE_W] += wide_sum(&tw);
+    to->jj[CURVE_W][CURVE_W] += wide_sum(&ww);
+    to->jr[CURVE_E] += wide_sum(&er);
+    to->jr[CURVE_C] += wide_sum(&cr);
+    to->jr[CURVE_F0] += wide_sum(&fr);
+    to->jr[CURVE_T] += wide_sum(&tr);
+    to->jr[CURVE_W] += wide_sum(&wr);
+    return i;
+}
+
+static void sum_rows(const curve_law *m, const double p[N], normal_equations *to)
+{
+    const curve_samples *s = m->samples;
+    const bool simple = !m->plain && !m->memory && !m->wave && s->gap_to <= s->gap_from;
+    const size_t first = simple ? sum_four(m, p, to) : m->n_baseline;
+    normal_equations e = *to; /* whose sums stay in registers */
+    for (size_t i = first; i < s->n; i++) {
+        double row[N], r = m->workspace->residual[i];
+        curve_model_row(m, p, i, row);
+        add_row(&e, row, r, CURVE_W);
+        if (m->adhesive) {
+            for (size_t a = 0; a < N; a++)
+                e.jj[a][CURVE_W] += row[a] * row[CURVE_W];
+            e.jr[CURVE_W] += row[CURVE_W] * r;
+        }
+    }
+    *to = e;
+}
+
+void curve_model_normal(const curve_law *m, const double p[N], normal_equations *e)
+{
+    memset(e, 0, sizeof *e);
+    /* Before contact the row is (0, -t, 1, z - c), and r = f - f0 - t (z - c). */
+    const double n = (double)m->n_baseline, t = p[CURVE_T], shift = m->z0 - p[CURVE_C];
+    const double offset = m->f0 - p[CURVE_F0] - t * shift;
+    const double sz = m->z + n * shift, szz = m->zz + shift * (2.0 * m->z + n * shift);
+    const double sr = m->f - t * m->z + n * offset;
+    const double szr = m->zf - t * m->zz + offset * m->z + shift * sr;
+    if (m->free[CURVE_C]) {
+        e->jj[CURVE_C][CURVE_C] = t * t * n;
+        e->jj[CURVE_C][CURVE_F0] = -t * n;
+        e->jr[CURVE_C] = -t * sr;
+        if (m->free[CURVE_T])
+            e->jj[CURVE_C][CURVE_T] = -t * sz;
+    }
+    e->jj[CURVE_F0][CURVE_F0] = n;
+    e->jr[CURVE_F0] = sr;
+    if (m->free[CURVE_T]) {
+        e->jj[CURVE_F0][CURVE_T] = sz;
+        e->jj[CURVE_T][CURVE_T] = szz;
+        e->jr[CURVE_T] = szr;
+    }
+    sum_rows(m, p, e);
+    for (size_t a = 0; a < N; a++) {
+        for (size_t b = 0; b < a; b++)
+            e->jj[a][b] = e->jj[b][a];
+        if (!m->free[a])
+            e->jj[a][a] = 1.0;
+    }
+}

@@ -1,0 +1,321 @@
+/* What the noise of a force curve does to the numbers of its fit.
+ *
+ * Forces are averaged in blocks, a few dozen of them over the contact. The spectrum of the noise is
+ * that of the baseline: cosines of its residual, to which shapes are fitted (Whittle): white, white
+ * below a power of the frequency, white below a first-order process. Each weighs what its
+ * likelihood says, for the slow waves that matter to the contact are few in a baseline and no
+ * single shape is sure. The mean of them (of the standard deviations) then gives the variance of
+ * sum_i J_i e_i along the curve, whatever the colour.
+ *
+ * SPDX-License-Identifier: GPL-3.0-or-later
+ */
+#include "indentation/numerics/curve_model.h"
+
+#include <math.h>
+#include <pthread.h>
+#include <string.h>
+
+enum {
+    N = CURVE_N_PARAMETERS,
+    IN_CONTACT = 32, /* blocks */
+    BLOCKS = 512,    /* most of all */
+    FINE = 192,      /* of the baseline, for its spectrum */
+    LEAST = 16,      /* of these */
+    WAVES = 64,      /* looked at one by one; faster ones together */
+    AT_ONCE = 16,    /* a multiple of WIDE */
+    PARTS = AT_ONCE / WIDE,
+    PER_OCTAVE = 4, /* bands: in half of one the frequency changes by 9 % */
+    POWERS = 4,     /* of 1/f: halves, to the 2 of a random walk */
+    CORNERS = 9,    /* octaves, to the longest waves of 512 blocks */
+    HEIGHTS = 5,    /* over the white part: octaves of the knee */
+};
+
+typedef struct block_sums {
+    size_t n, length;                               /* blocks, samples in one */
+    double e[BLOCKS], z[BLOCKS], column[N][BLOCKS]; /* means of residual and position, sums of J */
+} block_sums;
+
+/* Spectra that noise may have, in bands of the frequency. */
+enum { SHAPES = 82 };
+static struct {
+    double knee[SHAPES]; /* below it they are no longer white */
+    double inverse[SHAPES][NOISE_BANDS], logarithm[SHAPES][NOISE_BANDS],
+        root[SHAPES][NOISE_BANDS]; /* of the density */
+} shapes;
+
+static void add_shape(size_t s, double knee, double corner, double power)
+{
+    shapes.knee[s] = knee;
+    for (size_t b = 0; b < NOISE_BANDS; b++) {
+        const double f = exp2(-(double)b / PER_OCTAVE);
+        const double density = 1.0 + pow(knee / sqrt(f * f + corner * corner), power);
+        shapes.inverse[s][b] = 1.0 / density;
+        shapes.logarithm[s][b] = log(density);
+        shapes.root[s][b] = sqrt(density);
+    }
+}
+
+static pthread_once_t shapes_once = PTHREAD_ONCE_INIT;
+
+static void make_shapes(void)
+{
+    size_t s = 0;
+    add_shape(s++, 0.0, 1.0, 1.0);
+    for (int knee = -2; knee < CORNERS - 2; knee++)
+        for (int power = 1; power <= POWERS; power++)
+            add_shape(s++, exp2(-knee), 0.0, 0.5 * power);
+    for (int corner = 0; corner < CORNERS; corner++)
+        for (int height = 0; height < HEIGHTS; height++)
+            add_shape(s++, exp2(height - corner), exp2(-corner), 2.0);
+}
+
+static size_t band_of(double frequency)
+{
+    const double band = -PER_OCTAVE * log2(frequency);
+    return !(band > 0.0) ? 0 : band < NOISE_BANDS - 1 ? (size_t)(band + 0.5) : NOISE_BANDS - 1;
+}
+
+double curve_noise_variance(const curve_spectrum *s, double k, size_t n, size_t length)
+{
+    const double part = s->length / (double)length;
+    return part * s->density[band_of(part * k / (double)n)];
+}
+
+/* How much of unit cosines k to k + AT_ONCE - 1 of n blocks there is in each of n_x. Several at
+ * once, for each term of a wave waits for the one before. */
+WIDE_REGISTERS static void find_waves(size_t k, size_t n, const double (*x)[BLOCKS], size_t n_x,
+                                      double along[AT_ONCE][N])
+{
+    wide twice[PARTS], before[PARTS], now[PARTS], sums[N][PARTS] = {{{0.0}}};
+    double last[AT_ONCE], sum[N][AT_ONCE];
+    const double mirror = k % 2 == 0 ? 1.0 : -1.0; /* the second half of wave k */
+    for (size_t j = 0; j < AT_ONCE; j++) {
+        const double angle = M_PI * (double)(k + j) / (double)n, half = cos(0.5 * angle);
+        twice[j / WIDE][j % WIDE] = 2.0 * (2.0 * half * half - 1.0);
+        now[j / WIDE][j % WIDE] = half;
+    }
+    memcpy(before, now, sizeof now);
+    for (size_t i = 0; i < n / 2; i++) {
+        for (size_t c = 0; c < n_x; c++) {
+            const double other = mirror * x[c][n - 1 - i], same = x[c][i] + other,
+                         opposite = x[c][i] - other;
+            const wide both = {same, opposite, same, opposite};
+            for (size_t v = 0; v < PARTS; v++)
+                sums[c][v] += now[v] * both;
+        }
+        for (size_t v = 0; v < PARTS; v++) {
+            const wide next = twice[v] * now[v] - before[v];
+            before[v] = now[v];
+            now[v] = next;
+        }
+    }
+    memcpy(last, now, sizeof last);
+    memcpy(sum, sums, sizeof sum);
+    for (size_t j = 0; j < AT_ONCE; j++) {
+        const double scale = sqrt((k + j > 0 ? 2.0 : 1.0) / (double)n);
+        for (size_t c = 0; c < n_x; c++) {
+            if (n % 2 == 1 && (k + j) % 2 == 0)
+                sum[c][j] += last[j] * x[c][n / 2];
+            along[j][c] = scale * sum[c][j];
+        }
+    }
+}
+
+/* Takes the powers of z below `count` out of the first n of x. With 3, z2 becomes the square over
+ * `all`, less what the others have of it there. Returns what x had of the last one. */
+WIDE_REGISTERS static double remove_powers(const double *z, double *x, size_t n, size_t all,
+                                           int count, double *z2)
+{
+    double one[FINE + BLOCKS], line[FINE + BLOCKS], *const power[3] = {one, line, z2};
+    const double middle = z[n / 2];
+    double share = 0.0;
+    for (int k = 0; k < count; k++) {
+        double *now = power[k];
+        for (size_t i = 0; i < all; i++)
+            now[i] = 1.0;
+        for (size_t i = 0; i < all && k > 0; i++)
+            now[i] = (z[i] - middle) * power[k - 1][i];
+        for (int d = 0; d < k; d++) {
+            const double part = curve_dot(power[d], now, n) / curve_dot(power[d], power[d], n);
+            for (size_t i = 0; i < all; i++)
+                now[i] -= part * power[d][i];
+        }
+        const double norm = curve_dot(now, now, n);
+        share = norm > 0.0 ? curve_dot(now, x, n) / norm : 0.0;
+        for (size_t i = 0; i < n; i++)
+            x[i] -= share * now[i];
+    }
+    return share;
+}
+
+WIDE_REGISTERS static void average(const curve_law *m, const double p[N], const double *e,
+                                   size_t first, block_sums *b)
+{
+    const curve_samples *s = m->samples;
+    const size_t contact = s->n - first, least = (s->n + BLOCKS - 1) / BLOCKS;
+    memset(b, 0, sizeof *b);
+    b->length = contact / IN_CONTACT > least ? contact / IN_CONTACT : least;
+    b->n = s->n / b->length;
+    const size_t start = s->n - b->n * b->length;
+    const double length = (double)b->length, share = 1.0 / length;
+    for (size_t i = 0; i < b->n; i++) {
+        const size_t from = start + i * b->length, to = from + b->length;
+        const double position = curve_sum(s->position + from, b->length);
+        b->e[i] = curve_sum(e + from, b->length) * share;
+        b->z[i] = position * share;
+        if (to <= m->n_baseline) {
+            b->column[CURVE_C][i] = m->free[CURVE_C] ? -p[CURVE_T] * length : 0.0;
+            b->column[CURVE_F0][i] = length;
+            b->column[CURVE_T][i] = m->free[CURVE_T] ? position - p[CURVE_C] * length : 0.0;
+            continue;
+        }
+        for (size_t j = from; j < to; j++) {
+            double row[N];
+            const double h = curve_model_row(m, p, j, row);
+            for (size_t c = 0; c < N; c++)
+                b->column[c][i] += row[c] * h;
+        }
+    }
+}
+
+WIDE_REGISTERS
+bool curve_noise_spectrum(const double *x, size_t n, curve_spectrum *to)
+{
+    double power[NOISE_BANDS] = {0.0}, count[NOISE_BANDS] = {0.0};
+    double chance[SHAPES], level[SHAPES], best = -(double)INFINITY, all = 0.0;
+    const double waves = (double)n - 2.0; /* an offset and a tilt are not in x */
+    double *const density = to->density, rest = curve_dot(x, x, n);
+    (void)pthread_once(&shapes_once, make_shapes);
+    for (size_t first = 0; first < n && first <= WAVES; first += AT_ONCE) {
+        double along[AT_ONCE][N];
+        find_waves(first, n, (const double(*)[BLOCKS])x, 1, along);
+        for (size_t k = first; k < first + AT_ONCE && k < n && k <= WAVES; k++) {
+            const double square = along[k - first][0] * along[k - first][0];
+            rest -= square;
+            if (k < 2)
+                continue;
+            const size_t band = band_of((double)k / (double)n);
+            power[band] += square;
+            count[band] += 1.0;
+        }
+    }
+    if (n > WAVES + 1) {
+        const size_t band = band_of(sqrt(WAVES / (double)n));
+        power[band] += fmax(rest, 0.0);
+        count[band] += (double)(n - WAVES - 1);
+    }
+    size_t bands = NOISE_BANDS;
+    while (bands > 0 && !(count[bands - 1] > 0.0))
+        bands--;
+    for (size_t s = 0; s < SHAPES; s++) {
+        chance[s] = -(double)INFINITY;
+        if (s > 0 && shapes.knee[s] < 8.0 / (double)n) /* nothing here tells it from white */
+            continue;
+        const double logarithms = curve_dot(count, shapes.logarithm[s], bands),
+                     sum = curve_dot(power, shapes.inverse[s], bands);
+        if (!(sum > 0.0))
+            return false;
+        const int family = s == 0 ? 1 : 2 * CORNERS * (s <= POWERS * CORNERS ? POWERS : HEIGHTS);
+        level[s] = sum / (waves - 2.0);
+        chance[s] = -0.5 * (logarithms + waves * log(sum)) - log(family);
+        best = fmax(best, chance[s]);
+    }
+    memset(density, 0, sizeof to->density);
+    for (size_t s = 0; s < SHAPES; s++) {
+        const double share = exp(chance[s] - best),
+                     weight = share > 0.0 ? share * sqrt(level[s]) : 0.0;
+        if (!(share > 0.0))
+            continue;
+        all += share;
+        for (size_t b = 0; b < NOISE_BANDS; b++)
+            density[b] += weight * shapes.root[s][b];
+    }
+    for (size_t b = 0; b < NOISE_BANDS; b++)
+        density[b] *= density[b] / (all * all);
+    return true;
+}
+
+/* to = J' (covariance of the noise) J, of the first parameters. */
+WIDE_REGISTERS static void sum_waves(const block_sums *b, const curve_spectrum *s, size_t n_free,
+                                     double to[N][N])
+{
+    double waves[AT_ONCE][N], left[N][N];
+    size_t k = 0;
+    for (size_t c = 0; c < n_free; c++)
+        for (size_t d = 0; d <= c; d++) {
+            left[c][d] = curve_dot(b->column[c], b->column[d], b->n);
+            to[c][d] = 0.0;
+        }
+    for (; k < b->n && k <= WAVES; k++) {
+        const double level = curve_noise_variance(s, k > 0 ? (double)k : 0.5, b->n, b->length);
+        const double *along = waves[k % AT_ONCE];
+        if (k % AT_ONCE == 0)
+            find_waves(k, b->n, (const double(*)[BLOCKS])b->column, n_free, waves);
+        for (size_t c = 0; c < n_free; c++)
+            for (size_t d = 0; d <= c; d++) {
+                to[c][d] += level * along[c] * along[d];
+                left[c][d] -= along[c] * along[d];
+            }
+    }
+    if (k < b->n)
+        for (size_t c = 0; c < n_free; c++)
+            for (size_t d = 0; d <= c; d++)
+                to[c][d] += curve_noise_variance(s, (double)k, b->n, b->length) * left[c][d];
+}
+
+/* Of the baseline, the first `first` samples e, less a line, or where it is bent a parabola, which
+ * goes to `bow` all along the blocks. False if there is too little. */
+WIDE_REGISTERS static bool read_baseline(const curve_law *m, const double *e, size_t first,
+                                         block_sums *b, bool bent, double *bow, double *curvature,
+                                         curve_spectrum *to)
+{
+    double x[BLOCKS], y[BLOCKS], z[FINE + BLOCKS], square[FINE + BLOCKS];
+    const size_t length = (first + FINE - 1) / FINE, n = length > 0 ? first / length : 0;
+    if (n < LEAST)
+        return false;
+    for (size_t i = 0; i < n; i++) {
+        const size_t from = first - (n - i) * length;
+        x[i] = curve_sum(e + from, length) / (double)length;
+        z[i] = curve_sum(m->samples->position + from, length) / (double)length;
+    }
+    memcpy(z + n, b->z, b->n * sizeof *z);
+    memcpy(y, x, n * sizeof *y);
+    *curvature = remove_powers(z, y, n, n + b->n, 3, square);
+    for (size_t i = 0; i < b->n; i++)
+        bow[i] = bent ? *curvature * square[n + i] : 0.0;
+    if (!bent)
+        remove_powers(z, x, n, n, 2, square);
+    to->length = (double)length;
+    return curve_noise_spectrum(bent ? y : x, n, to);
+}
+
+WIDE_REGISTERS curve_noise curve_noise_of(const curve_law *m, const double p[N], const double *e,
+                                          size_t first, bool bent)
+{
+    block_sums b;
+    curve_spectrum s;
+    double bow[BLOCKS] = {0.0};
+    curve_noise noise = {.variance = 0.0, .correlation_length = 1.0, .curvature = (double)NAN};
+    average(m, p, e, first, &b);
+    if (first > 0)
+        noise.variance = curve_dot(e, e, first) / (double)first;
+    if (!read_baseline(m, e, first, &b, bent, bow, &noise.curvature, &s)) {
+        s.length = (double)b.length;
+        if (!curve_noise_spectrum(b.e, b.n, &s))
+            return noise;
+    }
+    if (noise.variance > 0.0) { /* at waves as long as the contact that the baseline shows, too */
+        const double contact = (double)(m->samples->n - first);
+        const double wave = fmax(2.0 / contact, 4.0 / (double)first);
+        noise.correlation_length = fmax(1.0, curve_noise_variance(&s, wave, 1, 1) / noise.variance);
+    }
+    for (size_t c = 0; c < N; c++)
+        noise.bend[c] = curve_dot(b.column[c], bow, b.n);
+    sum_waves(&b, &s, m->adhesive ? N : CURVE_W, noise.scatter);
+    for (size_t c = 0; c < N; c++)
+        for (size_t d = 0; d <= c; d++) {
+            noise.scatter[c][d] += noise.bend[c] * noise.bend[d];
+            noise.scatter[d][c] = noise.scatter[c][d];
+        }
+    return noise;
+}

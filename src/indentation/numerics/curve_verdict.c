@@ -1,0 +1,442 @@
+/* The verdict on one force curve and its reason.
+ *
+ * SPDX-License-Identifier: GPL-3.0-or-later
+ */
+#include "indentation/numerics/curve_fitting.h"
+
+#include "core/base/clocale.h"
+#include "core/base/number.h"
+#include "indentation/law/tip.h"
+
+#include <math.h>
+#include <string.h>
+
+/* Limits of plausibility; every verdict names the number and the limit. */
+/* Force in contact, in noise of the baseline: the largest of 2,000 samples is 3.5. */
+static const double contact_noise = 5.0;
+/* Departure from a line, of the largest force: in contact it would be an error of the modulus of
+ * that size and more. */
+static const double baseline_bend = 0.1;
+/* % of modulus per % of sensitivity: sensitivities are known to 1 % at best, and the modulus then
+ * to largest_error. */
+static const double rigid_gain = 50.0;
+static const double told_gain = 1000.0;  /* of it, in words: more digits say nothing */
+static const double reverse_ratio = 0.5; /* cost of the fit in reverse: no near tie */
+enum { BEND_BLOCKS = 16 };
+static const double least_bias = 0.005; /* of a modulus by loss, to be said: a digit of it */
+/* Of the work: at a tan delta of 1, to which elastic fits of rubber with broad spectra were tried:
+ * a pyramid was up to 12 % off, a cone 17 %. */
+static const double most_tried = 0.85;
+/* Of a top of the force that flattens by noise: a map of a thousand has one. */
+static const double flat_chance = 0.001;
+static const double most_flat = 0.5;   /* loss: much of it flattens the force, too */
+static const double below_flat = 0.9;  /* of the force that stands still: clear of its noise */
+static const double large_error = 0.2; /* of a modulus, to be said: only its order is known then */
+
+static const struct {
+    const char *id, *text;
+} verdicts[] = {
+#define VERDICT_ROW(name, id, text) {id, text},
+    WT_CURVE_VERDICT_LIST(VERDICT_ROW)
+#undef VERDICT_ROW
+};
+
+const char *wt_curve_verdict_id(wt_curve_verdict verdict)
+{
+    size_t i = (size_t)verdict;
+    return i < sizeof verdicts / sizeof verdicts[0] ? verdicts[i].id : "unknown";
+}
+
+const char *wt_curve_verdict_text(wt_curve_verdict verdict)
+{
+    size_t i = (size_t)verdict;
+    return i < sizeof verdicts / sizeof verdicts[0] ? verdicts[i].text : "unknown verdict";
+}
+
+bool wt_curve_usable(wt_curve_verdict verdict)
+{
+    return verdict == WT_CURVE_ACCEPTED || verdict == WT_CURVE_DOUBTFUL;
+}
+
+bool wt_curve_usable_id(const char *id)
+{
+    return strcmp(id, wt_curve_verdict_id(WT_CURVE_ACCEPTED)) == 0 ||
+           strcmp(id, wt_curve_verdict_id(WT_CURVE_DOUBTFUL)) == 0;
+}
+
+/* How far means over blocks of the baseline residual depart from a line, peak to peak of a wave of
+ * their scatter, beyond what white noise does. */
+static double baseline_departure(const curve_fitting *f)
+{
+    const curve_samples *s = &f->input.samples;
+    size_t length = f->solution.first_contact / BEND_BLOCKS;
+    if (length == 0)
+        return 0.0;
+    double square = 0.0;
+    for (size_t block = 0; block < BEND_BLOCKS; block++) {
+        double sum = 0.0;
+        for (size_t i = block * length; i < (block + 1) * length; i++)
+            sum += s->force[i] - curve_baseline(&f->solution, s->position[i]);
+        square += sum / (double)length * (sum / (double)length) / BEND_BLOCKS;
+    }
+    square -= f->input.step_noise * f->input.step_noise / (double)length;
+    return square > 0.0 ? 2.0 * M_SQRT2 * sqrt(square) : 0.0;
+}
+
+/* ---- verdict --------------------------------------------------------------------------------- */
+
+/* How far the mean force falls from the first tenth of the samples to the last. */
+static double force_fall(const curve_samples *s)
+{
+    size_t tenth = s->n / 10;
+    double first = 0.0, last = 0.0;
+    for (size_t i = 0; i < tenth; i++) {
+        first += s->force[i] / (double)tenth;
+        last += s->force[s->n - 1 - i] / (double)tenth;
+    }
+    return first - last;
+}
+
+wt_curve_verdict curve_no_contact(curve_fitting *f, char reason[160])
+{
+    const double fall = force_fall(&f->input.samples);
+    const si_text change = curve_si(fabs(fall), "N"), noise = curve_si(f->input.step_noise, "N");
+    if (fall > contact_noise * f->input.step_noise) {
+        curve_say(reason,
+                  "the force falls by %s towards the sample (noise %s): sign of the deflection?",
+                  change.words, noise.words);
+        return WT_CURVE_NEGATIVE;
+    }
+    curve_say(reason, "the force changes by %s from start to end (noise %s)", change.words,
+              noise.words);
+    return WT_CURVE_NO_CONTACT;
+}
+
+bool curve_leaves_the_sample(curve_fitting *f, char reason[160])
+{
+    curve_samples *s = &f->input.samples;
+    const double fall = force_fall(s);
+    if (!(fall > contact_noise * f->input.step_noise))
+        return false;
+    curve_minimum minima[CURVE_MAX_MINIMA];
+    double cost = (double)INFINITY;
+    size_t n = curve_scan(f->table, s, true, false, f->workspace, minima);
+    if (n > 0 && minima[0].contact_point > s->position[0])
+        cost = minima[0].cost;
+    curve_reverse(s);
+    n = curve_scan(f->table, s, true, false, f->workspace, minima);
+    if (n > 0 && minima[0].contact_point > s->position[0] &&
+        minima[0].cost < reverse_ratio * cost) {
+        curve_say(reason, "the force falls by %s along the segment: it leaves the sample",
+                  curve_si(fall, "N").words);
+        return true;
+    }
+    curve_reverse(s);
+    return false;
+}
+
+/* What is against the contact point; accepted if nothing is. */
+static wt_curve_verdict contact_verdict(const curve_fitting *f, const wt_indent_fit *fit,
+                                        char reason[160])
+{
+    const curve_solution *s = &f->solution;
+    const curve_samples *samples = &f->input.samples;
+    const double length = s->p[CURVE_C] - samples->position[0];
+    if (length <= 0.0) {
+        curve_say(reason, "contact is found %s before the first sample",
+                  curve_si(-length, "m").words);
+        return WT_CURVE_NO_BASELINE;
+    }
+    if (!(fit->max_force > contact_noise * s->noise)) {
+        curve_say(reason, "largest force %s is %.1f times the noise of %s, %g needed",
+                  curve_si(fit->max_force, "N").words, fit->max_force / s->noise,
+                  curve_si(s->noise, "N").words, contact_noise);
+        return WT_CURVE_NO_CONTACT;
+    }
+    if (s->first_contact < CURVE_BASELINE_SAMPLES) {
+        curve_say(reason, "baseline of %zu samples, %d needed", s->first_contact,
+                  CURVE_BASELINE_SAMPLES);
+        return WT_CURVE_NO_BASELINE;
+    }
+    if (f->range_empty || curve_in_range(f) < CURVE_CONTACT_SAMPLES) {
+        curve_say(reason, "%zu samples in contact%s, %d needed", curve_in_range(f),
+                  f->range_empty || samples->gap_to > samples->gap_from ||
+                          samples->n < f->input.n_all - f->n_snap
+                      ? " in the range of the fit"
+                      : "",
+                  CURVE_CONTACT_SAMPLES);
+        return WT_CURVE_TOO_SHORT;
+    }
+    if (s->sensitivity_gain > rigid_gain) {
+        curve_say(
+            reason,
+            "1 %% of deflection sensitivity would change the modulus by %s%.0f %%, %g %% allowed",
+            s->sensitivity_gain > told_gain ? "more than " : "",
+            fmin(s->sensitivity_gain, told_gain), rigid_gain);
+        return WT_CURVE_RIGID;
+    }
+    return WT_CURVE_ACCEPTED;
+}
+
+bool curve_fits(const curve_fitting *f)
+{
+    return !(f->solution.lack.chance < f->options->least_chance);
+}
+
+bool curve_unknown_loss(const curve_fitting *f)
+{
+    return contact_table_tip(f->table)->shape == WT_TIP_PUNCH && f->loss > CURVE_LEAST_LOSS &&
+           !f->kind.memory;
+}
+
+/* Forces of a punch do not rise ever steeper. */
+static bool force_flattens(const curve_fitting *f)
+{
+    return f->solution.lack.flat_chance < flat_chance && !(f->loss > most_flat) &&
+           contact_table_tip(f->table)->shape != WT_TIP_PUNCH;
+}
+
+/* Whether the contact law holds so deep. */
+static bool beyond_contact_law(const curve_fitting *f, char reason[160])
+{
+    const double depth = f->solution.max_indentation;
+    const wt_tip *tip = contact_table_tip(f->table);
+    const double reach = thin_sample_reach(tip, depth);
+    if (!contact_law_holds(tip, depth) && !(reach > THIN_SAMPLE_REACH)) {
+        curve_say(reason, "doubtful: %s deep, %.1f radii of the tip; the contact law holds to %g",
+                  curve_si(depth, "m").words, depth / tip->radius, ROUND_TIP_REACH);
+        return true;
+    }
+    if (reach > THIN_SAMPLE_REACH)
+        curve_say(
+            reason,
+            "doubtful: contact radius %.2f of the thickness of the sample; its law holds to %g",
+            reach, THIN_SAMPLE_REACH);
+    return reach > THIN_SAMPLE_REACH;
+}
+
+/* "misfit: E +- 6 % of 7 %" */
+static si_text misfit_text(const wt_indent_fit *fit)
+{
+    si_text text;
+    clocale_print(text.words, sizeof text.words, "E +- %.2g %% of %.2g %%",
+                  100.0 * fit->misfit_error / fit->modulus.value,
+                  100.0 * fit->modulus.standard_error / fit->modulus.value);
+    return text;
+}
+
+/* What may be behind it. */
+static const char *cause_of_misfit(const curve_fitting *f)
+{
+    if (f->snap_on > 0.0 || f->pull_off > 0.0)
+        return "a pull that the contact law does not describe";
+    if (f->solution.bent)
+        return "baseline bent: piezo or drift";
+    return "another tip, a layer, loss, adhesion, piezo or detector";
+}
+
+/* A modulus with too wide an interval: what makes it wide. */
+static wt_curve_verdict interval_verdict(const curve_fitting *f, const wt_indent_fit *fit,
+                                         char reason[160])
+{
+    const double e = fit->modulus.value, error = fit->modulus.standard_error / e;
+    if (!(error > f->options->largest_error))
+        return WT_CURVE_ACCEPTED;
+    if (f->contact_error * f->contact_error > 0.5 * error * error) {
+        const curve_minimum *first = &f->minima[0], *second = &f->minima[1];
+        curve_say(reason, "a contact point %s away gives %s instead of %s at %.3f times the cost",
+                  curve_si(fabs(second->contact_point - first->contact_point), "m").words,
+                  curve_si(second->reduced_modulus / first->reduced_modulus * e, "Pa").words,
+                  curve_si(e, "Pa").words, second->cost / first->cost);
+        return WT_CURVE_AMBIGUOUS;
+    }
+    if (fit->misfit_error * fit->misfit_error > 0.5 * error * error * e * e) {
+        curve_say(reason, "misfit: %s, %g %% allowed; %s", misfit_text(fit).words,
+                  100.0 * f->options->largest_error, cause_of_misfit(f));
+        return f->snap_on > 0.0 || f->pull_off > 0.0 ? WT_CURVE_ADHESIVE
+               : f->solution.bent                    ? WT_CURVE_DRIFT
+                                                     : WT_CURVE_POOR_FIT;
+    }
+    curve_say(reason, "standard error %.0f %% of the modulus of %s, %g %% allowed%s", 100.0 * error,
+              curve_si(e, "Pa").words, 100.0 * f->options->largest_error,
+              f->solution.bent ? "; baseline bent" : "");
+    return WT_CURVE_IMPRECISE;
+}
+
+/* A modulus, and what is against it. */
+static wt_curve_verdict law_verdict(const curve_fitting *f, const wt_indent_fit *fit,
+                                    char reason[160])
+{
+    const curve_solution *s = &f->solution;
+    const double departure = baseline_departure(f);
+    if (force_flattens(f)) {
+        curve_say(
+            reason,
+            "the force flattens towards its top (chance %s by noise): detector, or the sample "
+            "gives way",
+            number_chance(s->lack.flat_chance).text);
+        return WT_CURVE_SATURATED;
+    }
+    if (!s->converged || isnan(s->standard_error[CURVE_E])) {
+        curve_say(reason, "the least-squares fit found no minimum within its iterations");
+        return WT_CURVE_POOR_FIT;
+    }
+    const wt_curve_verdict verdict = interval_verdict(f, fit, reason);
+    if (verdict != WT_CURVE_ACCEPTED)
+        return verdict;
+    if (beyond_contact_law(f, reason))
+        return WT_CURVE_DOUBTFUL;
+    if (curve_unknown_loss(f)) {
+        curve_say(reason,
+                  "doubtful: %.0f %% of the work lost; what loss does under a punch is known with "
+                  "the DMA only",
+                  100.0 * f->loss);
+        return WT_CURVE_DOUBTFUL;
+    }
+    if (isnan(fit->misfit_error) && f->options->least_chance > 0.0 && !f->kind.plain) {
+        curve_say(reason, "doubtful: what a misfit makes of the modulus is not known: the samples "
+                          "do not tell it from their noise; a longer approach would");
+        return WT_CURVE_DOUBTFUL;
+    }
+    if (!(s->lack.chance >= f->options->least_chance) &&
+        fit->misfit_error > f->options->doubtful_error * fit->modulus.value) {
+        curve_say(reason, "doubtful: misfit: %s; %s", misfit_text(fit).words, cause_of_misfit(f));
+        return WT_CURVE_DOUBTFUL;
+    }
+    const double pull = fmax(f->snap_on, f->pull_off > 0.0 ? f->pull_off : 0.0);
+    if (departure > baseline_bend * fit->max_force && pull > 0.0) {
+        curve_say(reason, "doubtful: adhesion: a pull of %s, and %s before contact; %s",
+                  curve_si(pull, "N").words, curve_si(departure, "N").words,
+                  "a longer baseline would tell them apart");
+        return WT_CURVE_DOUBTFUL;
+    }
+    if (departure > baseline_bend * fit->max_force) {
+        curve_say(reason, "doubtful: baseline departs from a line by %s, %.0f %% of %s",
+                  curve_si(departure, "N").words, 100.0 * departure / fit->max_force,
+                  curve_si(fit->max_force, "N").words);
+        return WT_CURVE_DOUBTFUL;
+    }
+    curve_say(reason, "accepted");
+    return WT_CURVE_ACCEPTED;
+}
+
+void curve_append_note(char reason[160], const char *text)
+{
+    if (strlen(reason) + strlen(text) < 160)
+        strcat(reason, text);
+}
+
+/* Appends what is odd about an accepted curve. */
+static void add_notes(const curve_fitting *f, const wt_indent_fit *fit, char reason[160])
+{
+    char text[160];
+    if (f->kind.adhesive && f->kind.constant_pull) {
+        curve_say(text, "; with a constant pull of %s",
+                  curve_si(fit->contact_pull.value, "N").words);
+        curve_append_note(reason, text);
+    } else if (f->kind.adhesive) {
+        curve_say(text, "; with adhesion of %.3g mJ/m^2", 1e3 * fit->work_of_adhesion.value);
+        curve_append_note(reason, text);
+    } else if (f->snap_on > 0.0) {
+        curve_say(text, "; snap-on of %s left out (%zu samples)", curve_si(f->snap_on, "N").words,
+                  f->n_snap);
+        curve_append_note(reason, text);
+    }
+    if (f->pull_off > 0.0 && isnan(fit->pull_off_work) &&
+        !(contact_table_tip(f->table)->sample_thickness > 0.0)) {
+        curve_say(text, "; a pull-off of %s needs no work of adhesion from 1 nJ/m^2 to 1 kJ/m^2",
+                  curve_si(f->pull_off, "N").words);
+        curve_append_note(reason, text);
+    }
+    if (f->another_rubber && !f->kind.adhesive)
+        curve_append_note(reason, "; not of the spectrum of the DMA");
+    if (!curve_fits(f) && strstr(reason, "misfit") == NULL) {
+        curve_say(text, "; misfit: %s", misfit_text(fit).words);
+        curve_append_note(reason, text);
+    }
+    if (f->unknown_loss && f->kind.memory) {
+        curve_append_note(reason, "; the spectrum of the DMA does not describe its loss");
+    } else if (fabs(f->loss_bias) >= least_bias) {
+        curve_say(
+            text,
+            "; %.0f %% of the work lost: with a memory of time^-%.2g, %.2g %% %s than without",
+            100.0 * fit->loss, f->loss_power, 100.0 * fabs(f->loss_bias),
+            f->loss_bias > 0.0 ? "less" : "more");
+        curve_append_note(reason, text);
+    } else if (f->unknown_loss) {
+        curve_say(text, "; %.0f %% of the work lost: %s", 100.0 * fit->loss,
+                  fit->loss > most_tried ? "how near |E*| is not known"
+                                         : "|E*| at 1/(loading time) within 20 %");
+        curve_append_note(reason, text);
+    }
+    if (fit->interference_amplitude > 0.0) {
+        curve_say(text, "; interference of %s and a period of %s fitted",
+                  curve_si(fit->interference_amplitude, "N").words,
+                  curve_si(fit->interference_period, "m").words);
+        curve_append_note(reason, text);
+    }
+    if (f->solution.bent)
+        curve_append_note(reason, "; baseline bent, which the error holds");
+    const double error = fit->modulus.standard_error / fit->modulus.value;
+    if (error > large_error) {
+        curve_say(text, "; standard error %.0f %%", 100.0 * error);
+        curve_append_note(reason, text);
+    }
+    const struct {
+        size_t n;
+        const char *what;
+    } left_out[] = {{f->input.n_missing, "missing samples"},
+                    {f->input.n_repeated, "repeated samples"},
+                    {f->input.n_spikes, "spikes left out"}};
+    for (size_t i = 0; i < sizeof left_out / sizeof left_out[0]; i++)
+        if (left_out[i].n > 0) {
+            curve_say(text, "; %zu %s", left_out[i].n, left_out[i].what);
+            curve_append_note(reason, text);
+        }
+    if (!f->range_settled)
+        curve_append_note(reason, "; the range of the fit did not settle");
+}
+
+/* Before what else is said of a usable fit: that it is of the forces below a limit alone. */
+static wt_curve_verdict judge_below(const curve_fitting *f, wt_curve_verdict verdict,
+                                    char reason[160])
+{
+    static const char doubtful[] = "doubtful: ";
+    char all[160], text[160];
+    memcpy(all, reason, sizeof all);
+    curve_say(reason,
+              "doubtful: fitted up to %s, above which the force flattens: detector, or the sample "
+              "gives way",
+              curve_si(f->options->fit_force, "N").words);
+    if (verdict == WT_CURVE_DOUBTFUL) {
+        curve_say(text, "; %s", all + strlen(doubtful));
+        curve_append_note(reason, text);
+    }
+    return WT_CURVE_DOUBTFUL;
+}
+
+wt_curve_verdict curve_judge(curve_fitting *f, wt_indent_fit *fit)
+{
+    wt_curve_verdict verdict = contact_verdict(f, fit, fit->reason);
+    if (verdict != WT_CURVE_ACCEPTED)
+        return verdict;
+    verdict = law_verdict(f, fit, fit->reason);
+    if (wt_curve_usable(verdict) && f->below_saturation)
+        verdict = judge_below(f, verdict, fit->reason);
+    if (wt_curve_usable(verdict))
+        add_notes(f, fit, fit->reason);
+    return verdict;
+}
+
+double curve_linear_to(const curve_fitting *f)
+{
+    return f->input.flat_level > 0.0 ? below_flat * f->input.flat_level
+                                     : f->solution.lack.flat_from;
+}
+
+void curve_judge_nothing_below(double limit, wt_curve_verdict below, char reason[160])
+{
+    char text[160];
+    curve_say(text, "; up to %s: %s", curve_si(limit, "N").words, wt_curve_verdict_text(below));
+    curve_append_note(reason, text);
+}

@@ -1,0 +1,269 @@
+/* The curves of a group together: their mean residual, what a law of the modulus against depth
+ * makes of it, and numbers of such a law with their errors. Each curve has its share in the
+ * parameters, and the scatter of the shares between spots is their error, enlarged by what is not
+ * known of the weights. What all curves share does not scatter: a bend that their baselines have in
+ * common goes on in contact, nobody knows how, and what it does there if it does is part of the
+ * errors; so is what is not known of the memory that stands for loss.
+ *
+ * SPDX-License-Identifier: GPL-3.0-or-later
+ */
+#include "indentation/numerics/depth_pool.h"
+
+#include "core/math/gsl_quiet.h"
+#include "core/math/students_t.h"
+
+#include <gsl/gsl_blas.h>
+#include <gsl/gsl_cdf.h>
+#include <gsl/gsl_errno.h>
+#include <gsl/gsl_linalg.h>
+#include <gsl/gsl_multifit_nlinear.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum {
+    W = CURVE_WAVES,
+    LEAST_SPOTS = 3,     /* two have a scatter of one degree of freedom, 13 standard errors wide */
+    MAX_ITERATIONS = 50, /* a bound of least squares in four parameters */
+};
+static const double shape_error = 0.01; /* of a modulus by a law that is one of several */
+static const double largest_log = 4.0;  /* of a factor: of 55 one side is as good as rigid */
+
+static size_t n_parameters(depth_law law)
+{
+    return law == DEPTH_LINE || law == DEPTH_TIED ? 3 : 4;
+}
+
+/* x solved by the factor of the scatter: of the size of its error each. */
+static void whiten(const depth_mean *m, double x[W])
+{
+    gsl_matrix_const_view factor = gsl_matrix_const_view_array(m->factor, W, W);
+    gsl_vector_view v = gsl_vector_view_array(x, W);
+    gsl_blas_dtrsv(CblasLower, CblasNoTrans, CblasNonUnit, &factor.matrix, &v.vector);
+}
+
+static int residual_of(const gsl_vector *p, void *user, gsl_vector *r)
+{
+    const depth_mean *m = user;
+    double wave[W];
+    for (size_t a = 0; a < p->size; a++)
+        if (!(fabs(gsl_vector_get(p, a)) < largest_log))
+            return GSL_EDOM;
+    depth_mean_waves(m, p->data, wave);
+    for (size_t j = 0; j < W; j++)
+        wave[j] -= m->wave[j];
+    whiten(m, wave);
+    for (size_t j = 0; j < W; j++)
+        gsl_vector_set(r, j, wave[j]);
+    return GSL_SUCCESS;
+}
+
+/* By differences, whose steps must not shrink with parameters that are nearly 0. */
+static int derivatives_of(const gsl_vector *at, void *user, gsl_matrix *jacobian)
+{
+    const depth_mean *m = user;
+    const double step = 1e-4;
+    for (size_t a = 0; a < at->size; a++) {
+        double p[DEPTH_PARAMETERS], more[W], less[W];
+        for (size_t b = 0; b < at->size; b++)
+            p[b] = gsl_vector_get(at, b);
+        p[a] += step;
+        depth_mean_waves(m, p, more);
+        p[a] -= 2.0 * step;
+        depth_mean_waves(m, p, less);
+        for (size_t j = 0; j < W; j++)
+            more[j] = (more[j] - less[j]) / (2.0 * step);
+        whiten(m, more);
+        for (size_t j = 0; j < W; j++)
+            gsl_matrix_set(jacobian, j, a, more[j]);
+    }
+    return GSL_SUCCESS;
+}
+
+depth_fit depth_fit_law(depth_pool *d, depth_law law, const double *start, wt_error *err)
+{
+    depth_mean *m = &d->mean;
+    const size_t n_p = n_parameters(law);
+    const gsl_multifit_nlinear_parameters how = gsl_multifit_nlinear_default_parameters();
+    gsl_multifit_nlinear_fdf problem = {
+        .f = residual_of, .df = derivatives_of, .n = W, .p = n_p, .params = m};
+    gsl_multifit_nlinear_workspace *w =
+        gsl_multifit_nlinear_alloc(gsl_multifit_nlinear_trust, &how, W, n_p);
+    depth_fit fit = {.law = law};
+    gsl_vector_const_view from = gsl_vector_const_view_array(start, n_p);
+    int info = 0;
+    m->law = law;
+    if (w == NULL) {
+        (void)wt_fail(err, WT_E_MEMORY, "out of memory");
+        return fit;
+    }
+    int status = gsl_multifit_nlinear_init(&from.vector, &problem, w);
+    if (status == GSL_SUCCESS)
+        status =
+            gsl_multifit_nlinear_driver(MAX_ITERATIONS, 1e-8, 1e-10, 0.0, NULL, NULL, &info, w);
+    if (status == GSL_SUCCESS || status == GSL_ENOPROG) { /* no step that helps: it is there */
+        double square[DEPTH_PARAMETERS * DEPTH_PARAMETERS];
+        gsl_matrix_view inverse = gsl_matrix_view_array(square, n_p, n_p);
+        const gsl_matrix *j = gsl_multifit_nlinear_jac(w);
+        fit.good = gsl_multifit_nlinear_covar(j, 1e-10, &inverse.matrix) == GSL_SUCCESS;
+        for (size_t a = 0; a < n_p; a++) {
+            fit.p[a] = gsl_vector_get(gsl_multifit_nlinear_position(w), a);
+            fit.good = fit.good && gsl_matrix_get(&inverse.matrix, a, a) > 0.0;
+            for (size_t b = 0; b < n_p; b++)
+                for (size_t i = 0; i < W; i++)
+                    fit.gain[a][i] +=
+                        gsl_matrix_get(&inverse.matrix, a, b) * gsl_matrix_get(j, i, b);
+        }
+        gsl_blas_ddot(gsl_multifit_nlinear_residual(w), gsl_multifit_nlinear_residual(w),
+                      &fit.left);
+        const double rest = (double)(W - n_p), curves = (double)d->n;
+        const double f = fit.left / (curves - 1.0) * (curves - rest) / rest;
+        fit.excess = fmax(1.0, f);
+        fit.chance = gsl_cdf_fdist_Q(f, rest, curves - rest);
+    }
+    gsl_multifit_nlinear_free(w);
+    return fit;
+}
+
+/* ---- curves and spots ------------------------------------------------------------------------ */
+
+static int by_spot(const void *a, const void *b)
+{
+    const wt_depth_curve *x = a, *y = b;
+    return (x->spot > y->spot) - (x->spot < y->spot);
+}
+
+/* Mean curve and scatter; false if the scatter has no inverse. */
+static bool make_mean(depth_pool *d, const wt_contact_table *table, double poisson_ratio)
+{
+    const double curves = (double)d->n;
+    double modulus = 0.0, depth = 0.0, k = 0.0, g, slope;
+    depth_mean *m = &d->mean;
+    *m = (depth_mean){.table = table};
+    for (size_t i = 0; i < d->n; i++) {
+        const wt_depth_curve *c = &d->curve[i];
+        modulus += log(c->modulus) / curves;
+        depth += c->depth / curves;
+        k += c->spring_constant / curves;
+        m->baseline += c->baseline / curves;
+        m->window += c->window / curves;
+        m->loss_error += c->loss_error / curves;
+        for (size_t a = 0; a < W; a++)
+            m->wave[a] += c->misfit[a] / curves;
+    }
+    for (size_t i = 0; i < d->n; i++)
+        for (size_t a = 0; a < W; a++)
+            for (size_t b = 0; b < W; b++)
+                m->factor[a * W + b] += (d->curve[i].misfit[a] - m->wave[a]) *
+                                        (d->curve[i].misfit[b] - m->wave[b]) /
+                                        (curves * (curves - 1.0));
+    wt_contact_table_eval(table, &depth, 1, &g, &slope);
+    m->reduced = exp(modulus) / (1.0 - poisson_ratio * poisson_ratio);
+    m->k = k;
+    m->depth = depth;
+    m->force = m->reduced * g;
+    m->length = depth + m->force / k;
+    m->widest = slope;
+    gsl_matrix_view scatter = gsl_matrix_view_array(m->factor, W, W);
+    return m->force > 0.0 && gsl_linalg_cholesky_decomp1(&scatter.matrix) == GSL_SUCCESS;
+}
+
+/* Mean of d->value of the curves over each spot, or of each curve. */
+static moments over_units(depth_pool *d)
+{
+    size_t unit = 0, in_unit = 0;
+    for (size_t i = 0; i < d->n; i++) {
+        const double value = d->value[i]; /* not before d->value[unit] */
+        if (i > 0 && (!d->by_spot || d->curve[i].spot != d->curve[i - 1].spot)) {
+            d->value[unit++] /= (double)in_unit;
+            in_unit = 0;
+        }
+        d->value[unit] = in_unit > 0 ? d->value[unit] + value : value;
+        in_unit++;
+    }
+    d->value[unit++] /= (double)in_unit;
+    return moments_of(d->value, unit);
+}
+
+/* The parabola of the baselines over the window, if it is more than they scatter. */
+static void find_bend(depth_pool *d)
+{
+    depth_mean *m = &d->mean;
+    double z[DEPTH_POINTS], bend[DEPTH_POINTS];
+    for (size_t i = 0; i < d->n; i++)
+        d->value[i] = d->curve[i].curvature;
+    const moments all = over_units(d);
+    const double error = students_t_quantile(all.n - 1.0) * sqrt(all.variance / all.n);
+    const double curvature = fabs(all.mean) > error ? all.mean : 0.0;
+    const double middle = 0.5 * (m->length - m->baseline), n = m->length + m->baseline;
+    for (size_t i = 0; i < DEPTH_POINTS; i++) { /* less the line it is fitted with, all along */
+        z[i] = depth_mean_point(m, i) - middle;
+        bend[i] = curvature * (z[i] * z[i] - n * n / 12.0);
+    }
+    depth_mean_cosines(m, bend, m->bend);
+}
+
+double depth_share_of(const depth_mean *m, const depth_fit *fit, const double by[DEPTH_PARAMETERS],
+                      const double w[W])
+{
+    double white[W], sum = 0.0;
+    memcpy(white, w, sizeof white);
+    whiten(m, white);
+    for (size_t a = 0; a < n_parameters(fit->law); a++)
+        for (size_t j = 0; j < W; j++)
+            sum += by[a] * fit->gain[a][j] * white[j];
+    return sum;
+}
+
+depth_value depth_value_of(depth_pool *d, const depth_fit *fit, double at,
+                           const double by[DEPTH_PARAMETERS], bool with_level, double losses)
+{
+    const depth_mean *m = &d->mean;
+    const double rest = (double)(W - n_parameters(fit->law));
+    for (size_t i = 0; i < d->n; i++) {
+        double wave[W];
+        for (size_t a = 0; a < W; a++)
+            wave[a] = d->curve[i].misfit[a] - m->wave[a];
+        d->value[i] =
+            at + depth_share_of(m, fit, by, wave) + (with_level ? log(d->curve[i].modulus) : 0.0);
+    }
+    const moments all = over_units(d);
+    /* The weights are of the same curves: Rao, Biometrika 54 (1967) 447. And where the law leaves
+     * more than scatter, its parameters are off by as much. */
+    const double curves = (double)d->n, left = fmax(1.0, curves - 1.0 - rest);
+    const double more = (curves - 1.0) / left * (1.0 + fit->left / (curves - 1.0));
+    const double scatter = sqrt(all.variance / all.n * more * fit->excess);
+    return (depth_value){.mean = all.mean,
+                         .scatter = {fit->law == DEPTH_LINE || fit->law == DEPTH_TIED
+                                         ? scatter
+                                         : hypot(scatter, shape_error),
+                                     fmin(all.n - 1.0, left)},
+                         .bend = depth_share_of(m, fit, by, m->bend),
+                         .loss = losses * m->loss_error};
+}
+
+void depth_pool_make(depth_pool *d, const wt_contact_table *table, double poisson_ratio,
+                     const wt_depth_curve *curve, size_t n, pool *memory)
+{
+    wt_depth_curve *sorted = pool_alloc(memory, n, sizeof *sorted);
+    *d = (depth_pool){.curve = sorted, .value = pool_numbers(memory, n)};
+    gsl_quiet();
+    for (size_t i = 0; i < n && !memory->failed; i++)
+        if (!isnan(curve[i].loss_error))
+            sorted[d->n++] = curve[i];
+    d->n_lossy = n - d->n;
+    if (memory->failed || d->n < WT_DEPTH_LEAST_CURVES || d->n_lossy >= d->n)
+        return;
+    qsort(sorted, d->n, sizeof *sorted, by_spot);
+    d->n_units = 1;
+    for (size_t i = 1; i < d->n; i++)
+        d->n_units += sorted[i].spot != sorted[i - 1].spot;
+    d->by_spot = d->n_units >= LEAST_SPOTS;
+    if (!d->by_spot)
+        d->n_units = d->n;
+    d->known = make_mean(d, table, poisson_ratio);
+    if (d->known) {
+        depth_mean_prepare(&d->mean);
+        find_bend(d);
+    }
+}

@@ -1,0 +1,148 @@
+/* Forces of lever and rubber under a modulus that changes with depth, and their cosines.
+ *
+ * SPDX-License-Identifier: GPL-3.0-or-later
+ */
+#include "indentation/numerics/depth_residuals.h"
+
+#include "indentation/law/thin_layer.h"
+
+#include <math.h>
+#include <string.h>
+
+enum {
+    W = CURVE_WAVES,
+    MAX_STEPS = 60, /* halves alone are at the last digit */
+};
+
+depth_modulus depth_modulus_of(const depth_mean *m, depth_law law, const double *p)
+{
+    depth_modulus to = {.law = law, .level = p[DEPTH_LEVEL]};
+    if (law == DEPTH_TIED) {
+        to.ratio = exp(p[DEPTH_LEVEL] + m->tie.log_ratio);
+        to.reach = m->tie.reach;
+        to.slope = p[DEPTH_SLOPE];
+    } else if (law == DEPTH_LAYER) {
+        to.ratio = exp(p[DEPTH_RATIO]);
+        to.reach = exp(p[DEPTH_REACH]);
+    } else {
+        to.slope = p[DEPTH_SLOPE];
+        to.bend = law == DEPTH_BENT ? p[DEPTH_BEND] : 0.0;
+    }
+    return to;
+}
+
+double depth_log_modulus(const depth_modulus *l, double u)
+{
+    if (l->law == DEPTH_LAYER)
+        return l->level + log(thin_layer_apparent(l->ratio, l->reach * u));
+    if (l->law == DEPTH_TIED)
+        return l->level + log(thin_layer_apparent(l->ratio, l->reach * u)) + (u - 1.0) * l->slope;
+    return l->level + (u - 1.0) * (l->slope + (l->law == DEPTH_BENT ? l->bend * (u - 1.0) : 0.0));
+}
+
+/* A point of which the balance of lever and rubber is looked for. */
+typedef struct balance_point {
+    size_t to; /* its number */
+    double z, low, high;
+} balance_point;
+
+/* One step of n of them, of depths x; returns how many are not there, which come first then. */
+static size_t step_points(const depth_mean *m, const depth_modulus *l, balance_point *b, double *x,
+                          size_t n, double force[DEPTH_POINTS])
+{
+    double g[DEPTH_POINTS], slope[DEPTH_POINTS];
+    size_t left = 0;
+    wt_contact_table_eval(m->table, x, n, g, slope);
+    for (size_t j = 0; j < n; j++) {
+        balance_point at = b[j];
+        double next = x[j];
+        const double e =
+            m->reduced * (l != NULL ? exp(depth_log_modulus(l, slope[j] / m->widest)) : 1.0);
+        const double over = m->k * (at.z - next) - e * g[j];
+        *(over > 0.0 ? &at.low : &at.high) = next;
+        const double step = over / (m->k + e * slope[j]); /* Newton's but for a change of E */
+        const bool there = fabs(step) < 1e-13 * at.z;
+        if (!there)
+            next = next + step > at.low && next + step < at.high ? next + step
+                                                                 : 0.5 * (at.low + at.high);
+        force[at.to] = m->k * (at.z - next);
+        if (!there) {
+            b[left] = at;
+            x[left++] = next;
+        }
+    }
+    return left;
+}
+
+/* Force of lever and rubber at positions from the contact point; l NULL: of the fit. */
+static void forces_at(const depth_mean *m, const depth_modulus *l, const double z[DEPTH_POINTS],
+                      double force[DEPTH_POINTS])
+{
+    balance_point b[DEPTH_POINTS];
+    double x[DEPTH_POINTS];
+    size_t n = 0;
+    for (size_t i = 0; i < DEPTH_POINTS; i++) {
+        force[i] = 0.0;
+        if (z[i] > 0.0) {
+            x[n] = 0.9 * z[i];
+            b[n++] = (balance_point){i, z[i], 0.0, z[i]};
+        }
+    }
+    for (int i = 0; i < MAX_STEPS && n > 0; i++)
+        n = step_points(m, l, b, x, n, force);
+}
+
+/* Takes out of differences at the points of the window the line that they and no difference before
+ * them would be fitted with. */
+static void take_out_line(const depth_mean *m, const double *z, double *d)
+{
+    const double from = -m->baseline, to = m->length, n = to - from,
+                 step = m->window / DEPTH_POINTS;
+    const double middle = 0.5 * (from + to), spread = n * n * n / 12.0;
+    double sum = 0.0, moment = 0.0;
+    for (size_t i = 0; i < DEPTH_POINTS; i++) {
+        sum += d[i] * step;
+        moment += d[i] * (z[i] - middle) * step;
+    }
+    for (size_t i = 0; i < DEPTH_POINTS; i++)
+        d[i] -= sum / n + moment / spread * (z[i] - middle);
+}
+
+double depth_mean_point(const depth_mean *m, size_t i)
+{
+    return m->length - m->window * (1.0 - ((double)i + 0.5) / DEPTH_POINTS);
+}
+
+void depth_mean_cosines(const depth_mean *m, const double d[DEPTH_POINTS], double wave[W])
+{
+    memset(wave, 0, W * sizeof *wave);
+    for (size_t i = 0; i < DEPTH_POINTS; i++)
+        for (size_t j = 0; j < W; j++)
+            wave[j] += 2.0 / DEPTH_POINTS * d[i] / m->force * m->cosine[i][j];
+}
+
+void depth_mean_waves(const depth_mean *m, const double *p, double wave[W])
+{
+    double z[DEPTH_POINTS], from_contact[DEPTH_POINTS], d[DEPTH_POINTS];
+    const depth_modulus law = depth_modulus_of(m, m->law, p);
+    for (size_t i = 0; i < DEPTH_POINTS; i++) {
+        z[i] = depth_mean_point(m, i);
+        from_contact[i] = z[i] - p[DEPTH_CONTACT] * m->depth;
+    }
+    forces_at(m, &law, from_contact, d);
+    for (size_t i = 0; i < DEPTH_POINTS; i++)
+        d[i] -= m->fitted[i];
+    take_out_line(m, z, d);
+    depth_mean_cosines(m, d, wave);
+}
+
+void depth_mean_prepare(depth_mean *m)
+{
+    double z[DEPTH_POINTS];
+    for (size_t i = 0; i < DEPTH_POINTS; i++) {
+        z[i] = depth_mean_point(m, i);
+        for (size_t j = 0; j < W; j++)
+            m->cosine[i][j] = cos(M_PI * (double)(j + 1) * ((double)i + 0.5) / DEPTH_POINTS);
+    }
+    forces_at(m, NULL, z, m->fitted);
+}

@@ -1,0 +1,178 @@
+/* The range of the fit: which of the samples in contact are compared with the law. Those deeper
+ * than the range are left off; those shallower are modelled, for rubber remembers them, but not
+ * compared. The contact point stays free and the baseline is in the fit.
+ *
+ * SPDX-License-Identifier: GPL-3.0-or-later
+ */
+#include "indentation/numerics/curve_fitting.h"
+
+#include "indentation/law/tip.h"
+
+#include <math.h>
+
+/* A bound: what goes to and fro for six rounds may only grow from then on, which ends. */
+enum { MAX_ROUNDS = 12, FREE_ROUNDS = 6 };
+
+static wt_status check_order(const char *from_name, double from, const char *to_name, double to,
+                             wt_error *err)
+{
+    if (!(to > 0.0) || from < to)
+        return WT_OK;
+    const wt_status status = wt_fail(err, WT_E_RANGE, "the range of the fit is empty");
+    wt_error_expected(err, "%s below %s", from_name, to_name);
+    wt_error_found(err, "%g and %g", from, to);
+    return status;
+}
+
+wt_status curve_range_check(const wt_indent_options *o, const wt_tip *tip, wt_error *err)
+{
+    if (o->fit_radii > 0.0 && !(tip->radius > 0.0)) {
+        const wt_status status = wt_fail(err, WT_E_RANGE, "a sharp tip has no radius");
+        wt_error_expected(err, "fit-depth in place of fit-radii, or the radius of the tip");
+        return status;
+    }
+    wt_status status =
+        check_order("fit-depth-from", o->fit_depth_from, "fit-depth", o->fit_depth, err);
+    if (status == WT_OK)
+        status = check_order("fit-depth-from", o->fit_depth_from, "fit-radii",
+                             o->fit_radii * tip->radius, err);
+    if (status == WT_OK)
+        status = check_order("fit-force-from", o->fit_force_from, "fit-force", o->fit_force, err);
+    if (status == WT_OK)
+        status = check_order("fit-force-fraction-from", o->fit_force_fraction_from,
+                             "fit-force-fraction", o->fit_force_fraction, err);
+    return status;
+}
+
+/* ---- where the limits are ---------------------------------------------------------------------*/
+
+static double force_at(const curve_fitting *f, size_t i)
+{
+    const curve_samples *s = &f->input.samples;
+    return s->force[i] - curve_baseline(&f->solution, s->position[i]);
+}
+
+static double depth_at(const curve_fitting *f, size_t i)
+{
+    const curve_samples *s = &f->input.samples;
+    return s->position[i] - f->solution.p[CURVE_C] - force_at(f, i) / s->spring_constant;
+}
+
+static size_t count_all(const curve_fitting *f)
+{
+    return f->input.n_all - f->n_snap;
+}
+
+/* The first sample in contact beyond a limit: halfway between the first above it and the last
+ * below, for noise must not decide on which side. */
+static size_t crossing(const curve_fitting *f, double (*value)(const curve_fitting *, size_t),
+                       double limit)
+{
+    const size_t n = count_all(f);
+    size_t first_above = n, last_below = f->solution.first_contact;
+    for (size_t i = f->solution.first_contact; i < n; i++) {
+        if (value(f, i) <= limit)
+            last_below = i;
+        else if (first_above == n)
+            first_above = i;
+    }
+    return (first_above + last_below + 1) / 2;
+}
+
+static double largest_force(const curve_fitting *f)
+{
+    double largest = 0.0;
+    for (size_t i = 0; i < count_all(f); i++)
+        largest = fmax(largest, force_at(f, i));
+    return largest;
+}
+
+/* `to` 0: all; `from` the first in contact: from there on. */
+typedef struct range {
+    size_t from, to;
+} range;
+
+static range find_range(const curve_fitting *f)
+{
+    const wt_indent_options *o = f->options;
+    double deepest = (double)INFINITY, strongest = (double)INFINITY, weakest = o->fit_force_from;
+    if (o->fit_depth > 0.0)
+        deepest = o->fit_depth;
+    if (o->fit_radii > 0.0)
+        deepest = fmin(deepest, o->fit_radii * contact_table_tip(f->table)->radius);
+    if (o->fit_force > 0.0)
+        strongest = o->fit_force;
+    if (o->fit_force_fraction < 1.0 || o->fit_force_fraction_from > 0.0) {
+        const double largest = largest_force(f);
+        weakest = fmax(weakest, o->fit_force_fraction_from * largest);
+        if (o->fit_force_fraction < 1.0)
+            strongest = fmin(strongest, o->fit_force_fraction * largest);
+    }
+    range r = {f->solution.first_contact, count_all(f)};
+    if (isfinite(deepest))
+        r.to = crossing(f, depth_at, deepest);
+    if (isfinite(strongest)) {
+        const size_t to = crossing(f, force_at, strongest);
+        r.to = to < r.to ? to : r.to;
+    }
+    if (o->fit_depth_from > 0.0)
+        r.from = crossing(f, depth_at, o->fit_depth_from);
+    if (weakest > 0.0) {
+        const size_t from = crossing(f, force_at, weakest);
+        r.from = from > r.from ? from : r.from;
+    }
+    r.from = r.from < r.to ? r.from : r.to;
+    return r;
+}
+
+size_t curve_in_range(const curve_fitting *f)
+{
+    const curve_samples *s = &f->input.samples;
+    const size_t first =
+        s->gap_to > f->solution.first_contact ? s->gap_to : f->solution.first_contact;
+    return s->n > first ? s->n - first : 0;
+}
+
+/* ---- the fit of it ----------------------------------------------------------------------------*/
+
+static bool limited(const wt_indent_options *o)
+{
+    return o->fit_depth > 0.0 || o->fit_radii > 0.0 || o->fit_force > 0.0 ||
+           o->fit_force_fraction < 1.0 || o->fit_depth_from > 0.0 || o->fit_force_from > 0.0 ||
+           o->fit_force_fraction_from > 0.0;
+}
+
+/* What is fitted depends on the contact point and the contact point on what is fitted. */
+bool curve_fit_range(curve_fitting *f)
+{
+    curve_samples *s = &f->input.samples;
+    if (!limited(f->options))
+        return true;
+    for (int round = 0; round < MAX_ROUNDS; round++) {
+        range now = find_range(f);
+        const bool lower = now.from > f->solution.first_contact;
+        size_t gap_from = lower ? f->solution.first_contact : 0;
+        size_t gap_to = lower ? now.from : 0;
+        if (round >= FREE_ROUNDS) { /* else it may go to and fro */
+            now.to = now.to < s->n ? now.to : s->n;
+            gap_to = gap_to > s->gap_to ? gap_to : s->gap_to;
+            gap_from = gap_from < s->gap_from ? gap_from : s->gap_from;
+        }
+        const bool same_end = now.to == s->n;
+        if (same_end && gap_from == s->gap_from && gap_to == s->gap_to)
+            return true;
+        s->n = now.to;
+        s->gap_from = gap_from;
+        s->gap_to = gap_to;
+        if (curve_in_range(f) < CURVE_CONTACT_SAMPLES) {
+            f->range_empty = true; /* the verdict follows */
+            return true;
+        }
+        if (same_end || f->kind.adhesive)
+            curve_refine(f->table, s, f->kind, f->solution.p, f->workspace, &f->solution);
+        else if (!curve_scan_and_refine(f))
+            return false;
+    }
+    f->range_settled = false;
+    return true;
+}

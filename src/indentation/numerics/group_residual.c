@@ -1,0 +1,48 @@
+/* Does the contact law describe the curves of a group together? The mean of their residuals against
+ * the scatter of them, whatever the noise: Hotelling's T^2 of the first cosines over the contact.
+ *
+ * SPDX-License-Identifier: GPL-3.0-or-later
+ */
+#include "indentation/numerics/curve.h"
+
+#include "core/math/gsl_quiet.h"
+
+#include <gsl/gsl_cdf.h>
+#include <gsl/gsl_errno.h>
+#include <gsl/gsl_linalg.h>
+#include <math.h>
+
+/* T squared needs more curves than waves; as many again are its degrees of freedom. */
+enum { W = CURVE_WAVES, LEAST_CURVES = 2 * W };
+
+wt_curve_pool wt_curve_pool_make(const double (*misfit)[WT_CURVE_WAVES], size_t n)
+{
+    double mean[W] = {0.0}, scatter[W * W] = {0.0}, solved[W], amplitude = 0.0, t = 0.0;
+    wt_curve_pool pool = {.n = n, .misfit = (double)NAN, .chance = (double)NAN};
+    if (n < LEAST_CURVES)
+        return pool;
+    gsl_quiet();
+    for (size_t i = 0; i < n; i++)
+        for (size_t a = 0; a < W; a++)
+            mean[a] += misfit[i][a] / (double)n;
+    for (size_t i = 0; i < n; i++)
+        for (size_t a = 0; a < W; a++)
+            for (size_t b = 0; b < W; b++)
+                scatter[a * W + b] +=
+                    (misfit[i][a] - mean[a]) * (misfit[i][b] - mean[b]) / (double)(n - 1);
+    gsl_matrix_view matrix = gsl_matrix_view_array(scatter, W, W);
+    gsl_vector_view x = gsl_vector_view_array(solved, W);
+    for (size_t a = 0; a < W; a++) {
+        solved[a] = mean[a];
+        amplitude += 0.5 * mean[a] * mean[a];
+    }
+    if (gsl_linalg_cholesky_decomp1(&matrix.matrix) != GSL_SUCCESS ||
+        gsl_linalg_cholesky_svx(&matrix.matrix, &x.vector) != GSL_SUCCESS)
+        return pool;
+    for (size_t a = 0; a < W; a++)
+        t += mean[a] * solved[a];
+    const double curves = (double)n;
+    pool.misfit = sqrt(amplitude);
+    pool.chance = gsl_cdf_fdist_Q(curves * t * (curves - W) / (W * (curves - 1.0)), W, curves - W);
+    return pool;
+}

@@ -1,0 +1,323 @@
+/* Groups of moduli and their comparison.
+ *
+ * Moduli scatter by factors, so everything is made of ln E: ratio, interval, p and effect size
+ * (Hedges, J. Educ. Stat. 6 (1981) 107). Curves on one spot share the place and are not
+ * independent: where spots are known, the spot is the unit and its mean the observation.
+ *
+ * SPDX-License-Identifier: GPL-3.0-or-later
+ */
+#include "indentation/numerics/group_statistics.h"
+#include "core/base/array.h"
+#include "core/math/gsl_quiet.h"
+#include "core/math/special.h"
+
+#include <gsl/gsl_cdf.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+typedef struct curve {
+    long spot;
+    double modulus;
+} curve;
+
+/* The observations: curves, or means over spots. */
+typedef struct units {
+    double *log_modulus; /* [n] */
+    size_t n;
+} units;
+
+static int by_spot(const void *a, const void *b)
+{
+    const curve *x = a, *y = b;
+    if (x->spot != y->spot)
+        return x->spot < y->spot ? -1 : 1;
+    return (x->modulus > y->modulus) - (x->modulus < y->modulus);
+}
+
+static wt_status check_group(const wt_group *group, wt_error *err)
+{
+    if (group->n == 0)
+        return wt_fail(err, WT_E_EMPTY, "the group has no accepted curve");
+    for (size_t i = 0; i < group->n; i++) {
+        if (!(group->modulus[i] > 0.0) || !isfinite(group->modulus[i])) {
+            wt_status status = wt_fail(err, WT_E_RANGE, "a modulus of the group is not usable");
+            wt_error_place(err, "value %zu of %zu", i + 1, group->n);
+            wt_error_expected(err, "a value above 0 Pa");
+            wt_error_found(err, "%g Pa", group->modulus[i]);
+            return status;
+        }
+    }
+    return WT_OK;
+}
+
+/* In an order that does not depend on that of the curves, so that sums have the same bits. */
+static wt_status make_units(const wt_group *group, bool use_spots, pool *memory, units *u,
+                            wt_error *err)
+{
+    wt_status status = check_group(group, err);
+    if (status != WT_OK)
+        return status;
+    gsl_quiet();
+    curve *curves = pool_alloc(memory, group->n, sizeof *curves);
+    *u = (units){pool_numbers(memory, group->n), 0};
+    if (memory->failed)
+        return wt_fail(err, WT_E_MEMORY, "no memory for a group of %zu moduli", group->n);
+    for (size_t i = 0; i < group->n; i++)
+        curves[i] = (curve){use_spots ? group->spot[i] : 0, group->modulus[i]};
+    qsort(curves, group->n, sizeof *curves, by_spot);
+    for (size_t i = 0; i < group->n;) {
+        long spot = curves[i].spot;
+        double log_sum = 0.0, m = 0.0;
+        do {
+            log_sum += log(curves[i].modulus);
+            m += 1.0;
+            i++;
+        } while (use_spots && i < group->n && curves[i].spot == spot);
+        u->log_modulus[u->n++] = log_sum / m;
+    }
+    return WT_OK;
+}
+
+typedef struct cell {
+    long spot, rate_class;
+    double log_modulus;
+} cell;
+
+static int by_cell(const void *a, const void *b)
+{
+    const cell *x = a, *y = b;
+    if (x->spot != y->spot)
+        return x->spot < y->spot ? -1 : 1;
+    if (x->rate_class != y->rate_class)
+        return x->rate_class < y->rate_class ? -1 : 1;
+    return (x->log_modulus > y->log_modulus) - (x->log_modulus < y->log_modulus);
+}
+
+/* Variance of the mean of a group by its curves alone, which scatter about the mean of their spot
+ * and rate; 0 where no two of them share both. */
+static double curve_variance(const wt_group *group, pool *memory)
+{
+    if (group->spot == NULL)
+        return 0; /* each is a spot */
+    cell *cells = pool_alloc(memory, group->n, sizeof *cells);
+    double sum = 0, freedom = 0;
+    if (cells == NULL)
+        return (double)NAN; /* memory->failed says why */
+    for (size_t i = 0; i < group->n; i++)
+        cells[i] = (cell){group->spot[i], group->rate_class != NULL ? group->rate_class[i] : 0,
+                          log(group->modulus[i])};
+    qsort(cells, group->n, sizeof *cells, by_cell);
+    for (size_t first = 0, end; first < group->n; first = end) {
+        double mean = 0;
+        for (end = first; end < group->n && cells[end].spot == cells[first].spot &&
+                          cells[end].rate_class == cells[first].rate_class;
+             end++)
+            mean += cells[end].log_modulus;
+        mean /= (double)(end - first);
+        for (size_t i = first; i < end; i++)
+            sum += pow(cells[i].log_modulus - mean, 2);
+        freedom += (double)(end - first) - 1;
+    }
+    return freedom > 0 ? sum / freedom / (double)group->n : 0;
+}
+
+static wt_status summarise_group(const wt_group *group, const units *u, pool *memory,
+                                 wt_group_summary *summary, wt_error *err)
+{
+    double *sorted = pool_numbers(memory, group->n);
+    if (sorted == NULL)
+        return wt_fail(err, WT_E_MEMORY, "no memory for a group of %zu moduli", group->n);
+    memcpy(sorted, group->modulus, group->n * sizeof *sorted);
+    numbers_sort(sorted, group->n);
+    moments curves = moments_of(sorted, group->n), logs = moments_of(u->log_modulus, u->n);
+    size_t half = group->n / 2;
+    *summary = (wt_group_summary){
+        .n = group->n,
+        .n_rejected = group->n_rejected,
+        .n_spots = u->n,
+        .mean = curves.mean,
+        .standard_deviation = sqrt(curves.variance),
+        .geometric_mean = exp(logs.mean),
+        .log_standard_error = sqrt(logs.variance / logs.n),
+        .df = logs.n - 1,
+        .low = (double)NAN,
+        .high = (double)NAN,
+        .median = group->n % 2 == 1 ? sorted[half] : 0.5 * (sorted[half - 1] + sorted[half]),
+    };
+    if (u->n == 1 && group->spot_scatter > 0) {
+        summary->log_standard_error =
+            sqrt(group->spot_scatter * group->spot_scatter + curve_variance(group, memory));
+        summary->df = (double)INFINITY;
+        if (memory->failed)
+            return wt_fail(err, WT_E_MEMORY, "no memory for a group of %zu moduli", group->n);
+    }
+    if (!isnan(summary->log_standard_error)) {
+        const double reach = students_t_quantile(summary->df) * summary->log_standard_error;
+        summary->low = exp(logs.mean - reach);
+        summary->high = exp(logs.mean + reach);
+    }
+    return WT_OK;
+}
+
+wt_status wt_group_summarise(const wt_group *group, wt_group_summary *summary, wt_error *err)
+{
+    units u;
+    pool memory = {0};
+    wt_status status = make_units(group, group->spot != NULL, &memory, &u, err);
+    if (status == WT_OK)
+        status = summarise_group(group, &u, &memory, summary, err);
+    pool_free(&memory);
+    return status;
+}
+
+/* ---- two groups ------------------------------------------------------------------------------ */
+
+/* Bulk and track; the units are spots if both name them. */
+static wt_status summarise_both(const wt_group *const groups[2], pool *memory, wt_comparison *c,
+                                wt_error *err)
+{
+    wt_group_summary *const summaries[2] = {&c->bulk, &c->track};
+    wt_status status = WT_OK;
+    c->by_spot = groups[0]->spot != NULL && groups[1]->spot != NULL;
+    for (int g = 0; status == WT_OK && g < 2; g++) {
+        units u;
+        status = make_units(groups[g], c->by_spot, memory, &u, err);
+        if (status == WT_OK)
+            status = summarise_group(groups[g], &u, memory, summaries[g], err);
+    }
+    return status;
+}
+
+/* Whether the spots do not tell how much they scatter. */
+static bool few_spots(const compare_units *u)
+{
+    const size_t fewer = u->n[0] < u->n[1] ? u->n[0] : u->n[1],
+                 more = u->n[0] < u->n[1] ? u->n[1] : u->n[0];
+    return fewer < 2 && more < COMPARE_MANY_SPOTS;
+}
+
+/* given: how much the spots of both groups scatter. */
+static wt_unsettled why_unsettled(const compare_units *u, bool given)
+{
+    const bool lone = u->n[0] < 2 || u->n[1] < 2;
+    if ((few_spots(u) && !given) || (lone && u->rates_by == WT_RATES_BETWEEN))
+        return WT_ONE_SPOT;
+    if (!u->known)
+        return WT_RATES_APART;
+    return u->apart && u->interaction_p < 0.05 ? WT_RATES_TWIST : WT_SETTLED;
+}
+
+/* Hedges' g of the pooled scatter, and that scatter. */
+static void put_effect(moments a, moments b, wt_comparison *c)
+{
+    const double df = a.n + b.n - 2.0;
+    double sum = a.n > 1 ? (a.n - 1.0) * a.variance : 0.0;
+    sum += b.n > 1 ? (b.n - 1.0) * b.variance : 0.0;
+    c->scatter = df > 0.0 ? sqrt(sum / df) : (double)NAN;
+    c->effect_size = c->unsettled == WT_SETTLED
+                         ? c->log_ratio.value / c->scatter * (1.0 - 3.0 / (4.0 * df - 1.0))
+                         : (double)NAN;
+}
+
+/* given: variance of the difference of spots that do not tell it. */
+static void put_interval(const compare_units *u, moments a, moments b, double known, double given,
+                         wt_comparison *c)
+{
+    const t_error shift = {sqrt(u->shift_variance), u->slope_df};
+    t_error e = compare_welch(a, b, shift, known);
+    c->scatter_given = few_spots(u);
+    if (c->scatter_given)
+        e = t_error_with(shift, known + given);
+    if (c->rates_by == WT_RATES_BETWEEN)
+        e = t_error_with((t_error){u->between_error, u->between_df}, known);
+    const double reach = students_t_quantile(e.df) * e.error;
+    c->log_ratio.standard_error = e.error;
+    c->df = e.df;
+    c->ratio_low = exp(c->log_ratio.value - reach);
+    c->ratio_high = exp(c->log_ratio.value + reach);
+    c->t = c->log_ratio.value / e.error;
+    c->p =
+        2.0 * (isinf(e.df) ? gsl_cdf_ugaussian_Q(fabs(c->t)) : gsl_cdf_tdist_Q(fabs(c->t), e.df));
+    c->known_share = known / (e.error * e.error);
+}
+
+static wt_status compare_values(const compare_units *u, const wt_estimate *offset,
+                                const wt_group *const groups[2], pool *memory, wt_comparison *c,
+                                wt_error *err)
+{
+    const moments a = moments_of(u->value[0], u->n[0]);
+    const moments b = moments_of(u->value[1], u->n[1]);
+    const double known = offset != NULL ? offset->standard_error * offset->standard_error : 0.0;
+    c->unsettled = why_unsettled(u, groups[0]->spot_scatter > 0 && groups[1]->spot_scatter > 0);
+    if (c->unsettled == WT_SETTLED && !few_spots(u) && !(a.variance > 0.0) && !(b.variance > 0.0)) {
+        wt_status status =
+            wt_fail(err, WT_E_RANGE, "all moduli of each group are equal: no scatter");
+        wt_error_advice(err, "measured moduli scatter; are these values copies of one curve?");
+        return status;
+    }
+    if (u->known) {
+        c->log_ratio.value = b.mean - a.mean - (offset != NULL ? offset->value : 0.0);
+        c->ratio = exp(c->log_ratio.value);
+    }
+    put_effect(a, b, c);
+    if (c->unsettled != WT_SETTLED)
+        return WT_OK;
+    double given = 0;
+    if (few_spots(u))
+        for (int g = 0; g < 2; g++) {
+            const double spot = groups[g]->spot_scatter, all = (double)groups[g]->n;
+            given += spot * spot / (double)u->n[g];
+            if (c->by_spot) /* of the curves that are compared */
+                given += curve_variance(groups[g], memory) * all / (double)u->curves[g];
+        }
+    if (memory->failed)
+        return wt_fail(err, WT_E_MEMORY, "no memory for the scatter of curves");
+    put_interval(u, a, b, known, given, c);
+    return compare_ranks(u, memory, c, err);
+}
+
+wt_status wt_compare(const wt_group *bulk, const wt_group *track, const wt_estimate *offset,
+                     wt_comparison *result, wt_error *err)
+{
+    const double none = (double)NAN;
+    const wt_group *const groups[2] = {bulk, track};
+    wt_comparison c = {.log_ratio = {none, none, 0.0, "1"},
+                       .df = none,
+                       .ratio = none,
+                       .ratio_low = none,
+                       .ratio_high = none,
+                       .t = none,
+                       .p = none,
+                       .effect_size = none,
+                       .known_share = none,
+                       .mann_whitney_u = none,
+                       .mann_whitney_p = none,
+                       .mann_whitney_smallest_p = none};
+    pool memory = {0};
+    compare_units u;
+    wt_status status = summarise_both(groups, &memory, &c, err);
+    if (status == WT_OK)
+        status = compare_units_make(groups, c.by_spot, &memory, &u, err);
+    if (status == WT_OK) {
+        c.n_bulk = u.n[0];
+        c.n_track = u.n[1];
+        c.curves_bulk = u.curves[0];
+        c.curves_track = u.curves[1];
+        c.rates_by = u.rates_by;
+        c.rate_slope = (wt_estimate){u.slope, u.slope_error, 0.0, "1"};
+        c.interaction_p = u.interaction_p;
+        status = compare_values(&u, offset, groups, &memory, &c, err);
+    }
+    pool_free(&memory);
+    if (status == WT_OK)
+        *result = c;
+    return status;
+}
+
+double wt_equivalent_frequency(double load_time, double force_exponent)
+{
+    if (!(load_time > 0.0))
+        return (double)NAN;
+    return exp(digamma(force_exponent + 1.0)) / load_time;
+}

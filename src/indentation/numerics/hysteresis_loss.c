@@ -1,0 +1,129 @@
+/* A curve of rubber that loses work, and no spectrum of it is known. The work that the way out does
+ * not give back says which power of time the relaxation is near to; with this memory the fit is
+ * made once more. Other spectra that lose as much have, at 1/(loading time), a modulus a few per
+ * cent above: the mean of them is taken, and how they scatter is in the error.
+ *
+ * SPDX-License-Identifier: GPL-3.0-or-later
+ */
+#include "indentation/numerics/curve_fitting.h"
+
+#include "core/math/root.h"
+
+#include <math.h>
+
+static const double least_loss = CURVE_LEAST_LOSS;
+/* With adhesion: beyond it the shape of loss stands for what the work of adhesion should. */
+static const double most_loss = 0.5;
+static const double least_power = 1e-3, most_power = 0.8, power_close = 1e-3;
+static const double better_chi2 = 9.0; /* 2 ln(likelihood ratio) of no memory at all */
+/* Of the modulus by a power law, per loss: what Cole-Cole and power spectra of several widths,
+ * below and above their peaks, have more, and their scatter; for pyramid, sphere and cone and
+ * levers of a tenth of the contact to ten times. */
+static const double more = 0.04, law_error = 0.045;
+enum {
+    STEPS = 24, /* of a way in, for its loss */
+    HALF_DECADES = CURVE_POWER_TERMS,
+    FASTEST = -8, /* in half decades of the loading time */
+};
+
+void curve_power_make(curve_power *to, double power, double load_time)
+{
+    const double ratio = pow(10.0, -0.5 * power);
+    for (int i = 0; i < HALF_DECADES; i++) {
+        to->time[i] = load_time * pow(10.0, 0.5 * (FASTEST + i));
+        to->modulus[i] = pow(ratio, i);
+    }
+    to->series =
+        (wt_prony){.equilibrium_modulus = to->modulus[HALF_DECADES - 1] * ratio / (1.0 - ratio),
+                   .n = HALF_DECADES,
+                   .modulus = to->modulus,
+                   .relaxation_time = to->time};
+}
+
+/* Work that a power law loses in a loop as deep as that of the curve, in and out at one speed, as
+ * curve_read_retract counts it. NaN if there is no memory. */
+static double loss_of(const curve_fitting *f, double power)
+{
+    const curve_samples *s = &f->input.samples;
+    const double k = s->spring_constant, modulus = f->solution.p[CURVE_E];
+    double time[2 * STEPS + 1], base[2 * STEPS + 1], force[2 * STEPS + 1];
+    hereditary *law = &f->workspace->memory;
+    curve_power rubber;
+    const double top = s->position[f->input.n_all - f->n_snap - 1] - f->solution.p[CURVE_C];
+    for (int i = 0; i <= 2 * STEPS; i++) {
+        time[i] = (double)i / STEPS;
+        base[i] = top * (i <= STEPS ? time[i] : 2.0 - time[i]);
+    }
+    curve_power_make(&rubber, power, 1.0);
+    hereditary_begin(law, &rubber.series, modulus / hereditary_modulus(&rubber.series, 1.0),
+                     1.0 / STEPS, 2.0);
+    if (hereditary_loop(law, f->table, 1.0 / k, time, base, 2 * STEPS + 1, force, NULL) != WT_OK)
+        return (double)NAN;
+    double in = 0.0, back = 0.0;
+    for (int i = 1; i <= STEPS; i++) {
+        in += 0.5 * (fmax(force[i], 0.0) + fmax(force[i - 1], 0.0)) * top / STEPS;
+        back += 0.5 * (fmax(force[STEPS + i], 0.0) + fmax(force[STEPS + i - 1], 0.0)) * top / STEPS;
+    }
+    return (in - back) / (in - 0.5 * force[STEPS] * force[STEPS] / k);
+}
+
+static double loss_beyond(double power, void *user)
+{
+    const curve_fitting *f = user;
+    return loss_of(f, power) - f->loss;
+}
+
+/* The power that loses what the curve does; NaN if none does. */
+static double find_power(curve_fitting *f)
+{
+    double power = (double)NAN;
+    if (root_find(loss_beyond, f, least_power, most_power, power_close, &power, NULL) != WT_OK)
+        power = (double)NAN;
+    return power;
+}
+
+static void refine(curve_fitting *f, const curve_solution *from)
+{
+    curve_refine(f->table, &f->input.samples, f->kind, from->p, f->workspace, &f->solution);
+}
+
+/* The fit with the memory of a power law; false, and the fit as it was, where times or a power are
+ * not known, or the way in tells that this is not its memory. */
+static bool remember_power(curve_fitting *f)
+{
+    const curve_solution elastic = f->solution;
+    const bool explained = curve_fits(f);
+    const double power = find_power(f);
+    curve_power rubber;
+    if (!(power > 0.0))
+        return false;
+    curve_power_make(&rubber, power, 1.0);
+    if (!curve_remember(f, &rubber.series, true))
+        return false;
+    f->kind.memory = true;
+    refine(f, &elastic);
+    const curve_solution *s = &f->solution;
+    const bool worse = elastic.effective_n * log(s->cost / elastic.cost) > better_chi2;
+    if (s->converged && !worse) {
+        f->loss_power = power;
+        f->loss_shift = f->loss * more;
+        f->loss_error = f->loss * law_error;
+        f->loss_bias = elastic.p[CURVE_E] / s->p[CURVE_E] / (1.0 + f->loss_shift) - 1.0;
+        return true;
+    }
+    if (s->converged && (worse || explained)) /* of the piezo, not of the rubber */
+        f->loss_power = f->loss_bias = 0.0;
+    f->kind.memory = false;
+    f->solution = elastic;
+    return false;
+}
+
+void curve_allow_loss(curve_fitting *f)
+{
+    const bool pull = f->snap_on > 0.0 || f->pull_off > 0.0 || f->kind.adhesive;
+    if (!(f->loss > least_loss) || (pull && f->loss > most_loss) || curve_unknown_loss(f))
+        return;
+    if (!pull && !f->input.saturated && !f->kind.memory && !f->kind.plain && remember_power(f))
+        return;
+    f->unknown_loss = !curve_fits(f);
+}

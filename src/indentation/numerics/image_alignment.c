@@ -1,0 +1,458 @@
+/* How two height images lie beside one another: whole pixels from coarse to fine, then the parts of
+ * the image for themselves, whose shifts change evenly over the image if the drift is steady.
+ *
+ * SPDX-License-Identifier: GPL-3.0-or-later
+ */
+#include "indentation/numerics/height_image.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+/* Pixels along an image where the search over all shifts begins: time goes with their fourth power.
+ * From there on pixels are halved, by which the best shift is off by one or two: so far beside it
+ * is looked. */
+enum { COARSE = 64, NEAR = 3 };
+/* Parts along an axis, each with its own shift; fewest of all parts, twice the constants of a
+ * drift. */
+enum { SIDE = 4, PARTS = SIDE * SIDE, LEAST_PARTS = 6 };
+/* A bound of time. */
+enum { MOST_STEPS = 20 };
+
+/* A part of the first image, pixels from..to, without a disc. */
+typedef struct region {
+    size_t i[2], j[2];
+    double x, y, radius;
+} region;
+
+static bool left_out(const wt_height_map *f, const region *r, size_t i, size_t j)
+{
+    const double u = (double)i * f->dx - r->x, v = (double)j * f->dy - r->y;
+    return u * u + v * v <= r->radius * r->radius;
+}
+
+/* ---- whole pixels ---------------------------------------------------------------------------- */
+
+/* Adds the differences of a line, less a height near to all of them, to the equations of a plane
+ * through them, and gives their squares; u is where the line begins. */
+static double add_line(const double *was, const double *is, size_t pixels, const double u[2],
+                       double *height, double m[SPOT_UNKNOWNS][SPOT_UNKNOWNS], double *v)
+{
+    double n = 0, along = 0, along_along = 0, sum = 0, sum_along = 0, squares = 0, first = *height,
+           at = u[0];
+    for (size_t i = 0; i < pixels; i++, at++) {
+        double d = is[i] - was[i];
+        if (!isfinite(d))
+            continue;
+        first = isnan(first) ? d : first;
+        d -= first;
+        n++;
+        along += at;
+        along_along += at * at;
+        sum += d;
+        sum_along += at * d;
+        squares += d * d;
+    }
+    *height = first;
+    const double lower[SPOT_UNKNOWNS][SPOT_UNKNOWNS] = {{n},
+                                                        {along, along_along},
+                                                        {u[1] * n, u[1] * along, u[1] * u[1] * n}},
+                 right[SPOT_UNKNOWNS] = {sum, sum_along, u[1] * sum};
+    for (size_t p = 0; p < SPOT_UNKNOWNS; p++) {
+        for (size_t q = 0; q <= p; q++)
+            m[p][q] += lower[p][q];
+        v[p] += right[p];
+    }
+    return squares;
+}
+
+/* Variance of the difference with the second image moved by whole pixels, less its plane: a tilt
+ * between the images would make the fewest pixels that meet fit best. Infinite where fewer than
+ * `least` do. */
+static double height_variance(const wt_height_map *before, const wt_height_map *after,
+                              const region *r, const long s[2], size_t least)
+{
+    double m[SPOT_UNKNOWNS][SPOT_UNKNOWNS] = {{0}}, v[SPOT_UNKNOWNS] = {0}, squares = 0,
+           first = (double)NAN;
+    size_t from[2], to[2];
+    const size_t *range[2] = {r->i, r->j}, size[2] = {after->nx, after->ny};
+    for (int k = 0; k < 2; k++) {
+        const long low = -s[k], high = (long)size[k] - s[k];
+        from[k] = low > (long)range[k][0] ? (size_t)low : range[k][0];
+        to[k] = high < (long)range[k][1] ? (size_t)(high > 0 ? high : 0) : range[k][1];
+        if (from[k] >= to[k])
+            return (double)INFINITY;
+    }
+    if ((to[0] - from[0]) * (to[1] - from[1]) < least)
+        return (double)INFINITY;
+    for (size_t j = from[1]; j < to[1]; j++) {
+        const double u[2] = {-0.5 * (double)(to[0] - from[0] - 1),
+                             (double)j - 0.5 * (double)(from[1] + to[1] - 1)};
+        const double *is = after->z + (size_t)((long)j + s[1]) * after->nx;
+        squares += add_line(before->z + j * before->nx + from[0],
+                            is + (size_t)((long)from[0] + s[0]), to[0] - from[0], u, &first, m, v);
+    }
+    const double n = m[0][0], right[SPOT_UNKNOWNS] = {v[0], v[1], v[2]};
+    if (n < (double)least || !spot_solve(SPOT_UNKNOWNS, m, v))
+        return (double)INFINITY;
+    for (size_t p = 0; p < SPOT_UNKNOWNS; p++)
+        squares -= v[p] * right[p];
+    return squares / n;
+}
+
+/* The best shift within from..to of both axes. */
+static bool best_shift(const wt_height_map *before, const wt_height_map *after, const region *r,
+                       const long from[2], const long to[2], size_t least, long shift[2])
+{
+    double best = (double)INFINITY;
+    for (long b = from[1]; b <= to[1]; b++)
+        for (long a = from[0]; a <= to[0]; a++) {
+            const long s[2] = {a, b};
+            const double cost = height_variance(before, after, r, s, least);
+            if (cost < best) {
+                best = cost;
+                shift[0] = a;
+                shift[1] = b;
+            }
+        }
+    return isfinite(best);
+}
+
+/* Means of f x f pixels. */
+static wt_status coarsen_image(const wt_height_map *of, size_t f, wt_height_map *to, wt_error *err)
+{
+    *to = (wt_height_map){NULL, of->nx / f, of->ny / f, of->dx * (double)f, of->dy * (double)f};
+    double *z = malloc((to->nx * to->ny + 1) * sizeof *z);
+    if (z == NULL)
+        return wt_fail(err, WT_E_MEMORY, "out of memory");
+    for (size_t j = 0; j < to->ny; j++)
+        for (size_t i = 0; i < to->nx; i++) {
+            double sum = 0;
+            for (size_t b = 0; b < f; b++)
+                for (size_t a = 0; a < f; a++)
+                    sum += of->z[(j * f + b) * of->nx + i * f + a];
+            z[j * to->nx + i] = sum / (double)(f * f);
+        }
+    to->z = z;
+    return WT_OK;
+}
+
+/* With pixels of f x f: all shifts, or those about the one of the next coarser pixels. */
+static wt_status search_level(const wt_height_map *before, const wt_height_map *after, region all,
+                              size_t f, bool first, long shift[2], bool *found, wt_error *err)
+{
+    wt_height_map small[2] = {{0}, {0}};
+    wt_status status = coarsen_image(before, f, &small[0], err);
+    if (status == WT_OK)
+        status = coarsen_image(after, f, &small[1], err);
+    if (status == WT_OK) {
+        const size_t n = small[0].nx * small[0].ny, other = small[1].nx * small[1].ny;
+        const long low[2] = {first ? -(long)small[0].nx : 2 * shift[0] - NEAR,
+                             first ? -(long)small[0].ny : 2 * shift[1] - NEAR},
+                   high[2] = {first ? (long)small[1].nx : 2 * shift[0] + NEAR,
+                              first ? (long)small[1].ny : 2 * shift[1] + NEAR};
+        all.i[1] = small[0].nx;
+        all.j[1] = small[0].ny;
+        *found =
+            best_shift(&small[0], &small[1], &all, low, high, (n < other ? n : other) / 4, shift);
+    }
+    free((void *)small[0].z);
+    free((void *)small[1].z);
+    return status;
+}
+
+static wt_status find_whole(const wt_height_map *before, const wt_height_map *after,
+                            const region *all, long shift[2], bool *found, wt_error *err)
+{
+    const size_t most = before->nx > before->ny ? before->nx : before->ny;
+    wt_status status = WT_OK;
+    size_t f = 1;
+    while (most / f > COARSE)
+        f *= 2;
+    *found = true;
+    for (bool first = true; f > 0 && status == WT_OK && *found; f /= 2, first = false)
+        status = search_level(before, after, *all, f, first, shift, found, err);
+    return status;
+}
+
+/* ---- parts of a pixel ------------------------------------------------------------------------ */
+
+/* Of a part of the image: its middle [m], its shift [pixels], how much it tells of each axis. */
+typedef struct part {
+    double x, y, shift[2], weight[2];
+} part;
+
+/* Slope of the difference along the rows, shift in x and y, and the difference itself. */
+enum { SLOPE, SHIFT_X, SHIFT_Y, UNKNOWNS, DIFFERENCE = UNKNOWNS, TERMS };
+
+/* Adds a row whose height is free: how high a row lies is what scanning leaves uncertain. */
+static void add_row(const double sum[TERMS], double products[TERMS][TERMS], size_t n,
+                    double m[SPOT_UNKNOWNS][SPOT_UNKNOWNS], double *v)
+{
+    for (size_t p = 0; p < UNKNOWNS && n > 0; p++) {
+        for (size_t q = 0; q <= p; q++)
+            m[p][q] += products[p][q] - sum[p] * sum[q] / (double)n;
+        v[p] += products[DIFFERENCE][p] - sum[DIFFERENCE] * sum[p] / (double)n;
+    }
+}
+
+/* What one step of Gauss and Newton needs. The slopes are those of the first image at its pixels,
+ * whose noise has nothing to do with that of the heights compared. */
+static void sum_part(const wt_height_map *before, const wt_height_map *after, const region *r,
+                     const double shift[2], double m[SPOT_UNKNOWNS][SPOT_UNKNOWNS], double *v)
+{
+    const double middle = 0.5 * (double)(r->i[0] + r->i[1]), half = (double)(r->i[1] - r->i[0]);
+    for (size_t j = r->j[0] > 0 ? r->j[0] : 1; j < r->j[1] && j + 1 < before->ny; j++) {
+        double sum[TERMS] = {0}, products[TERMS][TERMS] = {{0}}, first = (double)NAN;
+        size_t n = 0;
+        for (size_t i = r->i[0] > 0 ? r->i[0] : 1; i < r->i[1] && i + 1 < before->nx; i++) {
+            const double *z = before->z + j * before->nx + i;
+            double row[TERMS] = {
+                ((double)i - middle) / half, 0.5 * (z[1] - *(z - 1)),
+                0.5 * (z[before->nx] - *(z - before->nx)),
+                *z - spot_between(after, (double)i + shift[0], (double)j + shift[1])};
+            if (left_out(before, r, i, j) || !isfinite(row[1] + row[2] + row[3]))
+                continue;
+            first = n == 0 ? row[DIFFERENCE] : first;
+            row[DIFFERENCE] -= first;
+            n++;
+            for (size_t p = 0; p < TERMS; p++) {
+                sum[p] += row[p];
+                for (size_t q = 0; q <= p; q++)
+                    products[p][q] += row[p] * row[q];
+            }
+        }
+        add_row(sum, products, n, m, v);
+    }
+}
+
+/* Shift of a part that begins with whole pixels; false if it tells none. */
+static bool refine_shift(const wt_height_map *before, const wt_height_map *after, const region *r,
+                         part *p)
+{
+    const double start[2] = {p->shift[0], p->shift[1]};
+    for (int step = 0; step < MOST_STEPS; step++) {
+        double m[SPOT_UNKNOWNS][SPOT_UNKNOWNS] = {{0}}, v[SPOT_UNKNOWNS] = {0};
+        sum_part(before, after, r, p->shift, m, v);
+        if (!spot_solve(UNKNOWNS, m, v))
+            return false;
+        p->shift[0] += v[SHIFT_X];
+        p->shift[1] += v[SHIFT_Y];
+        if (!(hypot(p->shift[0] - start[0], p->shift[1] - start[1]) < 2))
+            return false;
+        /* The inverse of the last two unknowns, from the factor. */
+        const double a = m[SHIFT_X][SHIFT_X], b = m[SHIFT_Y][SHIFT_X], c = m[SHIFT_Y][SHIFT_Y];
+        p->weight[0] = a * a * c * c / (b * b + c * c);
+        p->weight[1] = c * c;
+        if (hypot(v[SHIFT_X], v[SHIFT_Y]) < 1e-4) /* of a pixel */
+            return true;
+    }
+    return false;
+}
+
+/* The image with nothing known in the disc. */
+static wt_status cut_disc(const wt_height_map *f, const region *r, wt_height_map *to, wt_error *err)
+{
+    double *z = malloc(f->nx * f->ny * sizeof *z);
+    if (z == NULL)
+        return wt_fail(err, WT_E_MEMORY, "out of memory");
+    for (size_t j = 0; j < f->ny; j++)
+        for (size_t i = 0; i < f->nx; i++)
+            z[j * f->nx + i] = left_out(f, r, i, j) ? (double)NAN : f->z[j * f->nx + i];
+    *to = *f;
+    to->z = z;
+    return WT_OK;
+}
+
+static size_t count_outside(const wt_height_map *f, const region *r)
+{
+    size_t n = 0;
+    for (size_t j = r->j[0]; j < r->j[1]; j++)
+        for (size_t i = r->i[0]; i < r->i[1]; i++)
+            n += !left_out(f, r, i, j);
+    return n;
+}
+
+/* The parts of what both images show; `cut` is the first without the disc. */
+static size_t find_parts(const wt_height_map *before, const wt_height_map *cut,
+                         const wt_height_map *after, const region *all, const long whole[2],
+                         part parts[PARTS])
+{
+    size_t from[2], to[2], n = 0;
+    const size_t size[2] = {before->nx, before->ny}, other[2] = {after->nx, after->ny};
+    for (int k = 0; k < 2; k++) {
+        const long end = (long)other[k] - whole[k];
+        from[k] = whole[k] < 0 ? (size_t)-whole[k] : 0;
+        to[k] = end < 0 ? 0 : (size_t)end < size[k] ? (size_t)end : size[k];
+        if (from[k] >= to[k])
+            return 0;
+    }
+    for (size_t b = 0; b < SIDE; b++)
+        for (size_t a = 0; a < SIDE; a++) {
+            region r = *all;
+            for (size_t k = 0; k < 2; k++) {
+                r.i[k] = from[0] + (to[0] - from[0]) * (a + k) / SIDE;
+                r.j[k] = from[1] + (to[1] - from[1]) * (b + k) / SIDE;
+            }
+            part *p = &parts[n];
+            const long low[2] = {whole[0] - NEAR, whole[1] - NEAR},
+                       high[2] = {whole[0] + NEAR, whole[1] + NEAR};
+            long shift[2] = {0, 0};
+            if (!best_shift(cut, after, &r, low, high, count_outside(cut, &r) / 4, shift))
+                continue;
+            *p = (part){.x = 0.5 * (double)(r.i[0] + r.i[1] - 1) * before->dx,
+                        .y = 0.5 * (double)(r.j[0] + r.j[1] - 1) * before->dy,
+                        .shift = {(double)shift[0], (double)shift[1]}};
+            n += refine_shift(before, after, &r, p);
+        }
+    return n;
+}
+
+/* ---- even drift ------------------------------------------------------------------------------ */
+
+/* A plane through the shifts of the parts along one axis: at the place, along x and y. */
+typedef struct drift {
+    double at, gradient[2], error, rms; /* [pixels]; rms: what the parts are off it */
+} drift;
+
+static bool fit_drift(const part *parts, size_t n, int axis, const region *all, double length,
+                      drift *to)
+{
+    double m[SPOT_UNKNOWNS][SPOT_UNKNOWNS] = {{0}}, v[SPOT_UNKNOWNS] = {0}, squares = 0, sum = 0,
+           weight = 0, unit[SPOT_UNKNOWNS] = {1};
+    for (size_t k = 0; k < n; k++) {
+        const double row[3] = {1, (parts[k].x - all->x) / length, (parts[k].y - all->y) / length};
+        for (size_t p = 0; p < 3; p++) {
+            for (size_t q = 0; q <= p; q++)
+                m[p][q] += parts[k].weight[axis] * row[p] * row[q];
+            v[p] += parts[k].weight[axis] * row[p] * parts[k].shift[axis];
+        }
+    }
+    double again[SPOT_UNKNOWNS][SPOT_UNKNOWNS];
+    for (size_t p = 0; p < SPOT_UNKNOWNS; p++)
+        for (size_t q = 0; q < SPOT_UNKNOWNS; q++)
+            again[p][q] = m[p][q];
+    if (!spot_solve(3, m, v) || !spot_solve(3, again, unit))
+        return false;
+    for (size_t k = 0; k < n; k++) {
+        const double off = parts[k].shift[axis] - v[0] - v[1] * (parts[k].x - all->x) / length -
+                           v[2] * (parts[k].y - all->y) / length;
+        squares += off * off;
+        sum += parts[k].weight[axis] * off * off;
+        weight += parts[k].weight[axis];
+    }
+    *to = (drift){.at = v[0],
+                  .gradient = {v[1] / length, v[2] / length},
+                  .error = sqrt(sum / (double)(n - 3) * unit[0]),
+                  .rms = sqrt(squares / (double)(n - 3))};
+    return weight > 0;
+}
+
+/* Leaves out up to a quarter of the parts, the one that is off most after the other, until the
+ * rest agrees. */
+static bool fit_parts(part *parts, size_t *n, const region *all, double length, drift found[2])
+{
+    const size_t least = *n - *n / 4;
+    for (;;) {
+        if (*n < LEAST_PARTS || !fit_drift(parts, *n, 0, all, length, &found[0]) ||
+            !fit_drift(parts, *n, 1, all, length, &found[1]))
+            return false;
+        if (hypot(found[0].rms, found[1].rms) < 0.5)
+            return true;
+        if (*n == least)
+            return false;
+        size_t worst = 0;
+        double most = -1;
+        for (size_t k = 0; k < *n; k++) {
+            double off[2];
+            for (int axis = 0; axis < 2; axis++)
+                off[axis] = parts[k].shift[axis] - found[axis].at -
+                            found[axis].gradient[0] * (parts[k].x - all->x) -
+                            found[axis].gradient[1] * (parts[k].y - all->y);
+            if (hypot(off[0], off[1]) > most) {
+                most = hypot(off[0], off[1]);
+                worst = k;
+            }
+        }
+        parts[worst] = parts[--*n];
+    }
+}
+
+wt_status spot_align(const wt_height_map *before, const wt_height_map *after, double x, double y,
+                     double radius, spot_shift *shift, wt_error *err)
+{
+    const region all = {{0, before->nx}, {0, before->ny}, x, y, radius};
+    const double length = fmax((double)before->nx * before->dx, (double)before->ny * before->dy);
+    long whole[2] = {0, 0};
+    bool found = false;
+    part parts[PARTS];
+    drift d[2];
+    *shift = (spot_shift){.x = (double)NAN,
+                          .y = (double)NAN,
+                          .x_error = (double)NAN,
+                          .y_error = (double)NAN,
+                          .overlap = (double)NAN};
+    wt_height_map cut = {.z = NULL};
+    size_t n = 0;
+    wt_status status = cut_disc(before, &all, &cut, err);
+    if (status == WT_OK)
+        status = find_whole(&cut, after, &all, whole, &found, err);
+    if (status == WT_OK && found)
+        n = find_parts(before, &cut, after, &all, whole, parts);
+    free((void *)cut.z);
+    if (status != WT_OK || !found)
+        return status;
+    const double left[2] = {fmax(0, -(double)whole[0]), fmax(0, -(double)whole[1])},
+                 right[2] = {fmin((double)before->nx, (double)after->nx - (double)whole[0]),
+                             fmin((double)before->ny, (double)after->ny - (double)whole[1])};
+    shift->overlap =
+        (right[0] - left[0]) * (right[1] - left[1]) / ((double)before->nx * (double)before->ny);
+    if (!fit_parts(parts, &n, &all, length, d))
+        return WT_OK;
+    shift->blocks = n;
+    shift->degrees = n - 3;
+    shift->found = true;
+    shift->x = d[0].at * before->dx;
+    shift->y = d[1].at * before->dy;
+    shift->x_error = d[0].error * before->dx;
+    shift->y_error = d[1].error * before->dy;
+    for (int k = 0; k < 2; k++) {
+        shift->gradient[0][k] = d[0].gradient[k] * before->dx;
+        shift->gradient[1][k] = d[1].gradient[k] * before->dy;
+    }
+    shift->at_x = x;
+    shift->at_y = y;
+    return WT_OK;
+}
+
+/* ---- the second image on the pixels of the first --------------------------------------------- */
+
+wt_status spot_resample(const wt_height_map *field, double dx, double dy, wt_height_map *to,
+                        wt_error *err)
+{
+    *to = (wt_height_map){NULL, (size_t)floor((double)(field->nx - 1) * field->dx / dx) + 1,
+                          (size_t)floor((double)(field->ny - 1) * field->dy / dy) + 1, dx, dy};
+    double *z = malloc(to->nx * to->ny * sizeof *z);
+    if (z == NULL)
+        return wt_fail(err, WT_E_MEMORY, "out of memory");
+    for (size_t j = 0; j < to->ny; j++)
+        for (size_t i = 0; i < to->nx; i++)
+            z[j * to->nx + i] =
+                spot_between(field, (double)i * dx / field->dx, (double)j * dy / field->dy);
+    to->z = z;
+    return WT_OK;
+}
+
+void spot_difference(const wt_height_map *before, const wt_height_map *after,
+                     const spot_shift *shift, double *difference)
+{
+    for (size_t j = 0; j < before->ny; j++)
+        for (size_t i = 0; i < before->nx; i++) {
+            const double u = (double)i * before->dx - shift->at_x,
+                         v = (double)j * before->dy - shift->at_y;
+            const double x = shift->x + shift->gradient[0][0] * u + shift->gradient[0][1] * v,
+                         y = shift->y + shift->gradient[1][0] * u + shift->gradient[1][1] * v;
+            difference[j * before->nx + i] =
+                spot_between(after, (double)i + x / before->dx, (double)j + y / before->dy) -
+                before->z[j * before->nx + i];
+        }
+}

@@ -1,0 +1,268 @@
+/* Is there a sine on the baseline? Interference of light has periods from about half a wavelength
+ * (in water) to the length of the baseline.
+ *
+ * The baseline in blocks, less a cubic, has a spectrum, of which a peak must stand out of what lies
+ * within an octave on either side: few curves go further. Of those the sine of the largest gain is
+ * taken out, the colour of the rest is that of noise (curve_noise.c), and the gain is compared with
+ * it at its frequency; the chance is that of the largest among as many as the baseline tells apart.
+ * Since a cubic is in the rest, too, a bent baseline is none. A sine must be there in either half
+ * of the baseline, or, if it has few cycles, leave it straight: what comes near contact only is
+ * something else.
+ *
+ * SPDX-License-Identifier: GPL-3.0-or-later
+ */
+#include "core/math/root.h"
+#include "indentation/numerics/curve_fitting.h"
+#include "indentation/numerics/curve_model.h"
+
+#include <gsl/gsl_fft_real.h>
+#include <math.h>
+#include <string.h>
+
+enum {
+    MOST = 256, /* blocks: the shortest periods of 10 um, in four each */
+    LEAST = 64, /* for a spectrum that has an octave on either side */
+    BLOCKS = 2 * MOST,
+    TRANSFORM = 2 * BLOCKS,
+    PER_PERIOD = 4, /* blocks, least: their mean then has 90 % of a sine */
+    POWERS = 4,     /* a cubic: what drift does */
+    CLOSER = 12,    /* steps to the period, before it is fitted */
+};
+static const double shortest = 150e-9; /* [m]: half of a blue wavelength in water */
+static const double longest = 1.5e-6;  /* slower ones are drift, whose shape nobody knows */
+static const double wave_again = 2.0;  /* a fitted one so much larger is that of the contact */
+/* A peak, of the height that it would need: between two frequencies of the transform it has less,
+ * and noise of another colour around it. */
+static const double worth_a_look = 0.25;
+static const double false_alarms =
+    0.001; /* of baselines without a sine: a map of a thousand has one */
+static const double least_half =
+    0.25;                        /* of the gain, from either half: half of what a sine has there */
+static const double bent = 0.01; /* chance of the baseline if it were straight, as in the fit */
+static const double few_cycles = 3.0; /* cycles, of which a cubic leaves little to the spectrum */
+/* Blocks to a degree of freedom: the colour of the noise about a peak is found from few. */
+static const double per_freedom = 10.0;
+static const double negligible_amplitude = 2e-5; /* of the force: what rounding in files makes */
+static const double before_contact = 0.2;        /* of the contact: a snap-on hides there */
+
+typedef struct baseline {
+    size_t n;                     /* blocks */
+    double length;                /* samples in one */
+    double x[BLOCKS], z[BLOCKS];  /* residual less a cubic; position */
+    double power[POWERS][BLOCKS]; /* orthonormal */
+    double travel;
+    double cycle, lowest, highest; /* wave numbers: one over the travel, and those looked at */
+    double waves, freedom;         /* told apart among them; of the noise */
+} baseline;
+
+WIDE_REGISTERS static void remove_powers(const baseline *b, double *x)
+{
+    for (size_t k = 0; k < POWERS; k++) {
+        const double along = curve_dot(b->power[k], x, b->n);
+        for (size_t i = 0; i < b->n; i++)
+            x[i] -= along * b->power[k][i];
+    }
+}
+
+/* False if no period fits. */
+WIDE_REGISTERS static bool average(const curve_fitting *f, baseline *b)
+{
+    const curve_samples *s = &f->input.samples;
+    const double contact = f->solution.p[CURVE_C], end = s->position[s->n - 1];
+    const double last = contact - before_contact * (end - contact);
+    size_t n = 0;
+    while (n < s->n && s->position[n] < last)
+        n++;
+    b->travel = n > 0 ? s->position[n - 1] - s->position[0] : 0.0;
+    if (!(b->travel > shortest) || n < LEAST)
+        return false;
+    const double wanted = fmin(fmax(PER_PERIOD * b->travel / shortest, LEAST), MOST);
+    const size_t length = n > (size_t)wanted ? n / (size_t)wanted : 1, first = n % length;
+    b->n = n / length;
+    b->length = (double)length;
+    for (size_t i = 0; i < b->n; i++) {
+        double force = 0.0, position = 0.0;
+        for (size_t j = first + i * length; j < first + (i + 1) * length; j++) {
+            force += s->force[j] - curve_baseline(&f->solution, s->position[j]);
+            position += s->position[j];
+        }
+        b->x[i] = force / b->length;
+        b->z[i] = position / b->length;
+    }
+    const double middle = 0.5 * (s->position[0] + s->position[n - 1]);
+    for (size_t k = 0; k < POWERS; k++) {
+        double *now = b->power[k];
+        for (size_t i = 0; i < b->n; i++)
+            now[i] = k > 0 ? (b->z[i] - middle) * b->power[k - 1][i] : 1.0;
+        for (size_t d = 0; d < k; d++) {
+            const double along = curve_dot(b->power[d], now, b->n);
+            for (size_t i = 0; i < b->n; i++)
+                now[i] -= along * b->power[d][i];
+        }
+        const double norm = sqrt(curve_dot(now, now, b->n));
+        if (!(norm > 0.0))
+            return false;
+        for (size_t i = 0; i < b->n; i++)
+            now[i] /= norm;
+    }
+    remove_powers(b, b->x);
+    b->cycle = 2.0 * M_PI / b->travel;
+    b->lowest = fmax(b->cycle, 2.0 * M_PI / longest);
+    b->highest = fmin(2.0 * M_PI / shortest, 2.0 * M_PI / PER_PERIOD * (double)b->n / b->travel);
+    b->waves = fmax(2.0 * (b->highest - b->lowest) / b->cycle, 1.0);
+    b->freedom = (double)b->n / per_freedom;
+    return b->highest > b->lowest;
+}
+
+/* Wave number of the peak that stands out most; 0: none does. */
+static double find_peak(const baseline *b)
+{
+    double x[TRANSFORM], sum[BLOCKS + 1];
+    size_t size = 2, best = 0;
+    while (size < 2 * b->n)
+        size *= 2;
+    memcpy(x, b->x, b->n * sizeof *x);
+    memset(x + b->n, 0, (size - b->n) * sizeof *x);
+    gsl_fft_real_radix2_transform(x, 1, size);
+    const size_t half = size / 2;
+    sum[0] = sum[1] = 0.0; /* below k */
+    for (size_t k = 1; k < half; k++) {
+        x[k] = x[k] * x[k] + x[size - k] * x[size - k];
+        sum[k + 1] = sum[k] + x[k];
+    }
+    /* of the transform in a cycle over the baseline */
+    const double cycle = (double)size / (double)b->n, unit = b->cycle / cycle;
+    const size_t beside = (size_t)(1.5 * cycle) + 1;
+    const double needed =
+        0.5 * b->freedom * (pow(false_alarms / b->waves, -2.0 / b->freedom) - 1.0);
+    double most = worth_a_look * needed;
+    for (size_t k = (size_t)ceil(b->lowest / unit); k < half; k++) {
+        const size_t from = k / 2 > 1 ? k / 2 : 1, left = k > beside ? k - beside : from;
+        const size_t least = k + 5 * beside, above = 2 * k > least ? 2 * k : least;
+        const size_t to = above < half ? above : half, right = k + beside + 1;
+        double around = 0.0, count = 0.0;
+        if (left > from) {
+            around += sum[left] - sum[from];
+            count += (double)(left - from);
+        }
+        if (to > right) {
+            around += sum[to] - sum[right];
+            count += (double)(to - right);
+        }
+        if (count > 0.0 && x[k] * count > most * around) {
+            most = x[k] * count / around;
+            best = k;
+        }
+    }
+    const double number = (double)best * unit; /* a faster one that stands out more is no light */
+    return number < b->highest ? number : 0.0;
+}
+
+/* Least squares with a sine of this wave number; returns by how much the sum of squares falls. */
+WIDE_REGISTERS static double fit_sine(const baseline *b, double number, curve_wave *wave,
+                                      double *fitted)
+{
+    double cosine[BLOCKS], sine[BLOCKS];
+    for (size_t i = 0; i < b->n; i++) {
+        cosine[i] = cos(number * b->z[i]);
+        sine[i] = sin(number * b->z[i]);
+    }
+    remove_powers(b, cosine);
+    remove_powers(b, sine);
+    const double cc = curve_dot(cosine, cosine, b->n), ss = curve_dot(sine, sine, b->n);
+    const double cs = curve_dot(cosine, sine, b->n), under = cc * ss - cs * cs;
+    const double cx = curve_dot(cosine, b->x, b->n), sx = curve_dot(sine, b->x, b->n);
+    if (!(under > 0.0))
+        return 0.0;
+    *wave = (curve_wave){.p = {(cx * ss - sx * cs) / under, (sx * cc - cx * cs) / under, number}};
+    for (size_t i = 0; i < b->n && fitted != NULL; i++)
+        fitted[i] = wave->p[WAVE_COSINE] * cosine[i] + wave->p[WAVE_SINE] * sine[i];
+    return wave->p[WAVE_COSINE] * cx + wave->p[WAVE_SINE] * sx;
+}
+
+static double gain_at(double number, void *user)
+{
+    curve_wave ignored;
+    return fit_sine(user, number, &ignored, NULL);
+}
+
+/* The wave number of the largest gain within half a cycle. */
+static double refine_number(baseline *b, double number)
+{
+    return root_maximum(gain_at, b, fmax(number - 0.5 * b->cycle, b->lowest),
+                        number + 0.5 * b->cycle, CLOSER);
+}
+
+/* Chance that noise of the colour of `rest` makes a gain as large at this or another period. */
+static double chance_of(const baseline *b, const double *rest, double number, double gain)
+{
+    curve_spectrum noise = {.length = b->length};
+    if (!curve_noise_spectrum(rest, b->n, &noise))
+        return 0.0; /* nothing is left */
+    const double each =
+        gain / 2.0 / curve_noise_variance(&noise, 2.0 * number / b->cycle, b->n, (size_t)b->length);
+    const double one = pow(1.0 + 2.0 * each / b->freedom, -0.5 * b->freedom);
+    return -expm1(b->waves * log1p(-one));
+}
+
+/* False if there is none; slow: of few cycles. */
+static bool find_wave(const curve_fitting *f, curve_wave *wave, bool *slow)
+{
+    baseline b;
+    double fitted[BLOCKS], rest[BLOCKS];
+    if (!average(f, &b))
+        return false;
+    double peak = find_peak(&b);
+    if (f->solution.lack.baseline_chance < bent) { /* by few cycles? */
+        double most = peak > 0.0 ? fit_sine(&b, peak, wave, NULL) : 0.0;
+        for (double number = b.lowest; number < few_cycles * b.cycle && number < b.highest;
+             number += 0.25 * b.cycle) {
+            const double gain = fit_sine(&b, number, wave, NULL);
+            if (gain > most) {
+                most = gain;
+                peak = number;
+            }
+        }
+    }
+    if (!(peak > 0.0))
+        return false;
+    const double gain = fit_sine(&b, refine_number(&b, peak), wave, fitted);
+    const double half = curve_dot(fitted, b.x, b.n / 2);
+    for (size_t i = 0; i < b.n; i++)
+        rest[i] = b.x[i] - fitted[i];
+    const double top = f->solution.p[CURVE_E] * f->workspace->g[f->input.samples.n - 1];
+    *slow = wave->p[WAVE_NUMBER] < few_cycles * b.cycle;
+    return (*slow || fmin(half, gain - half) > least_half * gain) &&
+           curve_wave_amplitude(wave) > negligible_amplitude * top &&
+           chance_of(&b, rest, wave->p[WAVE_NUMBER], gain) < false_alarms;
+}
+
+void curve_begin_wave(curve_fitting *f, const curve_wave *wave)
+{
+    curve_samples *s = &f->input.samples;
+    const double number = wave->p[WAVE_NUMBER];
+    f->kind.wave = *wave;
+    if (!curve_has_wave(wave))
+        return;
+    s->force = f->workspace->without_wave;
+    for (size_t i = 0; i < f->input.n_all - f->n_snap; i++)
+        s->force[i] = f->workspace->force[i] - wave->p[WAVE_COSINE] * cos(number * s->position[i]) -
+                      wave->p[WAVE_SINE] * sin(number * s->position[i]);
+}
+
+bool curve_fit_interference(curve_fitting *f)
+{
+    curve_samples *s = &f->input.samples;
+    curve_wave wave;
+    bool slow;
+    if (f->kind.plain || !find_wave(f, &wave, &slow))
+        return true;
+    curve_begin_wave(f, &wave);
+    if (curve_scan_and_refine(f) && f->solution.converged &&
+        curve_wave_amplitude(&f->solution.wave) < wave_again * curve_wave_amplitude(&wave) &&
+        (!slow || !(f->solution.lack.baseline_chance < bent)))
+        return true;
+    s->force = f->workspace->force;
+    f->kind.wave = (curve_wave){.by_height = false};
+    return curve_scan_and_refine(f);
+}

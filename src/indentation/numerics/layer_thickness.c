@@ -1,0 +1,264 @@
+/* Which thickness of a layer on the bulk do the curves of the track allow? One curve does not tell
+ * the moduli of both and the thickness; but that of the bulk is measured beside the track, and with
+ * it the ratio of what a homogeneous fit makes of the track. Then each thickness leaves one number
+ * open, the modulus of the layer, and says how the modulus must change over the depth. A law of
+ * that layer with a further slope is fitted to the mean curve (modulus_depth.c says how); the slope
+ * must be that of the bulk, where there is no layer, within their errors. What passes that test at
+ * 5 % is the interval, so that it has one end where the curves tell one. Where the ratio does not
+ * tell a layer from the bulk, the error of the slope by that of the ratio lets every thickness
+ * pass.
+ *
+ * SPDX-License-Identifier: GPL-3.0-or-later
+ */
+#include "core/base/array.h"
+#include "indentation/law/thin_layer.h"
+#include "indentation/law/tip.h"
+#include "indentation/numerics/depth_pool.h"
+
+#include <gsl/gsl_cdf.h>
+#include <math.h>
+#include <string.h>
+
+/* Thickness over contact radius: where a layer is as good as without end (1e-3 of the change is
+ * left), and next to where the law ends. */
+static const double thickest = 1000.0, thinnest = 1.0 / 5.9;
+enum { HALVES = 60 }; /* more than the binary digits of a double */
+/* Of the change over the depth that a layer makes, by the law: that is within 2 % of the modulus
+ * where both differ by a factor of 3, so 2 % of the change, and the contact point, which is fitted
+ * with the slope, makes up to three times of it. */
+static const double law_share = 0.06;
+
+/* ln(E1/E2) with which a layer has ln(E_app/E2) = log_ratio at x = contact radius over thickness;
+ * NaN where the law does not reach. */
+static double layer_log_ratio(double log_ratio, double x)
+{
+    double low = -2.0, high = 2.0; /* farther than the law reaches */
+    for (int i = 0; i < HALVES; i++) {
+        const double middle = 0.5 * (low + high);
+        const double apparent = middle + log(thin_layer_apparent(exp(middle), x));
+        *(apparent < log_ratio ? &low : &high) = middle;
+    }
+    return thin_layer_holds(exp(low), x) ? low : (double)NAN;
+}
+
+double wt_layer_modulus(const wt_layer_profile *profile, double ratio, double thickness,
+                        double contact_radius)
+{
+    const double of_layer = layer_log_ratio(log(ratio), profile->contact_radius / thickness);
+    const double layer = exp(of_layer), x = contact_radius / thickness;
+    return !isnan(of_layer) && thin_layer_holds(layer, x) ? layer * thin_layer_apparent(layer, x)
+                                                          : (double)NAN;
+}
+
+/* Of ln of the modulus over the depth: what is not the same in two rubbers under one tip (memory,
+ * a little adhesion) and no law of elastic contact has; as much as is allowed to one law of several
+ * elsewhere (depth_pool.c). */
+static const double unlike = 0.01;
+
+/* A thickness with what its law leaves; the first is without end. */
+typedef struct layer_step {
+    depth_tie tie;
+    depth_fit fit;
+} layer_step;
+
+/* Bulk and track with the slope of the bulk. */
+typedef struct layer_test {
+    depth_pool pool[2];
+    depth_value bulk;
+    wt_estimate log_ratio;
+    double ratio_df;
+    layer_step step[WT_LAYER_STEPS];
+} layer_test;
+
+static const double by_slope[DEPTH_PARAMETERS] = {[DEPTH_SLOPE] = 1.0}; /* the slope by itself */
+
+/* What the slope of the track changes by with ln of the ratio. */
+static double gain_of_ratio(depth_mean *m, const depth_fit *fit)
+{
+    const double at = m->tie.log_ratio, step = 1e-4;
+    double more[CURVE_WAVES], less[CURVE_WAVES];
+    if (fit->law != DEPTH_TIED)
+        return 0.0;
+    m->tie.log_ratio = at + step;
+    depth_mean_waves(m, fit->p, more);
+    m->tie.log_ratio = at - step;
+    depth_mean_waves(m, fit->p, less);
+    m->tie.log_ratio = at;
+    for (size_t i = 0; i < CURVE_WAVES; i++)
+        more[i] = (more[i] - less[i]) / (2.0 * step);
+    return -depth_share_of(m, fit, by_slope, more);
+}
+
+/* How far the slope beside the layer is from that of the bulk, as a standard normal deviate;
+ * excess: what the thickness that leaves least leaves over scatter, for what a wrong one leaves is
+ * no error. */
+static double deviate_of(layer_test *t, const layer_step *step, double excess)
+{
+    depth_pool *track = &t->pool[1];
+    depth_fit for_all = step->fit;
+    const depth_fit *const fit = &for_all;
+    for_all.excess = excess;
+    track->mean.tie = step->tie;
+    const depth_value v =
+        depth_value_of(track, fit, fit->p[DEPTH_SLOPE], by_slope, false, DEPTH_MORE_SHALLOW);
+    const double of_law = law_share * (fit->p[DEPTH_SLOPE] - t->step[0].fit.p[DEPTH_SLOPE]);
+    const double of_ratio = fabs(gain_of_ratio(&track->mean, fit)) * t->log_ratio.standard_error;
+    const t_error parts[] = {v.scatter, t->bulk.scatter, {of_ratio, t->ratio_df}};
+    const double shared = pow(v.bend - t->bulk.bend, 2) + pow(v.loss - t->bulk.loss, 2) +
+                          of_law * of_law + unlike * unlike;
+    const t_error error = t_error_with(t_error_sum(parts, COUNT_OF(parts)), shared);
+    const double ratio = (v.mean - t->bulk.mean) / error.error;
+    const double most = 30.0; /* of a normal law nothing is left there */
+    const double beyond = gsl_cdf_tdist_Q(fabs(ratio), error.df);
+    return copysign(beyond > 0.0 ? fmin(gsl_cdf_ugaussian_Qinv(beyond), most) : most, ratio);
+}
+
+/* Whether the law reaches that thickness and is fitted there. */
+static bool take_step(layer_test *t, double log_thickness, layer_step *to, wt_error *err)
+{
+    depth_mean *m = &t->pool[1].mean;
+    const double reach = 0.5 * m->widest / exp(log_thickness);
+    const double of_layer = layer_log_ratio(t->log_ratio.value, reach);
+    if (isnan(of_layer))
+        return false;
+    m->tie = (depth_tie){reach, t->log_ratio.value};
+    const double start[] = {0.0, of_layer - t->log_ratio.value, 0.0};
+    *to = (layer_step){m->tie, depth_fit_law(&t->pool[1], DEPTH_TIED, start, err)};
+    return to->fit.good &&
+           thin_layer_holds(exp(to->fit.p[DEPTH_LEVEL] + t->log_ratio.value), reach);
+}
+
+/* ---- the interval ---------------------------------------------------------------------------- */
+
+/* Widens the interval by what is allowed between two steps, of which the deviate is taken to be a
+ * line. */
+static void add_allowed(const double x[2], const double z[2], double limit, double range[2])
+{
+    double ends[2] = {0.0, 1.0}; /* of the way from the first to the second */
+    const double slope = z[1] - z[0];
+    if (fabs(z[0]) > limit && fabs(z[1]) > limit && (z[0] > 0) == (z[1] > 0))
+        return;
+    if (fabs(z[0]) > limit)
+        ends[0] = (copysign(limit, z[0]) - z[0]) / slope;
+    if (fabs(z[1]) > limit)
+        ends[1] = (copysign(limit, z[1]) - z[0]) / slope;
+    for (int i = 0; i < 2; i++) {
+        const double at = x[0] + ends[i] * (x[1] - x[0]);
+        range[0] = fmin(range[0], at);
+        range[1] = fmax(range[1], at);
+    }
+}
+
+/* Where the deviate goes through 0, or is the nearest to it. */
+static double root_of(const wt_layer_profile *p)
+{
+    size_t nearest = 0;
+    for (size_t i = 1; i < p->n_steps; i++) {
+        const double z0 = p->deviate[i - 1], z1 = p->deviate[i];
+        nearest = fabs(z1) < fabs(p->deviate[nearest]) ? i : nearest;
+        if ((z0 > 0) != (z1 > 0))
+            return p->log_thickness[i - 1] +
+                   z0 / (z0 - z1) * (p->log_thickness[i] - p->log_thickness[i - 1]);
+    }
+    return p->log_thickness[nearest];
+}
+
+/* Thinner layers change more over the depth, a soft one upwards; so a layer at the thin end that is
+ * not allowed excludes all below if it changes too much, else none. */
+static void judge(wt_layer_profile *p, double log_ratio)
+{
+    const double limit = gsl_cdf_ugaussian_Pinv(0.975);
+    double range[2] = {HUGE_VAL, -HUGE_VAL};
+    const size_t last = p->n_steps - 1;
+    for (size_t i = 1; i < p->n_steps; i++)
+        add_allowed(&p->log_thickness[i - 1], &p->deviate[i - 1], limit, range);
+    const bool soft = log_ratio < 0.0;
+    const bool too_much = soft ? p->deviate[last] < -limit : p->deviate[last] > limit;
+    const bool open_below =
+        fabs(p->deviate[last]) <= limit || (!too_much && soft == (p->deviate[0] > 0));
+    p->below = open_below;
+    const bool open_above = fabs(p->deviate[0]) <= limit, any = range[1] >= range[0];
+    p->thickness = (wt_interval){.value = (double)NAN,
+                                 .standard_error = (double)NAN,
+                                 .low = open_below ? 0.0 : exp(range[0]),
+                                 .high = open_above ? (double)INFINITY
+                                         : any      ? exp(range[1])
+                                                    : p->least};
+    p->says = open_below && open_above ? WT_ALLOWS_ANY
+              : open_above             ? WT_ALLOWS_THICKER
+              : open_below             ? WT_ALLOWS_THINNER
+              : any                    ? WT_ALLOWS_BETWEEN
+                                       : WT_ALLOWS_NONE;
+    if (p->says == WT_ALLOWS_BETWEEN)
+        p->thickness.value = exp(root_of(p));
+    if (p->says == WT_ALLOWS_NONE)
+        p->thickness.low = p->thickness.high = (double)NAN;
+}
+
+static wt_status make_profile(layer_test *t, wt_layer_profile *p, wt_error *err)
+{
+    const double start[DEPTH_PARAMETERS] = {0.0};
+    wt_error failure = WT_ERROR_INIT;
+    const depth_fit bulk = depth_fit_law(&t->pool[0], DEPTH_LINE, start, &failure),
+                    line = depth_fit_law(&t->pool[1], DEPTH_LINE, start, &failure);
+    const double top = log(thickest * p->contact_radius), end = log(thinnest * p->contact_radius);
+    const double ratio = (end - top) / (WT_LAYER_STEPS - 1);
+    if (bulk.good && line.good) {
+        t->bulk = depth_value_of(&t->pool[0], &bulk, bulk.p[DEPTH_SLOPE], by_slope, false,
+                                 DEPTH_MORE_SHALLOW);
+        p->log_thickness[0] = top;
+        t->step[0].fit = line; /* as good as without end */
+        p->n_steps = 1;
+    }
+    if (p->n_steps == 1 && isnan(layer_log_ratio(t->log_ratio.value, 0.0)))
+        p->says = WT_ALLOWS_BEYOND;
+    double excess = line.excess;
+    for (size_t i = 1; p->n_steps == i && i < WT_LAYER_STEPS; i++) {
+        p->log_thickness[i] = top + ratio * (double)i;
+        if (take_step(t, p->log_thickness[i], &t->step[i], &failure)) {
+            excess = fmin(excess, t->step[i].fit.excess);
+            p->n_steps++;
+        }
+    }
+    for (size_t i = 0; i < p->n_steps; i++)
+        p->deviate[i] = deviate_of(t, &t->step[i], excess);
+    if (failure.status != WT_OK) {
+        if (err != NULL)
+            *err = failure;
+        return failure.status;
+    }
+    if (p->n_steps < 2)
+        return WT_OK;
+    p->least = exp(p->log_thickness[p->n_steps - 1]);
+    judge(p, t->log_ratio.value);
+    return WT_OK;
+}
+
+wt_status wt_layer_profile_make(const wt_contact_table *const table[2], double poisson_ratio,
+                                const wt_depth_curve *const curve[2], const size_t n[2],
+                                wt_estimate log_ratio, double ratio_df, wt_layer_profile *profile,
+                                wt_error *err)
+{
+    pool memory = {0};
+    layer_test t = {.log_ratio = log_ratio, .ratio_df = ratio_df};
+    wt_status status = WT_OK;
+    bool thick = true;
+    *profile = (wt_layer_profile){.thickness = {(double)NAN, (double)NAN, (double)NAN, (double)NAN},
+                                  .least = (double)NAN};
+    for (int g = 0; g < 2; g++) {
+        depth_pool_make(&t.pool[g], table[g], poisson_ratio, curve[g], n[g], &memory);
+        profile->n[g] = t.pool[g].n;
+        profile->n_units[g] = t.pool[g].n_units;
+        thick = thick && !(contact_table_tip(table[g])->sample_thickness > 0.0);
+    }
+    if (memory.failed) {
+        status = wt_fail(err, WT_E_MEMORY, "out of memory");
+    } else if (t.pool[0].known && t.pool[1].known && thick && isfinite(log_ratio.value) &&
+               log_ratio.standard_error >= 0.0) {
+        profile->depth = t.pool[1].mean.depth;
+        profile->contact_radius = 0.5 * t.pool[1].mean.widest;
+        status = make_profile(&t, profile, err);
+    }
+    pool_free(&memory);
+    return status;
+}

@@ -1,0 +1,382 @@
+/* Least squares of one force curve in modulus, contact point, baseline offset and tilt at once
+ * (Levenberg-Marquardt), and the errors of the result:
+ *     covariance = (J'J)^-1 [ covariance of J'e ] (J'J)^-1
+ * with the noise e as correlated as that of the baseline (curve_noise.c).
+ *
+ * SPDX-License-Identifier: GPL-3.0-or-later
+ */
+#include "indentation/numerics/curve_model.h"
+
+#include <gsl/gsl_errno.h>
+#include <gsl/gsl_linalg.h>
+#include <math.h>
+#include <string.h>
+
+/* Bounds: with the kinks of adhesion steps need not end, and each costs more. */
+enum { N = CURVE_N_PARAMETERS, MAX_ITERATIONS = 60, MAX_ADHESIVE = 25 };
+
+/* Of a straight baseline that looks as bent: to say so, and to allow for it in the errors. */
+static const double bent_chance = 0.01, perhaps_bent = 0.05;
+
+/* Solves (J'J + damping diag) x = y for several y, columns scaled to 1. */
+static bool solve(const normal_equations *e, double damping, double (*y)[N], size_t n_y)
+{
+    double scaled[N * N], scale[N];
+    for (size_t a = 0; a < N; a++) {
+        if (!(e->jj[a][a] > 0.0))
+            return false;
+        scale[a] = 1.0 / sqrt(e->jj[a][a]);
+    }
+    for (size_t a = 0; a < N; a++)
+        for (size_t b = 0; b < N; b++)
+            scaled[a * N + b] = e->jj[a][b] * scale[a] * scale[b] + (a == b ? damping : 0.0);
+    gsl_matrix_view matrix = gsl_matrix_view_array(scaled, N, N);
+    if (gsl_linalg_cholesky_decomp1(&matrix.matrix) != GSL_SUCCESS)
+        return false;
+    for (size_t j = 0; j < n_y; j++) {
+        for (size_t a = 0; a < N; a++)
+            y[j][a] *= scale[a];
+        gsl_vector_view x = gsl_vector_view_array(y[j], N);
+        if (gsl_linalg_cholesky_svx(&matrix.matrix, &x.vector) != GSL_SUCCESS)
+            return false;
+        for (size_t a = 0; a < N; a++)
+            y[j][a] *= scale[a];
+    }
+    return true;
+}
+
+static double dot(const double a[N], const double b[N])
+{
+    double sum = 0.0;
+    for (size_t i = 0; i < N; i++)
+        sum += a[i] * b[i];
+    return sum;
+}
+
+/* A decrease of the cost that is none: by a step of so many standard errors, or of the rounding of
+ * the forces. */
+static const double least_step = 1e-5;
+
+/* Of what a step may leave that is none: a thousandth of a standard error. */
+static const double nearly = 1e4;
+static const double stuck = 1e8;    /* a tenth */
+static const double at_kink = 1e10; /* one: what a sample at a kink keeps from being gained */
+static const double least_damping = 1e-3;
+/* How many times the decrease of the cost that a step promises a whole fit may bring: near its end
+ * it is one, and a jump of one sample more or less keeps it near. */
+static const double most_promises = 10.0;
+
+static double by_step(const curve_samples *s, double cost)
+{
+    return least_step * least_step / (double)s->n * cost;
+}
+
+WIDE_REGISTERS static double by_rounding(const curve_samples *s)
+{
+    return 1e-28 * curve_dot(s->force, s->force, s->n);
+}
+
+static double cost_at(curve_law *m, const double p[N], const curve_wave *wave)
+{
+    const double cost = curve_model_cost(m, p);
+    return m->wave ? curve_wave_cost(m, p, wave) : cost;
+}
+
+/* Of the wave, along with a step of the others. */
+static curve_wave wave_after(const curve_law *m, const curve_wave *wave, const wave_step *alone,
+                             const double step[N], double damping)
+{
+    curve_wave to = *wave;
+    for (size_t j = 0; j < WAVE_PARAMETERS && m->wave; j++)
+        to.p[j] += alone->step[j] / (1.0 + damping) - dot(m->imitated[j], step);
+    return to;
+}
+
+/* Leaves the model evaluated at p and the wave. */
+static bool minimise(curve_law *m, double p[N], curve_wave *wave, double *cost)
+{
+    const curve_samples *s = m->samples;
+    double expected = (double)INFINITY, kept = 0.0; /* damping to begin a step with */
+    const double rounding = by_rounding(s), close = m->rough ? nearly : 1.0;
+    wave_step alone = {.gain = 0.0};
+    curve_model_start(m, p);
+    *cost = cost_at(m, p, wave);
+    for (int iteration = 0; iteration < (m->adhesive ? MAX_ADHESIVE : MAX_ITERATIONS);
+         iteration++) {
+        normal_equations e;
+        if (m->wave && !curve_wave_imitate(m, p, &alone))
+            return false;
+        curve_model_normal(m, p, &e);
+        bool moved = false;
+        for (double damping = 0.0; !moved;
+             damping = damping > 0.0 ? 10.0 * damping : fmax(kept, least_damping)) {
+            double step[1][N], trial[N];
+            memcpy(step[0], e.jr, sizeof e.jr);
+            bool solved = solve(&e, damping, step, 1);
+            if (damping == 0.0) {
+                expected = solved ? dot(step[0], e.jr) + alone.gain : (double)INFINITY;
+                if (expected <= close * by_step(s, *cost) || expected <= rounding)
+                    return true;
+                if (*cost - most_promises * expected > m->below && m->below > 0.0)
+                    return false;
+            }
+            for (size_t a = 0; a < N; a++)
+                trial[a] = p[a] + step[0][a];
+            const curve_wave trial_wave = wave_after(m, wave, &alone, step[0], damping);
+            const double before = *cost;
+            const bool near = expected < fmax(1e-9 * before, 1e-14 * m->ff);
+            const bool too_far = damping == 0.0 && kept > 0.0 && !near;
+            if (solved && !too_far && trial[CURVE_E] > 0.0 && trial[CURVE_W] >= 0.0 &&
+                (!m->wave || trial_wave.p[WAVE_NUMBER] > 0.0)) {
+                double trial_cost = cost_at(m, trial, &trial_wave);
+                /* Near the minimum the decrease drowns in the rounding of the cost and its sums. */
+                if (trial_cost < before || (damping == 0.0 && near)) {
+                    *cost = trial_cost;
+                    memcpy(p, trial, sizeof trial);
+                    *wave = trial_wave;
+                    moved = true;
+                    if (damping <= kept) /* at once */
+                        kept = 0.1 * damping < least_damping ? 0.0 : 0.1 * damping;
+                    else
+                        kept = damping;
+                }
+            }
+            /* At a kink, where a sample lets go, nothing more is gained however much is expected.
+             */
+            if (moved && m->adhesive && damping > 0.0 &&
+                before - *cost < stuck * by_step(s, before))
+                return expected <= at_kink * by_step(s, before);
+            if (damping > 1e8) { /* nothing descends: rounding decides, unless much was expected */
+                *cost = cost_at(m, p, wave);
+                return expected <= 1e6 * rounding;
+            }
+        }
+    }
+    return expected <= nearly * by_step(s, *cost);
+}
+
+static size_t first_contact(const curve_law *m, const double p[N])
+{
+    const curve_samples *s = m->samples;
+    size_t first = 0;
+    while (first < s->n && (m->jump > 0 ? first < m->jump : s->position[first] < p[CURVE_C]))
+        first++;
+    return first;
+}
+
+WIDE_REGISTERS static void statistics(const curve_law *m, curve_solution *s)
+{
+    const curve_samples *samples = m->samples;
+    wt_indent_workspace *w = m->workspace;
+    const double *p = s->p;
+    const size_t n = samples->n;
+
+    const size_t first = s->first_contact;
+
+    /* A sensitivity larger by a share u acts like a noise of u times the force f: J'f is J'r where
+     * the baseline is, which has nothing but noise. */
+    normal_equations e;
+    curve_model_normal(m, p, &e);
+    double row[N], gain[N];
+    memcpy(gain, e.jr, sizeof gain);
+    s->max_indentation = 0.0;
+    memcpy(w->scratch, w->residual, m->n_baseline * sizeof *w->scratch);
+    for (size_t i = m->n_baseline; i < n; i++) {
+        const double r = w->residual[i], h = curve_model_row(m, p, i, row);
+        const double f =
+            samples->force[i] - p[CURVE_F0] - p[CURVE_T] * (samples->position[i] - p[CURVE_C]);
+        w->scratch[i] = r / h; /* e */
+        if (w->delta[i] > s->max_indentation)
+            s->max_indentation = w->delta[i];
+        for (size_t a = 0; a < N; a++)
+            gain[a] += row[a] * (h * f - r);
+    }
+    s->lack = curve_lack_of_fit(m, p, w->scratch);
+    s->bent = s->lack.baseline_chance < bent_chance;
+    const curve_noise noise =
+        curve_noise_of(m, p, w->scratch, first, s->lack.baseline_chance < perhaps_bent);
+    s->noise = sqrt(noise.variance);
+    s->correlation_length = noise.correlation_length;
+    s->effective_n = (double)(n - (samples->gap_to - samples->gap_from)) / noise.correlation_length;
+
+    double inverse[N + 2][N] = {{0.0}};
+    for (size_t a = 0; a < N; a++)
+        inverse[a][a] = 1.0;
+    memcpy(inverse[N], gain, sizeof gain);
+    memcpy(inverse[N + 1], e.jr, sizeof e.jr); /* the step to the minimum */
+    bool solved = solve(&e, 0.0, inverse, N + 2);
+    for (size_t a = 0; a < N; a++) {
+        double variance = 0.0;
+        for (size_t b = 0; b < N; b++)
+            for (size_t c = 0; c < N; c++)
+                variance += inverse[a][b] * noise.scatter[b][c] * inverse[a][c];
+        s->standard_error[a] = !m->free[a] ? 0.0 : solved ? sqrt(variance) : (double)NAN;
+    }
+    /* No step that promises to lower the cost by so much moves the modulus by more. */
+    const double allowed = fmax(by_step(samples, s->cost), by_rounding(samples));
+    s->step_allowed = sqrt(allowed * inverse[CURVE_E][CURVE_E]) / p[CURVE_E];
+    s->step_left = sqrt(dot(inverse[N + 1], e.jr) * inverse[CURVE_E][CURVE_E]) / p[CURVE_E];
+    s->curvature = noise.curvature;
+    s->bend_shift = solved ? dot(inverse[CURVE_E], noise.bend) : (double)NAN;
+    s->sensitivity_gain = solved ? inverse[N][CURVE_E] / p[CURVE_E] : (double)NAN;
+}
+
+curve_law curve_law_of(const wt_contact_table *table, const curve_samples *samples,
+                       const curve_kind *kind, wt_indent_workspace *workspace)
+{
+    return (curve_law){.table = table,
+                       .samples = samples,
+                       .workspace = workspace,
+                       .free = {true, !kind->contact_fixed, true, kind->tilt, kind->adhesive},
+                       .plain = kind->plain,
+                       .adhesive = kind->adhesive,
+                       .constant_pull = kind->constant_pull,
+                       .memory = kind->memory && !kind->adhesive,
+                       .wave = curve_has_wave(&kind->wave),
+                       .rough = kind->rough && !curve_has_wave(&kind->wave),
+                       .below = kind->below,
+                       .jump = kind->jump};
+}
+
+void curve_law_evaluate(curve_law *m, const double p[N], const curve_wave *wave)
+{
+    wave_step ignored;
+    curve_model_resume(m, p);
+    (void)cost_at(m, p, wave);
+    if (m->wave)
+        (void)curve_wave_imitate(m, p, &ignored);
+    curve_model_complete(m, p);
+}
+
+/* curve_refine with one of the ways of a wave, or without. */
+static void refine_one(const wt_contact_table *table, const curve_samples *samples,
+                       const curve_kind *kind, const double p[N], wt_indent_workspace *workspace,
+                       curve_solution *solution)
+{
+    curve_law m = curve_law_of(table, samples, kind, workspace);
+    curve_solution s = {.p = {p[CURVE_E], p[CURVE_C], p[CURVE_F0], kind->tilt ? p[CURVE_T] : 0.0,
+                              kind->adhesive ? p[CURVE_W] : 0.0},
+                        .wave = kind->wave};
+    wave_step ignored;
+    s.converged = minimise(&m, s.p, &s.wave, &s.cost);
+    if (m.wave)
+        s.converged = curve_wave_imitate(&m, s.p, &ignored) && s.converged;
+    s.first_contact = first_contact(&m, s.p);
+    if (!m.rough && !kind->no_errors) {
+        curve_model_complete(&m, s.p);
+        statistics(&m, &s);
+    }
+    *solution = s;
+}
+
+/* Of one difference, at the latest evaluation. */
+static bool score_one(const curve_law *m, const curve_solution *at, const normal_equations *e,
+                      const double *difference, curve_step *to)
+{
+    const curve_samples *s = m->samples;
+    double towards[N] = {0.0}, along[1][N], row[N], dd = 0.0, dr = 0.0;
+    for (size_t i = 0; i < s->n; i++) {
+        const double d = difference[i];
+        if (!(fabs(d) > 0.0))
+            continue;
+        (void)curve_model_row(m, at->p, i, row);
+        dd += d * d;
+        dr += d * m->workspace->residual[i];
+        for (size_t a = 0; a < N; a++)
+            towards[a] += row[a] * d;
+    }
+    memcpy(along[0], towards, sizeof towards);
+    if (!solve(e, 0.0, along, 1))
+        return false;
+    dd -= dot(along[0], towards);
+    dr -= dot(along[0], e->jr);
+    if (!(dd > 0.0) || !(dr * dr / dd < at->cost))
+        return false;
+    to->share = dr / dd;
+    to->gain = -at->effective_n * log1p(-dr * to->share / at->cost);
+    to->modulus = -to->share * along[0][CURVE_E] / at->p[CURVE_E];
+    return true;
+}
+
+void curve_score(const wt_contact_table *table, const curve_samples *samples,
+                 const curve_kind *kind, const curve_solution *at, double *const *difference,
+                 size_t n, wt_indent_workspace *workspace, curve_step *to)
+{
+    curve_law m = curve_law_of(table, samples, kind, workspace);
+    normal_equations e;
+    curve_law_evaluate(&m, at->p, &at->wave);
+    curve_model_normal(&m, at->p, &e);
+    for (size_t j = 0; j < n; j++)
+        if (!score_one(&m, at, &e, difference[j], &to[j]))
+            to[j] = (curve_step){0.0, 0.0, 0.0};
+}
+
+static bool better(const curve_solution *a, const curve_solution *b)
+{
+    return a->converged && (!b->converged || a->cost < b->cost);
+}
+
+void curve_refine(const wt_contact_table *table, const curve_samples *samples, curve_kind kind,
+                  const double p[N], wt_indent_workspace *workspace, curve_solution *solution)
+{
+    if (!curve_has_wave(&kind.wave)) {
+        refine_one(table, samples, &kind, p, workspace, solution);
+        return;
+    }
+    curve_solution way[2], other; /* with the tip, with the height */
+    for (int h = 0; h < 2; h++) {
+        kind.wave.by_height = h;
+        refine_one(table, samples, &kind, p, workspace, &way[h]);
+    }
+    for (int h = 0; h < 2; h++) { /* from where the other came to, for there are several minima */
+        curve_kind from = kind;
+        from.wave = way[1 - h].wave;
+        from.wave.by_height = h;
+        refine_one(table, samples, &from, way[1 - h].p, workspace, &other);
+        way[h] = better(&other, &way[h]) ? other : way[h];
+    }
+    const double chi2 = way[0].effective_n * log(way[1].cost / way[0].cost);
+    const int best = better(&way[1], &way[0]);
+    kind.wave = way[best].wave; /* once more, for the workspace shall be that of the solution */
+    refine_one(table, samples, &kind, way[best].p, workspace, solution);
+    const double share = 1.0 / (1.0 + exp(0.5 * fabs(chi2))); /* of likelihood: the other's */
+    for (size_t a = 0; a < N; a++)
+        solution->standard_error[a] =
+            hypot(solution->standard_error[a], sqrt(share) * (way[0].p[a] - way[1].p[a]));
+}
+
+double curve_weights(const wt_contact_table *table, const curve_samples *samples,
+                     const curve_minimum *minimum, wt_indent_workspace *workspace)
+{
+    enum { MOST = 64 }; /* nodes, linear between them: weights need no digits */
+    const size_t n = samples->n < MOST ? samples->n : MOST;
+    const double c = minimum->contact_point;
+    const double last = fmax(c, curve_span_of(samples->position, samples->n).high);
+    double position[MOST], force[MOST] = {0.0}, weight[MOST + 1], largest = 1.0;
+    const double step = (last - c) / (double)(n - 1);
+    for (size_t i = 0; i < n; i++)
+        position[i] = c + (double)i * step;
+    const curve_samples nodes = {
+        .n = n, .position = position, .force = force, .spring_constant = samples->spring_constant};
+    curve_law m = {.table = table, .samples = &nodes, .workspace = workspace};
+    const double p[N] = {minimum->reduced_modulus, c, 0.0, 0.0, 0.0};
+    curve_model_start(&m, p);
+    curve_model_cost(&m, p);
+    for (size_t i = 0; i < n; i++) {
+        const double h = curve_model_factor(&m, p, i);
+        weight[i] = 1.0 / (h * h);
+        largest = h > largest ? h : largest;
+    }
+    weight[n] = weight[n - 1];
+    const double scale = step > 0.0 ? 1.0 / step : 0.0;
+    for (size_t i = 0; i < samples->n; i++) {
+        const double at = (samples->position[i] - c) * scale;
+        workspace->weight[i] = 1.0;
+        if (!(at > 0.0))
+            continue;
+        const size_t node = at < (double)(n - 1) ? (size_t)at : n - 1;
+        workspace->weight[i] =
+            weight[node] + (at - (double)node) * (weight[node + 1] - weight[node]);
+    }
+    return largest;
+}

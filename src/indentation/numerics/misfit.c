@@ -1,0 +1,590 @@
+/* A misfit as an error: what a discrepancy of the contact law does to the parameters of its fit.
+ *
+ * data = law + discrepancy(depth) + noise (Kennedy and O'Hagan, J. R. Stat. Soc. B 63 (2001) 425):
+ * the force of the contact has a smooth part of unknown shape, a Gaussian process of the depth with
+ * the covariance s^2 exp(-(x - x')^2 / (2 l^2)), x in units of the largest depth, and nothing off
+ * contact. It is carried by Legendre functions. Size and length have likelihoods (restricted: those
+ * of the data without what the parameters can imitate; of Student's kind, for the variance of the
+ * noise is estimated, too); beforehand no discrepancy at all has a chance of its own, and of sizes
+ * up to the largest force each octave has the same. What the parameters would be is averaged over
+ * all of these. They stay those of least squares, which other programs have, too; that they would
+ * be others is in their errors, as is how they scatter: where the misfit is large its shape is not
+ * known well enough to correct for it, and a linear model not good enough to say by how much.
+ *
+ * A radius of the tip of which no error is stated may be another one, which is the commonest of all
+ * misfits: what that changes is one more kind of discrepancy, of known shape, as likely beforehand
+ * as one of unknown shape. Where nearly all of it looks like another modulus it is left out.
+ *
+ * Tips that are as likely as the stated one (tip_move of the workspace), and a pull that is seen
+ * and that no law has, are further columns, of a standard deviation of 1: a misfit that they
+ * explain is not one of the law.
+ *
+ * What a discrepancy shares with the derivatives leaves no residual: a bow of the piezo, a modulus
+ * that changes with depth. No residual tells them.
+ *
+ * SPDX-License-Identifier: GPL-3.0-or-later
+ */
+#include "indentation/numerics/curve_fitting.h"
+#include "indentation/numerics/misfit_bias.h"
+#include "indentation/numerics/residual_blocks.h"
+
+#include "core/math/cholesky.h"
+#include "core/math/normal_quantile.h"
+
+#include <gsl/gsl_linalg.h>
+#include <math.h>
+#include <pthread.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum {
+    N = CURVE_N_PARAMETERS,
+    LEGENDRE = MISFIT_SMOOTH, /* carry lengths from 0.175 on to 1 % of the variance */
+    FUNCTIONS = MISFIT_FUNCTIONS,
+    M = MISFIT_COLUMNS,
+    LENGTHS = 3,         /* the nodes of three points of a normal prior */
+    KINDS = LENGTHS + 1, /* of a discrepancy: of these lengths, and another radius of the tip */
+    SIZES = 16,          /* most */
+    CANDIDATES = 1 + KINDS * SIZES,
+    NODES = 64, /* of the depth, for the covariance of the Legendre functions */
+};
+/* ln l is normal about ln 0.5 with a standard deviation of 0.7: nodes at -1, 0 and 1 of them. */
+static const double length_median = 0.5, length_sd = 0.7;
+/* Of a discrepancy, of the largest force: beyond it there is no law left to speak of. One that the
+ * parameters imitate has no likelihood of its own, and the prior is all that limits it. */
+static const double largest_size = 0.3;
+/* And of the rms of the residual. What is worst to see of what is known is the size of a tip: a
+ * radius of a pyramid of 20 degrees that is 1 to 15 % off moves the force by 60 times the residual
+ * that it leaves; a pull by 3 times. */
+static const double most_hidden = 60.0;
+/* Of the logarithm of a radius: makers state tips to a factor of two at worst. */
+static const double largest_radius = 0.7;
+static const double of_radius = 0.5;   /* of discrepancies, that they are one: even odds */
+static const double size_ratio = 2.5;  /* of two sizes that are tried: likelihoods are wider */
+static const double no_size = 0.01;    /* of a likelihood: the size is none */
+static const double outside = 0.05;    /* of an interval of 95 % */
+static const double no_chance = 1e-4;  /* of an interval: what is less likely is not in it */
+static const double error_step = 0.01; /* of an error: to be said with two digits */
+
+/* Of laws, that they hold: with even odds intervals of curves that they describe are 1.2 to 1.5
+ * times as wide as needed, with nine of ten small misfits are missed; what is to be seen does not
+ * feel it. */
+static const double holds = 0.8;
+static const double to_be_seen = 3.0; /* of a force, in noise of a block: one of 700 by chance */
+
+/* Square roots of the covariances of the coefficients, lower triangles, for s = 1. */
+static struct {
+    double root[LENGTHS][LEGENDRE][LEGENDRE], chance[LENGTHS];
+} kernels;
+static pthread_once_t kernels_once = PTHREAD_ONCE_INIT;
+
+/* Orthonormal on [0, 1]. */
+static void legendre(double x, double to[LEGENDRE])
+{
+    const double y = 2.0 * x - 1.0;
+    double before = 0.0, now = 1.0;
+    for (int k = 0; k < LEGENDRE; k++) {
+        to[k] = now * sqrt(2.0 * k + 1.0);
+        const double next = ((2.0 * k + 1.0) * y * now - k * before) / (k + 1.0);
+        before = now;
+        now = next;
+    }
+}
+
+static void make_kernels(void)
+{
+    double at[NODES][LEGENDRE], at_distance[NODES], all = 0.0;
+    for (int i = 0; i < NODES; i++)
+        legendre((i + 0.5) / NODES, at[i]);
+    for (int l = 0; l < LENGTHS; l++) {
+        const double node = l - 0.5 * (LENGTHS - 1), length = length_median * exp(length_sd * node);
+        double a[M][M] = {{0.0}};
+        for (int i = 0; i < NODES; i++) {
+            const double apart = (double)i / NODES / length;
+            at_distance[i] = exp(-0.5 * apart * apart) / (NODES * NODES);
+        }
+        for (int i = 0; i < NODES; i++) {
+            double along[LEGENDRE] = {0.0};
+            for (int j = 0; j < NODES; j++)
+                for (int c = 0; c < LEGENDRE; c++)
+                    along[c] += at_distance[abs(i - j)] * at[j][c];
+            for (int c = 0; c < LEGENDRE; c++)
+                for (int d = 0; d <= c; d++)
+                    a[c][d] += at[i][c] * along[d];
+        }
+        for (int c = 0; c < LEGENDRE; c++) /* of a variance of 1: rounding */
+            a[c][c] += 1e-12;
+        (void)cholesky_factor(&a[0][0], M, LEGENDRE, 0.0);
+        for (int c = 0; c < LEGENDRE; c++)
+            for (int d = 0; d < LEGENDRE; d++)
+                kernels.root[l][c][d] = d <= c ? a[c][d] : 0.0;
+        kernels.chance[l] = exp(-0.5 * node * node);
+        all += kernels.chance[l];
+    }
+    for (int l = 0; l < LENGTHS; l++)
+        kernels.chance[l] /= all;
+}
+
+/* ---- what the data say ----------------------------------------------------------------------- */
+
+typedef struct columns {
+    double a[N][BLOCKS_WINDOW], b[M][BLOCKS_WINDOW], y[BLOCKS_WINDOW];
+} columns;
+
+/* aa, ay: of the blocks of the baseline, all of them. */
+static void add_baseline(const curve_law *m, const double p[N], const double *e,
+                         const residual_blocks *b, double aa[M][M], double ay[N])
+{
+    const curve_samples *s = m->samples;
+    const size_t n = b->first / b->length, start = b->first - n * b->length;
+    double *z = m->workspace->tip, *r = m->workspace->weight;
+    const double share = 1.0 / (double)b->length;
+    for (size_t i = 0; i < n; i++) {
+        const size_t from = start + i * b->length;
+        z[i] = curve_sum(s->position + from, b->length) * share - p[CURVE_C];
+        r[i] = curve_sum(e + from, b->length) * share;
+    }
+    double sums[3][3] = {{0.0}}, with[3] = {0.0}; /* of 1, z */
+    for (size_t i = b->order; i < n; i++) {
+        double one = 1.0, line = z[i], rest = r[i];
+        for (size_t k = 1; k <= b->order; k++) {
+            one -= b->a[k];
+            line -= b->a[k] * z[i - k];
+            rest -= b->a[k] * r[i - k];
+        }
+        sums[0][0] += one * one;
+        sums[0][1] += one * line;
+        sums[1][1] += line * line;
+        with[0] += one * rest;
+        with[1] += line * rest;
+    }
+    /* the rows are (0, -t, 1, z, 0) */
+    const double of_one[N] = {[CURVE_C] = -p[CURVE_T], [CURVE_F0] = 1.0},
+                 of_line[N] = {[CURVE_T] = 1.0};
+    size_t c = 0;
+    for (size_t i = 0; i < N; i++) {
+        size_t d = 0;
+        if (!m->free[i])
+            continue;
+        for (size_t j = 0; j < N; j++) {
+            if (!m->free[j])
+                continue;
+            aa[c][d++] += of_one[i] * of_one[j] * sums[0][0] +
+                          of_line[i] * of_line[j] * sums[1][1] +
+                          (of_one[i] * of_line[j] + of_line[i] * of_one[j]) * sums[0][1];
+        }
+        ay[c++] += of_one[i] * with[0] + of_line[i] * with[1];
+    }
+}
+
+/* A pull that is seen before contact and no law of the fit has: in contact it is there or is not,
+ * as far as the residual does not tell. That of a pull-off is no measure of it: rubber lets go with
+ * far more than it is touched with. */
+static double pull_without_law(const curve_fitting *f)
+{
+    return f->kind.adhesive ? 0.0 : f->snap_on;
+}
+
+/* What a move of the tip by its deviation changes of a force, as a share of it: slope and bend. */
+typedef struct tip_change {
+    double slope, bend;
+} tip_change;
+
+static tip_change change_of_tip(const curve_law *m, const tip_move *move, double depth)
+{
+    double now = 0.0, up = 0.0, down = 0.0;
+    if (move->up == NULL || !(depth > 0.0))
+        return (tip_change){0.0, 0.0};
+    wt_contact_table_eval(m->table, &depth, 1, &now, NULL);
+    wt_contact_table_eval(move->up, &depth, 1, &up, NULL);
+    wt_contact_table_eval(move->down, &depth, 1, &down, NULL);
+    if (!(now > 0.0))
+        return (tip_change){0.0, 0.0};
+    const double x = move->deviation;
+    return (tip_change){0.5 * x * (up - down) / now, x * x * (up - now - (now - down)) / now};
+}
+
+/* Of one block of the history or window: Legendre functions, in units of the largest force, what a
+ * moved tip changes, and a pull. */
+static void fill_columns(const curve_fitting *f, const curve_law *m, const double p[N],
+                         const residual_blocks *b, double force, columns *to, misfit_sums *d)
+{
+    double raw[M][BLOCKS_HISTORY];
+    const double pull = pull_without_law(f);
+    const tip_move *const tips = f->workspace->tip_move;
+    size_t n_tips = 0;
+    while (n_tips < CURVE_TIP_MOVES && tips[n_tips].up != NULL)
+        n_tips++;
+    const size_t n_moves = n_tips + (pull > 0.0), bends = FUNCTIONS + n_moves;
+    d->n_tips = n_tips;
+    d->n_moves = n_moves;
+    d->any_radius = f->workspace->any_radius.up != NULL;
+    const double deepest = f->solution.max_indentation;
+    for (size_t i = 0; i < BLOCKS_MAX_ORDER + b->n; i++) {
+        double at[LEGENDRE] = {0.0};
+        if (b->touch[i] > 0.0)
+            legendre(b->depth[i], at);
+        for (size_t k = 0; k < LEGENDRE; k++)
+            raw[k][i] = at[k] * b->touch[i] * force;
+        /* As shares of the force that is there: means over a block, which the law has, too. */
+        const double contact = b->touch[i] > 0.0 ? p[CURVE_E] * b->column[CURVE_E][i] : 0.0;
+        const tip_change radius =
+            change_of_tip(m, &f->workspace->any_radius, b->depth[i] * deepest);
+        raw[MISFIT_RADIUS][i] = contact * radius.slope;
+        for (size_t k = 0; k < n_tips; k++) {
+            const tip_change moved = change_of_tip(m, &tips[k], b->depth[i] * deepest);
+            raw[FUNCTIONS + k][i] = contact * moved.slope;
+            raw[bends + k][i] = contact * moved.bend;
+        }
+        if (pull > 0.0)
+            raw[FUNCTIONS + n_tips][i] = -pull * b->touch[i];
+    }
+    for (size_t k = 0; k < bends + n_tips; k++)
+        residual_blocks_whiten(b, raw[k], BLOCKS_MAX_ORDER, b->n, to->b[k]);
+    for (size_t c = 0, k = 0; c < N; c++)
+        if (m->free[c]) {
+            residual_blocks_whiten(b, b->column[k], BLOCKS_MAX_ORDER, b->n, to->a[k]);
+            k++;
+        }
+    residual_blocks_whiten(b, b->r, b->n_before, b->n, to->y);
+}
+
+/* Standard deviation of the mean of a block. */
+static double noise_of_block(const residual_blocks *b)
+{
+    const double of_baseline =
+        b->n_before > 0 ? curve_dot(b->r, b->r, b->n_before) / (double)b->n_before : 0.0;
+    return sqrt(fmax(of_baseline, b->innovation));
+}
+
+/* How far from the fitted contact point the tip may touch, whatever the law: force is to be seen
+ * from the depth on at which that of the law stands out of the noise of a block, or from where the
+ * measured one does. Linear in the contact point, the fit would not know. */
+static double contact_reach(const curve_law *m, const double p[N], const residual_blocks *b)
+{
+    const curve_samples *s = m->samples;
+    const double length = (double)b->length, noise = to_be_seen * noise_of_block(b);
+    const size_t n = b->first / b->length + b->n, start = s->n - n * b->length;
+    double by_law = 0.0, visible = s->position[s->n - 1] - p[CURVE_C];
+    for (size_t i = s->n; i-- > b->first;)
+        if (p[CURVE_E] * m->workspace->g[i] > noise)
+            by_law = m->workspace->delta[i];
+    for (size_t i = n; i-- > 0;) {
+        const size_t from = start + i * b->length;
+        const double z = curve_sum(s->position + from, b->length) / length - p[CURVE_C],
+                     force = curve_sum(s->force + from, b->length) / length - p[CURVE_F0] -
+                             p[CURVE_T] * z;
+        if (fabs(force) < noise)
+            break;
+        visible = z;
+    }
+    return fmax(by_law, fabs(visible - by_law));
+}
+
+/* From the triangular form and units of the noise; solved is lost. */
+static void back_to_parameters(double (*aa)[M], const double *scale, double (*solved)[N],
+                               size_t n_columns, misfit_sums *to)
+{
+    const size_t q = to->n_free;
+    for (size_t k = 0; k < n_columns; k++) {
+        double *x = solved[k];
+        for (size_t c = q; c-- > 0;) {
+            for (size_t d = c + 1; d < q; d++)
+                x[c] -= aa[d][c] * x[d];
+            x[c] /= aa[c][c];
+        }
+        for (size_t c = 0; c < q; c++)
+            to->imitated[c][k] = scale[c] * x[c];
+    }
+}
+
+static bool sum_up(const curve_fitting *f, const curve_law *m, const double p[N], const double *e,
+                   const residual_blocks *b, double force, misfit_sums *to)
+{
+    columns of;
+    double aa[M][M] = {{0.0}}, ay[N] = {0.0}, scale[N], solved[M][N];
+    *to = (misfit_sums){0};
+    fill_columns(f, m, p, b, force, &of, to);
+    const size_t n = b->n, columns_b = FUNCTIONS + to->n_moves + to->n_tips;
+    for (size_t i = 0; i < N; i++)
+        if (m->free[i])
+            to->which[to->n_free++] = i;
+    const size_t q = to->n_free;
+    residual_blocks_leave_out_gap(b, of.y);
+    for (size_t c = 0; c < q; c++)
+        residual_blocks_leave_out_gap(b, of.a[c]);
+    for (size_t c = 0; c < columns_b; c++)
+        residual_blocks_leave_out_gap(b, of.b[c]);
+    add_baseline(m, p, e, b, aa, ay);
+    for (size_t c = 0; c < q; c++) {
+        for (size_t d = 0; d < q; d++)
+            aa[c][d] += curve_dot(of.a[c], of.a[d], n);
+        ay[c] += curve_dot(of.a[c], of.y, n);
+        if (!(aa[c][c] > 0.0))
+            return false;
+    }
+    const double reach = contact_reach(m, p, b);
+    for (size_t c = 0; c < q; c++) {
+        if (to->which[c] == CURVE_C)
+            aa[c][c] += b->innovation / (reach * reach);
+        scale[c] = 1.0 / sqrt(aa[c][c]);
+    }
+    for (size_t c = 0; c < q; c++)
+        for (size_t d = 0; d < q; d++)
+            aa[c][d] *= scale[c] * scale[d];
+    if (!cholesky_factor(&aa[0][0], M, q, 0.0))
+        return false;
+    /* all in units of the noise, and of A in its triangular form */
+    double along_y[N];
+    for (size_t c = 0; c < q; c++)
+        ay[c] *= scale[c];
+    cholesky_forward(&aa[0][0], M, q, ay, along_y);
+    for (size_t k = 0; k < columns_b; k++) {
+        double with[N];
+        for (size_t c = 0; c < q; c++)
+            with[c] = scale[c] * curve_dot(of.a[c], of.b[k], n);
+        cholesky_forward(&aa[0][0], M, q, with, solved[k]);
+    }
+    for (size_t k = 0; k < columns_b; k++) {
+        for (size_t l = 0; l <= k; l++)
+            to->mm[k][l] = to->mm[l][k] =
+                (curve_dot(of.b[k], of.b[l], n) - misfit_dot(solved[k], solved[l], q)) /
+                b->innovation;
+        if (k == MISFIT_RADIUS)
+            to->any_radius =
+                to->any_radius && most_hidden * most_hidden * to->mm[k][k] * b->innovation >
+                                      curve_dot(of.b[k], of.b[k], n);
+        to->my[k] =
+            (curve_dot(of.b[k], of.y, n) - misfit_dot(solved[k], along_y, q)) / b->innovation;
+    }
+    back_to_parameters(aa, scale, solved, columns_b, to);
+    return true;
+}
+
+/* ---- sizes and lengths ----------------------------------------------------------------------- */
+
+/* The sums for unit normal numbers behind a discrepancy of size 1 and one of the lengths, turned so
+ * that those with each other make a tridiagonal matrix: then a size costs next to nothing. */
+typedef struct length_sums {
+    double with[LEGENDRE], next[LEGENDRE]; /* diagonal, and the element beside it */
+    double residual[LEGENDRE], imitated[N][LEGENDRE];
+} length_sums;
+
+static void turn(double (*q)[LEGENDRE], const double x[LEGENDRE], double to[LEGENDRE])
+{
+    for (size_t i = 0; i < LEGENDRE; i++)
+        to[i] = 0.0;
+    for (size_t k = 0; k < LEGENDRE; k++)
+        for (size_t i = 0; i < LEGENDRE; i++)
+            to[i] += q[k][i] * x[k];
+}
+
+/* Of the sums `with` of root' mm root. */
+static void make_tridiagonal(double (*root)[LEGENDRE], double (*with)[LEGENDRE],
+                             const misfit_sums *d, length_sums *to)
+{
+    double tau[LEGENDRE - 1], q[LEGENDRE][LEGENDRE], turned[LEGENDRE][LEGENDRE];
+    gsl_matrix_view a = gsl_matrix_view_array(&with[0][0], LEGENDRE, LEGENDRE),
+                    of_q = gsl_matrix_view_array(&q[0][0], LEGENDRE, LEGENDRE);
+    gsl_vector_view scales = gsl_vector_view_array(tau, LEGENDRE - 1),
+                    diagonal = gsl_vector_view_array(to->with, LEGENDRE),
+                    beside = gsl_vector_view_array(to->next, LEGENDRE - 1);
+    (void)gsl_linalg_symmtd_decomp(&a.matrix, &scales.vector); /* sizes are the only errors */
+    (void)gsl_linalg_symmtd_unpack(&a.matrix, &scales.vector, &of_q.matrix, &diagonal.vector,
+                                   &beside.vector);
+    to->next[LEGENDRE - 1] = 0.0;
+    for (size_t k = 0; k < LEGENDRE; k++) /* root q */
+        turn(q, root[k], turned[k]);
+    turn(turned, d->my, to->residual);
+    for (size_t c = 0; c < d->n_free; c++)
+        turn(turned, d->imitated[c], to->imitated[c]);
+}
+
+static length_sums sums_of_length(const misfit_sums *d, int length)
+{
+    double root[LEGENDRE][LEGENDRE], half[LEGENDRE][LEGENDRE], with[LEGENDRE][LEGENDRE] = {{0.0}};
+    length_sums to;
+    for (size_t i = 0; i < LEGENDRE; i++) /* transposed */
+        for (size_t k = 0; k < LEGENDRE; k++)
+            root[i][k] = kernels.root[length][k][i];
+    for (size_t i = 0; i < LEGENDRE; i++)
+        for (size_t k = 0; k < LEGENDRE; k++)
+            half[i][k] = misfit_dot(root[i] + i, d->mm[k] + i, LEGENDRE - i);
+    for (size_t i = 0; i < LEGENDRE; i++)
+        for (size_t j = 0; j <= i; j++)
+            with[i][j] = misfit_dot(half[i] + j, root[j] + j, LEGENDRE - j);
+    make_tridiagonal(kernels.root[length], with, d, &to);
+    return to;
+}
+
+/* The same of another radius: one function. */
+static length_sums sums_of_radius(const misfit_sums *d)
+{
+    length_sums to = {.with = {d->mm[MISFIT_RADIUS][MISFIT_RADIUS]},
+                      .residual = {d->my[MISFIT_RADIUS]}};
+    for (size_t c = 0; c < d->n_free; c++)
+        to.imitated[c][0] = d->imitated[c][MISFIT_RADIUS];
+    return to;
+}
+
+/* With a discrepancy of size s; returns what it explains of the residual. */
+static double try_size(const misfit_sums *d, const length_sums *l, double s,
+                       const misfit_candidate *none, misfit_candidate *c)
+{
+    const double square = s * s;
+    double factor[LEGENDRE], share[LEGENDRE] = {0.0}, x[LEGENDRE], explained = 0.0, product = 1.0;
+    *c = (misfit_candidate){.log_likelihood = -(double)INFINITY};
+    for (size_t i = 0; i < LEGENDRE; i++) {
+        factor[i] = 1.0 + square * l->with[i];
+        x[i] = l->residual[i];
+        if (i > 0) {
+            share[i] = square * l->next[i - 1] / factor[i - 1];
+            factor[i] -= share[i] * square * l->next[i - 1];
+            x[i] -= share[i] * x[i - 1];
+        }
+        if (!(factor[i] > 0.0))
+            return 0.0;
+        product *= factor[i]; /* each below 1e12 by the least noise of blocks */
+    }
+    c->log_likelihood = -0.5 * log(product);
+    for (size_t i = 0; i < LEGENDRE; i++) {
+        factor[i] = square / factor[i];
+        explained += factor[i] * x[i] * x[i];
+    }
+    for (size_t a = 0; a < d->n_free; a++) {
+        double y = 0.0;
+        c->shift[a] = none->shift[a];
+        c->variance[a] = none->variance[a];
+        for (size_t i = 0; i < LEGENDRE; i++) {
+            y = l->imitated[a][i] - share[i] * y;
+            c->shift[a] -= factor[i] * y * x[i];
+            c->variance[a] += factor[i] * y * y;
+        }
+    }
+    return explained;
+}
+
+/* Of the residual with what is left unexplained, for the variance of the noise is estimated. */
+static double student(double unexplained, double freedom)
+{
+    return -0.5 * (freedom + LEGENDRE) * log(1.0 + fmax(unexplained, 0.0) / freedom);
+}
+
+typedef struct mixture {
+    size_t n;
+    misfit_candidate part[CANDIDATES]; /* the first one is that there is no discrepancy */
+    double tip[N];                     /* of all variances, that of the stated errors of the tip */
+} mixture;
+
+static bool weigh_sizes(misfit_sums *d, double largest, double freedom, mixture *to)
+{
+    misfit_candidate *const none = &to->part[0];
+    double explained[CANDIDATES] = {0.0}, most = 0.0, best, sum = 0.0;
+    length_sums of[KINDS];
+    if (!misfit_take_out_moves(d, none, to->tip))
+        return false;
+    const size_t kinds = LENGTHS + d->any_radius;
+    for (int l = 0; l < LENGTHS; l++)
+        of[l] = sums_of_length(d, l);
+    if (d->any_radius)
+        of[LENGTHS] = sums_of_radius(d);
+    to->n = 1;
+    bool matters = true;
+    for (double s = 1.0; to->n + kinds <= 1 + kinds * SIZES && matters; s /= size_ratio) {
+        matters = false;
+        for (size_t l = 0; l < kinds; l++, to->n++) {
+            misfit_candidate *c = &to->part[to->n];
+            explained[to->n] =
+                try_size(d, &of[l], s * (l < LENGTHS ? largest : largest_radius), none, c);
+            most = fmax(most, explained[to->n]); /* that of the largest size */
+            matters = matters || c->log_likelihood < -no_size || explained[to->n] > no_size;
+            c->chance = l == LENGTHS ? of_radius
+                                     : (d->any_radius ? 1.0 - of_radius : 1.0) * kernels.chance[l];
+        }
+    }
+    best = none->log_likelihood = log(holds) + student(most, freedom);
+    for (size_t i = 1; i < to->n; i++) {
+        misfit_candidate *c = &to->part[i];
+        c->log_likelihood += student(most - explained[i], freedom) +
+                             log((1.0 - holds) * c->chance * (double)kinds / (double)(to->n - 1));
+        best = fmax(best, c->log_likelihood);
+    }
+    for (size_t i = 0; i < to->n; i++)
+        sum += to->part[i].chance = exp(to->part[i].log_likelihood - best);
+    for (size_t i = 0; i < to->n; i++)
+        to->part[i].chance /= sum;
+    return true;
+}
+
+/* `less` of the variances is left out. Half of the interval about 0 that holds 95 % of parameter a,
+ * in the 1.96 of a normal one. A shift counts as a deviation, for the direction in which a misfit
+ * is corrected is surer than how far; to least_shift, for a linear model knows no modulus below 0.
+ */
+static double error_of(const mixture *m, size_t a, double less, double standard_error,
+                       double least_shift)
+{
+    double low = standard_error, high = standard_error, sd[CANDIDATES];
+    for (size_t i = 0; i < m->n; i++) {
+        const misfit_candidate *c = &m->part[i];
+        const double shift = fmax(c->shift[a], least_shift);
+        sd[i] = sqrt(fmax(0.0, c->variance[a] - less) + shift * shift +
+                     standard_error * standard_error);
+        if (c->chance > no_chance)
+            high = fmax(high, sd[i]);
+    }
+    while (high - low > error_step * high) {
+        const double error = 0.5 * (low + high);
+        double beyond = 0.0;
+        for (size_t i = 0; i < m->n; i++)
+            if (m->part[i].chance > no_chance)
+                beyond += m->part[i].chance * erfc(NORMAL_95 * error / (M_SQRT2 * sd[i]));
+        *(beyond > outside ? &low : &high) = error;
+    }
+    return high;
+}
+
+/* ---- the error ------------------------------------------------------------------------------- */
+
+/* Residuals of the noise at p, to scratch. */
+static void evaluate(curve_law *m, const double p[N], const curve_wave *wave)
+{
+    wt_indent_workspace *w = m->workspace;
+    curve_law_evaluate(m, p, wave);
+    for (size_t i = 0; i < m->samples->n; i++)
+        w->scratch[i] = i < m->n_baseline
+                            ? w->residual[i]
+                            : w->residual[i] * (m->plain ? 1.0 / curve_model_factor(m, p, i) : 1.0);
+}
+
+void curve_add_misfit(curve_fitting *f)
+{
+    curve_solution *s = &f->solution;
+    curve_law m = curve_law_of(f->table, &f->input.samples, &f->kind, f->workspace);
+    residual_blocks b;
+    misfit_sums d;
+    mixture found;
+    double *const e = f->workspace->scratch;
+    for (size_t i = 0; i < N; i++) /* until it is known */
+        s->misfit_error[i] = m.free[i] ? (double)NAN : 0.0;
+    if (f->kind.plain || !(f->options->least_chance > 0.0) || !s->converged)
+        return;
+    (void)pthread_once(&kernels_once, make_kernels);
+    evaluate(&m, s->p, &s->wave);
+    const double force = s->p[CURVE_E] * f->workspace->g[f->input.samples.n - 1];
+    if (!(force > 0.0) || !residual_blocks_average(&m, s->p, e, &b) ||
+        !residual_blocks_find_noise(&m, s->p, &b) || !sum_up(f, &m, s->p, e, &b, force, &d))
+        return;
+    const double *residual = b.r + b.n_before;
+    const double seen = sqrt(curve_dot(residual, residual, b.n) / (double)b.n) / force;
+    if (!weigh_sizes(&d, fmin(largest_size, most_hidden * seen), b.freedom, &found))
+        return;
+    for (size_t a = 0; a < d.n_free; a++) {
+        const size_t i = d.which[a];
+        const double noise = s->standard_error[i],
+                     least = i == CURVE_E ? -s->p[CURVE_E] : -(double)INFINITY,
+                     by_law = error_of(&found, a, found.tip[a], noise, least),
+                     error = error_of(&found, a, 0.0, noise, least);
+        s->misfit_error[i] = sqrt(by_law * by_law - noise * noise);
+        s->standard_error[i] = error;
+    }
+}

@@ -1,0 +1,147 @@
+/* Moves of the tip within its stated errors, and a pull, beside a misfit.
+ *
+ * SPDX-License-Identifier: GPL-3.0-or-later
+ */
+#include "indentation/numerics/misfit_bias.h"
+
+#include "core/math/cholesky.h"
+
+#include <math.h>
+#include <string.h>
+
+enum {
+    N = CURVE_N_PARAMETERS,
+    LEGENDRE = MISFIT_FUNCTIONS,
+    M = MISFIT_COLUMNS,
+    BEND_ROUNDS = 4, /* of Newton on a parabola in each move */
+    MOVE_STEPS = 12, /* to the farthest move, each way */
+};
+static const double moved_chi2 = 3.84;   /* of a move that is not 0, by its 95 % */
+static const double farthest_move = 3.0; /* of a tip, in its standard errors */
+
+/* Adds `share` of column `of` to column `to` of the sums. */
+static void add_column(misfit_sums *d, size_t to, size_t of, double share)
+{
+    for (size_t k = 0; k < M; k++)
+        d->mm[to][k] += share * d->mm[of][k];
+    for (size_t k = 0; k < M; k++)
+        d->mm[k][to] += share * d->mm[k][of];
+    d->my[to] += share * d->my[of];
+    for (size_t a = 0; a < d->n_free; a++)
+        d->imitated[a][to] += share * d->imitated[a][of];
+}
+
+/* The matrix of the moves, of a deviation of 1 each, in triangular form, and where they would be.
+ */
+static bool solve_moves(const misfit_sums *d, double (*t)[M], double *x)
+{
+    const size_t n = d->n_moves;
+    for (size_t i = 0; i < n; i++)
+        for (size_t j = 0; j < n; j++)
+            t[i][j] = d->mm[LEGENDRE + i][LEGENDRE + j] + (i == j ? 1.0 : 0.0);
+    if (!cholesky_factor(&t[0][0], M, n, 0.0))
+        return false;
+    cholesky_forward(&t[0][0], M, n, d->my + LEGENDRE, x);
+    return true;
+}
+
+/* Forces are not linear in the sizes of a tip: the moves become those about where the data put
+ * them, and the residual what it is there. */
+static bool bend_moves(misfit_sums *d)
+{
+    const misfit_sums straight = *d;
+    const size_t n = d->n_moves, bends = LEGENDRE + n;
+    double at[CURVE_TIP_MOVES] = {0.0};
+    for (int round = 0; round < BEND_ROUNDS && d->n_tips > 0; round++) {
+        double t[M][M] = {{0.0}}, x[M];
+        *d = straight;
+        for (size_t i = 0; i < d->n_tips; i++)
+            add_column(d, LEGENDRE + i, bends + i, at[i]);
+        for (size_t i = 0; i < d->n_tips; i++)
+            for (size_t k = 0; k < M; k++)
+                d->my[k] += 0.5 * at[i] * at[i] * d->mm[bends + i][k];
+        if (!solve_moves(d, t, x))
+            return false;
+        for (size_t c = n; c-- > 0;) {
+            for (size_t k = c + 1; k < n; k++)
+                x[c] -= t[k][c] * x[k];
+            x[c] /= t[c][c];
+            /* what three tips say of forces does not reach farther */
+            if (c < d->n_tips)
+                at[c] = fmax(-farthest_move, fmin(farthest_move, x[c]));
+        }
+    }
+    return true;
+}
+
+/* Minus 2 ln of the chance that tip i alone is moved by x, but for a constant. */
+static double cost_of_move(const misfit_sums *d, size_t i, double x)
+{
+    const size_t c = LEGENDRE + i, q = LEGENDRE + d->n_moves + i;
+    const double bend = 0.5 * x * x;
+    return x * x - 2.0 * (x * d->my[c] + bend * d->my[q]) + x * x * d->mm[c][c] +
+           2.0 * x * bend * d->mm[c][q] + bend * bend * d->mm[q][q];
+}
+
+/* What a move of tip i does to the parameters, in the mean of the squares over all that the
+ * residual allows: two tips far from each other may leave as little, as where only one of them is
+ * deep in its cap. */
+static void spread_of_move(const misfit_sums *d, size_t i, double spread[N])
+{
+    const size_t c = LEGENDRE + i, q = LEGENDRE + d->n_moves + i;
+    double least = (double)INFINITY, all = 0.0;
+    for (int j = -MOVE_STEPS; j <= MOVE_STEPS; j++)
+        least = fmin(least, cost_of_move(d, i, farthest_move * j / MOVE_STEPS));
+    for (size_t a = 0; a < N; a++)
+        spread[a] = 0.0;
+    for (int j = -MOVE_STEPS; j <= MOVE_STEPS; j++) {
+        const double x = farthest_move * j / MOVE_STEPS,
+                     chance = exp(-0.5 * (cost_of_move(d, i, x) - least));
+        all += chance;
+        for (size_t a = 0; a < d->n_free; a++)
+            spread[a] += chance * pow(x * d->imitated[a][c] + 0.5 * x * x * d->imitated[a][q], 2);
+    }
+    for (size_t a = 0; a < N; a++)
+        spread[a] /= all;
+}
+
+bool misfit_take_out_moves(misfit_sums *d, misfit_candidate *none, double tip[N])
+{
+    const size_t n = d->n_moves;
+    double t[M][M] = {{0.0}}, by[LEGENDRE][M], of_y[M], straight[N][CURVE_TIP_MOVES];
+    double spread[CURVE_TIP_MOVES][N];
+    *none = (misfit_candidate){.log_likelihood = 0.0};
+    for (size_t a = 0; a < d->n_free; a++)
+        memcpy(straight[a], d->imitated[a] + LEGENDRE, d->n_tips * sizeof straight[a][0]);
+    for (size_t i = 0; i < d->n_tips; i++)
+        spread_of_move(d, i, spread[i]);
+    if (!bend_moves(d) || !solve_moves(d, t, of_y))
+        return false;
+    const bool fit_better = misfit_dot(of_y, of_y, n) > moved_chi2 * (double)n && d->n_tips > 0;
+    for (size_t k = 0; k < LEGENDRE; k++)
+        cholesky_forward(&t[0][0], M, n, d->mm[k] + LEGENDRE, by[k]);
+    for (size_t k = 0; k < LEGENDRE; k++) {
+        d->my[k] -= misfit_dot(by[k], of_y, n);
+        for (size_t l = 0; l < LEGENDRE; l++)
+            d->mm[k][l] -= misfit_dot(by[k], by[l], n);
+    }
+    for (size_t a = 0; a < d->n_free; a++) {
+        double y[M];
+        cholesky_forward(&t[0][0], M, n, d->imitated[a] + LEGENDRE, y);
+        none->shift[a] = -misfit_dot(y, of_y, n);
+        none->variance[a] = misfit_dot(y, y, n);
+        if (fit_better) {
+            none->shift[a] = 0.0;
+            none->variance[a] =
+                fmax(misfit_dot(y, y, n), misfit_dot(straight[a], straight[a], d->n_tips));
+        }
+        for (size_t k = 0; k < d->n_tips; k++)
+            none->variance[a] =
+                fmax(none->variance[a], spread[k][a] - none->shift[a] * none->shift[a]);
+        const double pull = d->n_moves > d->n_tips ? d->imitated[a][LEGENDRE + d->n_tips] : 0.0;
+        tip[a] = d->n_tips > 0 ? fmax(0.0, none->variance[a] - pull * pull) : 0.0;
+        for (size_t k = 0; k < LEGENDRE; k++)
+            d->imitated[a][k] -= misfit_dot(by[k], y, n);
+    }
+    return true;
+}

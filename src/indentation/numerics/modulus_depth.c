@@ -1,0 +1,215 @@
+/* Does the modulus change with depth? The mean residual of the curves of a group says so where one
+ * noisy curve does not.
+ *
+ * The first cosines of the residual over the contact (curve_lack.c) are those of the difference
+ * between the force and that of the fit. A modulus E exp(a + b (u - 1)) at the contact radius u of
+ * the largest one, with the contact point moved, makes such a difference: the three are fitted to
+ * the mean of the curves, weighted by the scatter between them, together, for the contact point of
+ * a fit with one modulus hides most of a change. What the cosines leave then follows the F
+ * distribution whatever the noise; where it is too much, a square is fitted as well, or a layer on
+ * other rubber. Each curve has
+ * its share in the parameters, and the scatter of the shares between spots is their error,
+ * enlarged by what is not known of the weights. What all curves share does not scatter: a bend that
+ * their baselines have in common goes on in contact, nobody knows how, and what it does there if it
+ * does is part of the errors; so is what is not known of the memory that stands for loss.
+ *
+ * SPDX-License-Identifier: GPL-3.0-or-later
+ */
+#include "core/base/array.h"
+#include "core/math/students_t.h"
+#include "indentation/law/thin_layer.h"
+#include "indentation/law/tip.h"
+#include "indentation/numerics/depth_pool.h"
+
+#include <gsl/gsl_cdf.h>
+#include <math.h>
+#include <string.h>
+
+enum { W = CURVE_WAVES };
+static const double level = 0.01; /* of a change, and of what is left: one group of 100 by chance */
+static const double margin = WT_DEPTH_MARGIN; /* a change that does not matter */
+/* Ends of the interval of a thickness, their ratio: one not known to a factor 2 is not told. */
+static const double roughest = 4.0;
+
+typedef struct depth_number {
+    wt_interval interval;
+    double chance;                 /* of the logarithm being 0 */
+    double bend_share, loss_share; /* of its variance */
+} depth_number;
+
+/* A factor, of whose logarithm it is told what depth_value_of takes. */
+static depth_number number_of(depth_pool *d, const depth_fit *fit, double at,
+                              const double by[DEPTH_PARAMETERS], bool with_level, double losses)
+{
+    const depth_value v = depth_value_of(d, fit, at, by, with_level, losses);
+    const double error = hypot(v.scatter.error, hypot(v.bend, v.loss));
+    const double reach = students_t_quantile(v.scatter.df) * error;
+    const double value = exp(v.mean);
+    return (depth_number){
+        .interval = {value, value * error, exp(v.mean - reach), exp(v.mean + reach)},
+        .chance = 2.0 * gsl_cdf_tdist_Q(fabs(v.mean) / error, v.scatter.df),
+        .bend_share = v.bend * v.bend / (error * error),
+        .loss_share = v.loss * v.loss / (error * error)};
+}
+
+/* ---- what is told ---------------------------------------------------------------------------- */
+
+/* ln of the modulus over that of the fit at a share of the depth, and its derivatives. */
+static double at_depth(const depth_mean *m, const depth_fit *fit, double share,
+                       double by[DEPTH_PARAMETERS])
+{
+    const double depth = share * m->depth, step = 1e-5;
+    double g, slope, p[DEPTH_PARAMETERS];
+    wt_contact_table_eval(m->table, &depth, 1, &g, &slope);
+    depth_modulus law = depth_modulus_of(m, fit->law, fit->p);
+    const double u = slope / m->widest, value = depth_log_modulus(&law, u);
+    memcpy(p, fit->p, sizeof p);
+    for (size_t a = 0; a < DEPTH_PARAMETERS; a++) {
+        p[a] += step;
+        law = depth_modulus_of(m, fit->law, p);
+        by[a] = (depth_log_modulus(&law, u) - value) / step;
+        p[a] = fit->p[a];
+    }
+    return value;
+}
+
+/* The modulus at shares of the depth, and the change from the first to the last. */
+static void tell_depths(depth_pool *d, const depth_fit *fit, wt_curve_depth *to)
+{
+    double first[DEPTH_PARAMETERS] = {0.0}, by[DEPTH_PARAMETERS], top = 0.0;
+    for (size_t i = 0; i < WT_DEPTHS; i++) {
+        const double share = (double)(i + 1) / WT_DEPTHS;
+        const double at = at_depth(&d->mean, fit, share, by);
+        to->depth[i] = share * d->mean.depth;
+        to->modulus[i] =
+            number_of(d, fit, at, by, true, 1.0 + DEPTH_MORE_SHALLOW * (1.0 - share)).interval;
+        if (i == 0) {
+            memcpy(first, by, sizeof first);
+            top = at;
+        }
+        if (i + 1 < WT_DEPTHS)
+            continue;
+        for (size_t a = 0; a < DEPTH_PARAMETERS; a++)
+            by[a] -= first[a];
+        const depth_number change =
+            number_of(d, fit, at - top, by, false, DEPTH_MORE_SHALLOW * (1.0 - 1.0 / WT_DEPTHS));
+        to->change = change.interval;
+        to->chance = change.chance;
+        to->bend_share = change.bend_share;
+        to->loss_share = change.loss_share;
+    }
+}
+
+/* A layer thinner than the indentation that would look the same, by how the modulus changes. */
+static depth_fit fit_layer(depth_pool *d, double log_change, wt_error *err)
+{
+    static const double reaches[] = {0.7, 1.2, 2.0}; /* contact radius over thickness */
+    depth_fit best = {.good = false};
+    for (size_t i = 0; i < COUNT_OF(reaches); i++) {
+        const double start[] = {0.0, -0.5 * log_change, -1.5 * log_change, log(reaches[i])};
+        const depth_fit fit = depth_fit_law(d, DEPTH_LAYER, start, err);
+        if (fit.good && (!best.good || fit.left < best.left))
+            best = fit;
+    }
+    return best;
+}
+
+/* Its three numbers, where the mean curve tells them. */
+static void read_layer(depth_pool *d, wt_curve_depth *to, wt_error *err)
+{
+    const depth_fit fit = fit_layer(d, log(to->change.value), err);
+    const double ratio = exp(fit.p[DEPTH_RATIO]), reach = exp(fit.p[DEPTH_REACH]);
+    if (contact_table_tip(d->mean.table)->sample_thickness > 0.0 || !fit.good ||
+        fit.chance < level || !thin_layer_holds(ratio, reach) || (ratio > 0.6 && ratio < 1.6) ||
+        reach < 0.7 || reach > 2.5)
+        return;
+    const double of_layer[] = {0.0, 1.0, 0.0, 0.0}, of_ground[] = {0.0, 1.0, -1.0, 0.0},
+                 of_thickness[] = {0.0, 0.0, 0.0, -1.0};
+    const wt_interval thickness =
+        number_of(d, &fit, log(0.5 * d->mean.widest) - fit.p[DEPTH_REACH], of_thickness, false, 1.0)
+            .interval;
+    if (thickness.high > roughest * thickness.low)
+        return;
+    to->thickness = thickness;
+    to->layer_modulus = number_of(d, &fit, fit.p[DEPTH_LEVEL], of_layer, true, 1.0).interval;
+    to->ground_modulus =
+        number_of(d, &fit, fit.p[DEPTH_LEVEL] - fit.p[DEPTH_RATIO], of_ground, true, 1.0).interval;
+}
+
+/* Too little to matter, whichever way. */
+static bool is_small(const wt_curve_depth *d)
+{
+    return d->change.low > 1.0 / (1.0 + margin) && d->change.high < 1.0 + margin;
+}
+
+/* What the change says: shown, of no matter, or neither. */
+static void judge(const depth_fit *fit, wt_curve_depth *to)
+{
+    to->misfit_chance = fit->chance;
+    to->verdict = to->chance < level    ? WT_DEPTH_CHANGES
+                  : fit->chance < level ? WT_DEPTH_OTHERWISE
+                  : is_small(to)        ? WT_DEPTH_SAME
+                                        : WT_DEPTH_CANNOT_SAY;
+}
+
+static wt_status make(depth_pool *d, wt_curve_depth *to, wt_error *err)
+{
+    const double start[DEPTH_PARAMETERS] = {0.0};
+    wt_error failure = WT_ERROR_INIT;
+    depth_fit fit = depth_fit_law(d, DEPTH_LINE, start, &failure);
+    if (fit.good && fit.chance < level) {
+        const depth_fit other[] = {depth_fit_law(d, DEPTH_BENT, fit.p, &failure),
+                                   fit_layer(d, fit.p[DEPTH_SLOPE], &failure)};
+        for (size_t i = 0; i < COUNT_OF(other); i++)
+            if (other[i].good && other[i].chance > fit.chance)
+                fit = other[i];
+    }
+    if (fit.good && failure.status == WT_OK) {
+        tell_depths(d, &fit, to);
+        judge(&fit, to);
+    }
+    if (to->verdict == WT_DEPTH_CHANGES) {
+        const depth_fit bent = depth_fit_law(d, DEPTH_BENT, fit.p, &failure);
+        const double chance = to->chance;
+        if (fit.law == DEPTH_LINE && bent.good) /* that it is a line nobody says */
+            tell_depths(d, &bent, to);
+        to->chance = chance;
+        if (is_small(to) && to->change.low < 1.0 && to->change.high > 1.0)
+            to->verdict = WT_DEPTH_SAME;
+        else
+            read_layer(d, to, &failure);
+    }
+    if (failure.status == WT_OK)
+        return WT_OK;
+    if (err != NULL)
+        *err = failure;
+    return failure.status;
+}
+
+wt_status wt_curve_depth_make(const wt_contact_table *table, double poisson_ratio,
+                              const wt_depth_curve *curve, size_t n, wt_curve_depth *to,
+                              wt_error *err)
+{
+    const double unknown = (double)NAN;
+    const wt_interval nothing = {unknown, unknown, unknown, unknown};
+    pool memory = {0};
+    depth_pool d;
+    wt_status status = WT_OK;
+    depth_pool_make(&d, table, poisson_ratio, curve, n, &memory);
+    *to = (wt_curve_depth){.n = d.n,
+                           .n_units = d.n_units,
+                           .by_spot = d.by_spot,
+                           .n_lossy = d.n_lossy,
+                           .chance = unknown,
+                           .misfit_chance = unknown,
+                           .change = nothing,
+                           .layer_modulus = nothing,
+                           .ground_modulus = nothing,
+                           .thickness = nothing};
+    if (memory.failed)
+        status = wt_fail(err, WT_E_MEMORY, "out of memory");
+    else if (d.known)
+        status = make(&d, to, err);
+    pool_free(&memory);
+    return status;
+}

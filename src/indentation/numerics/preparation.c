@@ -1,0 +1,486 @@
+/* Before the fit of a force curve: missing and repeated samples, the direction of the piezo, a
+ * limit of the force, a saturated detector, a sample too stiff for the lever.
+ *
+ * SPDX-License-Identifier: GPL-3.0-or-later
+ */
+#include "indentation/numerics/curve.h"
+
+#include "core/base/array.h"
+#include "core/base/clocale.h"
+
+#include <gsl/gsl_statistics_double.h>
+#include <math.h>
+#include <stdarg.h>
+#include <stdint.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* Tests of plausibility; each is named in the reason that it gives. */
+static const double missing_share = 0.1; /* of the samples: with more the file is damaged */
+static const double travel_share = 0.5;  /* of the range of the height that must be net travel */
+/* Least advance of the tip per bending of the lever: 1 % of sensitivity is half of it. */
+static const double rigid_share = 0.02;
+static const double plateau_ratio = 5.0; /* force gained before a flat top against in it */
+static const size_t plateau_samples = 5; /* fewer are a turning point */
+/* A spike beyond its neighbours, in noise: next to the 6 of a pull, which must not be one. */
+static const double spike_noise = 8.0;
+static const double spike_step = 3.0;  /* of one below, and in the step between its two sides */
+static const double end_step = 3.0;    /* of the last sample, in the step before it */
+static const double spike_share = 0.2; /* of the samples: with more it is no spike */
+enum {
+    SPIKE_SIDE = 7, /* neighbours on each side */
+    CLASSES = 512,  /* of sizes, to find a median */
+};
+
+wt_status curve_reserve(wt_indent_workspace *w, size_t n, wt_error *err)
+{
+    enum { N_ARRAYS = 25 }; /* those below */
+    if (n <= w->capacity)
+        return WT_OK;
+    size_t capacity = n + n / 4;
+    double *block = capacity < SIZE_MAX / sizeof(double) / N_ARRAYS
+                        ? malloc(N_ARRAYS * capacity * sizeof *block)
+                        : NULL;
+    if (block == NULL)
+        return wt_fail(err, WT_E_MEMORY, "no memory to fit a force curve of %zu samples", n);
+    free(w->block);
+    w->block = block;
+    w->capacity = capacity;
+    double **const arrays[N_ARRAYS] = {&w->position,
+                                       &w->force,
+                                       &w->tip,
+                                       &w->delta,
+                                       &w->g,
+                                       &w->slope,
+                                       &w->residual,
+                                       &w->scratch,
+                                       &w->weight,
+                                       &w->given_force,
+                                       &w->given_time,
+                                       &w->given_retract,
+                                       &w->by_work,
+                                       &w->by_modulus,
+                                       &w->retract_position,
+                                       &w->retract_force,
+                                       &w->start_position,
+                                       &w->start_force,
+                                       &w->by_contact,
+                                       &w->time,
+                                       &w->without_wave,
+                                       &w->wave_column[WAVE_COSINE],
+                                       &w->wave_column[WAVE_SINE],
+                                       &w->wave_column[WAVE_NUMBER],
+                                       &w->wave_give};
+    for (size_t i = 0; i < N_ARRAYS; i++)
+        *arrays[i] = block + i * capacity;
+    return WT_OK;
+}
+
+WIDE_REGISTERS static double mean(const double *x, size_t n)
+{
+    return curve_sum(x, n) / (double)n;
+}
+
+WIDE_REGISTERS
+curve_span curve_span_of(const double *x, size_t n)
+{
+    wide low = x[0] - (wide){0.0}, high = low, low2 = low, high2 = low, now;
+    double rest[2 * WIDE];
+    size_t i = 0;
+    for (; i + 2 * WIDE <= n; i += 2 * WIDE) { /* two of each, for one would wait for itself */
+        wide_load(&now, x + i);
+        wide_lower(&low, &now);
+        wide_raise(&high, &now);
+        wide_load(&now, x + i + WIDE);
+        wide_lower(&low2, &now);
+        wide_raise(&high2, &now);
+    }
+    wide_lower(&low, &low2);
+    wide_raise(&high, &high2);
+    wide_store(rest, &low);
+    wide_store(rest + WIDE, &high);
+    curve_span span = {x[0], x[0]};
+    for (size_t j = 0; j < WIDE; j++) {
+        span.low = rest[j] < span.low ? rest[j] : span.low;
+        span.high = rest[WIDE + j] > span.high ? rest[WIDE + j] : span.high;
+    }
+    for (; i < n; i++) {
+        span.low = x[i] < span.low ? x[i] : span.low;
+        span.high = x[i] > span.high ? x[i] : span.high;
+    }
+    return span;
+}
+
+/* 32 classes to each power of two of what is below `largest`. */
+static size_t class_of(double x, double largest)
+{
+    enum { LEADING = 52 - 5 }; /* of the 52 bits of a fraction the first 5: 32 classes */
+    uint64_t bits, most;
+    memcpy(&bits, &x, sizeof bits);
+    memcpy(&most, &largest, sizeof most);
+    const uint64_t below = (most >> LEADING) - (bits >> LEADING);
+    return below < CLASSES ? (size_t)below : CLASSES - 1;
+}
+
+/* All are counted by size, and only those of the size of the k-th are compared. */
+double curve_select(double *x, size_t n, size_t k, double largest)
+{
+    size_t count[CLASSES] = {0}, class = CLASSES - 1, kept = 0;
+    for (size_t i = 0; i < n; i++)
+        count[class_of(x[i], largest)]++;
+    for (; k >= count[class]; class --)
+        k -= count[class];
+    for (size_t i = 0; i < n; i++) {
+        const double now = x[i];
+        x[kept] = now;
+        kept += class_of(now, largest) == class;
+    }
+    return gsl_stats_select(x, 1, kept, k);
+}
+
+/* Standard deviation of white noise from the median of |successive differences|, and the smallest
+ * step that occurs (the resolution of the converter where there is one). */
+WIDE_REGISTERS static double difference_noise(const curve_samples *s, double *restrict scratch,
+                                              double *resolution)
+{
+    const size_t n = s->n - 1;
+    for (size_t i = 0; i < n; i++)
+        scratch[i] = fabs(s->force[i + 1] - s->force[i]);
+    const curve_span all = curve_span_of(scratch, n);
+    double smallest = all.low > 0.0 ? all.low : (double)INFINITY;
+    for (size_t i = 0; i < n && !(all.low > 0.0); i++)
+        smallest = scratch[i] > 0.0 && scratch[i] < smallest ? scratch[i] : smallest;
+    *resolution = isfinite(smallest) ? smallest : 0.0;
+    return curve_select(scratch, n, n / 2, all.high) / (0.6744897501960817 * M_SQRT2);
+}
+
+/* Force that the travel of the samples from `first` on had gained just before it. */
+static bool flat_top(const curve_samples *s, double noise, double resolution, size_t *first)
+{
+    const curve_span all = curve_span_of(s->force, s->n);
+    const double band = fmax(fmax(8.0 * noise, 1.5 * resolution), 1e-6 * (all.high - all.low));
+    size_t i = s->n;
+    while (i > 0 && s->force[i - 1] >= all.high - band)
+        i--;
+    *first = i;
+    if (i == 0 || s->n - i < plateau_samples)
+        return false;
+    double travel = s->position[s->n - 1] - s->position[i];
+    size_t j = i;
+    while (j > 0 && s->position[i] - s->position[j] < travel)
+        j--;
+    return travel > 0.0 && s->force[i] - s->force[j] > plateau_ratio * band;
+}
+
+/* Slope of the position against the deflection in the upper half of the force; NaN if the force
+ * does not rise enough. Of a rigid sample it is 1. */
+static double advance_per_bending(const curve_samples *s, double noise)
+{
+    size_t n_start = s->n / 10;
+    const double start = mean(s->force, n_start), max = curve_span_of(s->force, s->n).high;
+    if (!(max - start > 40.0 * noise))
+        return (double)NAN;
+    double n = 0.0, sz = 0.0, sf = 0.0, sff = 0.0, szf = 0.0;
+    for (size_t i = n_start; i < s->n; i++) {
+        double f = s->force[i] - start, z = s->position[i];
+        if (f < 0.5 * (max - start))
+            continue;
+        n += 1.0;
+        sz += z;
+        sf += f;
+        sff += f * f;
+        szf += z * f;
+    }
+    double variance = sff - sf * sf / n;
+    if (n < 5.0 || !(variance > 0.0))
+        return (double)NAN;
+    return (szf - sz * sf / n) / variance * s->spring_constant;
+}
+
+/* Are all numbers, and none the same as the one before? */
+WIDE_REGISTERS static bool all_good(const double *height, const double *force, size_t n)
+{
+    wide sum = {0.0}; /* of zeros, or nan */
+    wide_bits same = {0};
+    size_t i = 1;
+    for (; i + WIDE <= n; i += WIDE) {
+        wide z, f, z_before, f_before;
+        wide_load(&z, height + i);
+        wide_load(&f, force + i);
+        wide_load(&z_before, height + i - 1);
+        wide_load(&f_before, force + i - 1);
+        sum += 0.0 * z + 0.0 * f;
+        same |= (z == z_before) & (f == f_before);
+    }
+    bool good = !isnan(wide_sum(&sum)) && isfinite(height[0]) && isfinite(force[0]) &&
+                (same[0] | same[1] | same[2] | same[3]) == 0;
+    for (; i < n && good; i++)
+        good = isfinite(height[i]) && isfinite(force[i]) &&
+               (height[i] != height[i - 1] || force[i] != force[i - 1]);
+    return good;
+}
+
+/* Copies the good samples; the direction is not yet known. */
+static size_t clean(const double *height, const double *force, size_t n, curve_input *input)
+{
+    size_t kept = 0;
+    if (all_good(height, force, n)) {
+        memcpy(input->samples.position, height, n * sizeof *height);
+        memcpy(input->samples.force, force, n * sizeof *force);
+        return n;
+    }
+    for (size_t i = 0; i < n; i++) {
+        if (!isfinite(height[i]) || !isfinite(force[i])) {
+            input->n_missing++;
+        } else if (kept > 0 && height[i] == input->samples.position[kept - 1] &&
+                   force[i] == input->samples.force[kept - 1]) {
+            input->n_repeated++;
+        } else {
+            input->samples.position[kept] = height[i];
+            input->samples.force[kept++] = force[i];
+        }
+    }
+    return kept;
+}
+
+static double median_of(const double *x, size_t n)
+{
+    double sorted[SPIKE_SIDE];
+    for (size_t i = 0; i < n; i++) { /* by insertion: they are few */
+        size_t j = i;
+        for (; j > 0 && sorted[j - 1] > x[i]; j--)
+            sorted[j] = sorted[j - 1];
+        sorted[j] = x[i];
+    }
+    return n % 2 == 1 ? sorted[n / 2] : 0.5 * (sorted[n / 2 - 1] + sorted[n / 2]);
+}
+
+static bool above_most(const double side[SPIKE_SIDE], double x)
+{
+    int n = 0;
+    for (size_t i = 0; i < SPIKE_SIDE; i++)
+        n += side[i] < x;
+    return 2 * n > SPIKE_SIDE;
+}
+
+/* Does the force go on from sample i as a contact does at its end? Most of what follows is not
+ * below it then, and the last step grows by less than a factor 3 (the second one of a force that
+ * goes with the square of the depth). */
+static bool goes_on(const curve_samples *s, size_t i, size_t kept, double far)
+{
+    const double x = s->force[i], step = s->force[kept - 1] - s->force[kept - 2];
+    size_t above = 0;
+    for (size_t j = i + 1; j < s->n; j++)
+        above += s->force[j] > x - 0.5 * far;
+    return i + 1 < s->n ? 2 * above > s->n - i - 1
+                        : x - s->force[kept - 1] < far + end_step * fabs(step);
+}
+
+/* Is sample i, of which `kept` before it are left, far outside what lies before and behind it? A
+ * step has one side to agree with, a snap-on a step or a neighbour beside it. At an end there is
+ * one side only, and how that goes on. */
+static bool is_spike(const curve_samples *s, size_t i, size_t kept, double far)
+{
+    const double x = s->force[i], *right = s->force + i + 1;
+    const bool start = kept < SPIKE_SIDE;
+    const double *left = start ? NULL : s->force + kept - SPIKE_SIDE;
+    if (start ? i + 2 * SPIKE_SIDE >= s->n : kept < 2 * SPIKE_SIDE)
+        return false;
+    if (start || i + SPIKE_SIDE >= s->n) {
+        const double level = median_of(start ? right : left, SPIKE_SIDE);
+        const double next = median_of(start ? right + SPIKE_SIDE : left - SPIKE_SIDE, SPIKE_SIDE);
+        return x - level > far + 2.0 * fabs(level - next) && (start || !goes_on(s, i, kept, far));
+    }
+    const double beside = fmin(s->force[kept - 1], s->force[i + 1]) - x;
+    if (!(beside > far) && !(above_most(left, x - 0.5 * far) && above_most(right, x - 0.5 * far)))
+        return false; /* medians cost more */
+    const double before = median_of(left, SPIKE_SIDE), behind = median_of(right, SPIKE_SIDE);
+    const double above = x - fmax(before, behind), below = fmin(before, behind) - x;
+    return above > far || (beside > far && below > fmax(far, spike_step * fabs(before - behind)));
+}
+
+/* The first sample from i on, which is not the first of all, that is far from the one before, or
+ * near the end. */
+WIDE_REGISTERS static size_t quiet_until(const curve_samples *s, size_t i, double far)
+{
+    const double *force = s->force;
+    while (i >= SPIKE_SIDE && i + SPIKE_SIDE + WIDE < s->n) {
+        wide now, before;
+        wide_load(&now, force + i);
+        wide_load(&before, force + i - 1);
+        const wide step = now - before;
+        const wide_bits any = (step > far) | (-step > far);
+        if ((any[0] | any[1] | any[2] | any[3]) != 0)
+            break;
+        i += WIDE;
+    }
+    return i;
+}
+
+/* Returns how many spikes it leaves out. */
+static size_t leave_out_spikes(curve_samples *s, double far)
+{
+    size_t kept = 0;
+    bool after_spike = true; /* or at an end */
+    for (size_t i = 0; i < s->n; i++) {
+        if (kept == i && !after_spike)
+            i = kept = quiet_until(s, i, 0.5 * far);
+        const bool end = kept < SPIKE_SIDE || i + SPIKE_SIDE >= s->n;
+        const bool spike =
+            (end || after_spike || fabs(s->force[i] - s->force[kept - 1]) > 0.5 * far) &&
+            is_spike(s, i, kept, far);
+        after_spike = spike;
+        if (spike)
+            continue;
+        s->position[kept] = s->position[i];
+        s->force[kept++] = s->force[i];
+    }
+    const size_t spikes = s->n - kept;
+    s->n = kept;
+    return spikes;
+}
+
+/* Samples up to where the force passes the limit above its start: halfway between the first
+ * above and the last below. */
+static size_t limit_force(const curve_samples *s, const wt_indent_options *o)
+{
+    const double start = mean(s->force, s->n / 10), max = curve_span_of(s->force, s->n).high;
+    double limit = start + o->fit_force_fraction * (max - start);
+    if (o->fit_force > 0.0)
+        limit = fmin(limit, start + o->fit_force);
+    size_t first_above = s->n, last_below = 0;
+    for (size_t i = 0; i < s->n; i++) {
+        if (s->force[i] > limit && i < first_above)
+            first_above = i;
+        if (s->force[i] <= limit)
+            last_below = i;
+    }
+    return (first_above + last_below + 1) / 2;
+}
+
+void curve_say(char reason[160], const char *format, ...)
+{
+    va_list arguments;
+    va_start(arguments, format);
+    clocale_vprint(reason, 160, format, arguments);
+    va_end(arguments);
+}
+
+si_text curve_si(double value, const char *unit)
+{
+    si_text text;
+    wt_format_si(value, unit, 3, text.words, sizeof text.words);
+    return text;
+}
+
+/* The direction of the piezo, and origins that keep the digits of sums. */
+WIDE_REGISTERS static wt_curve_verdict turn_and_centre(curve_input *input, char reason[160])
+{
+    curve_samples *s = &input->samples;
+    const size_t end = s->n / 20 + 1;
+    const curve_span all = curve_span_of(s->position, s->n);
+    const double travel = mean(s->position + s->n - end, end) - mean(s->position, end);
+    if (!(fabs(travel) > travel_share * (all.high - all.low))) {
+        curve_say(reason, "the height does not go one way: from start to end %s in a range of %s",
+                  curve_si(travel, "m").words, curve_si(all.high - all.low, "m").words);
+        return WT_CURVE_NO_APPROACH;
+    }
+    input->direction = travel > 0.0 ? 1.0 : -1.0;
+    const double direction = input->direction,
+                 position_origin = input->position_origin = direction * mean(s->position, s->n),
+                 force_origin = input->force_origin = mean(s->force, s->n);
+    double *restrict position = s->position, *restrict force = s->force;
+    for (size_t i = 0; i < s->n; i++) {
+        position[i] = direction * position[i] - position_origin;
+        force[i] -= force_origin;
+    }
+    return WT_CURVE_ACCEPTED;
+}
+
+/* A tip that hardly goes in, or backwards. */
+static wt_curve_verdict advance_verdict(const curve_input *input, char reason[160])
+{
+    const double advance = advance_per_bending(&input->samples, input->step_noise) - 1.0;
+    if (advance > -1.0 && advance < -rigid_share) { /* below -1: a force of the wrong sign */
+        curve_say(reason,
+                  "the lever bends %.3g times as far as the piezo moves: deflection sensitivity, "
+                  "spring constant or a unit is wrong",
+                  1.0 / (1.0 + advance));
+        return WT_CURVE_RIGID;
+    }
+    if (fabs(advance) < rigid_share) {
+        curve_say(
+            reason,
+            "the tip advances %.1f %% of the bending of the lever, %g %% needed to tell a modulus",
+            100.0 * advance, 100.0 * rigid_share);
+        return WT_CURVE_RIGID;
+    }
+    return WT_CURVE_ACCEPTED;
+}
+
+wt_curve_verdict curve_prepare(const double *height, const double *force, size_t n,
+                               double spring_constant, const wt_indent_options *options,
+                               wt_indent_workspace *w, curve_input *input, char reason[160])
+{
+    *input = (curve_input){.samples = {.position = w->position,
+                                       .force = w->force,
+                                       .spring_constant = spring_constant}};
+    curve_samples *s = &input->samples;
+    s->n = clean(height, force, n, input);
+    if ((double)input->n_missing > missing_share * (double)n) {
+        curve_say(reason, "%zu of %zu samples are not numbers, %g %% allowed", input->n_missing, n,
+                  100.0 * missing_share);
+        return WT_CURVE_NOT_FINITE;
+    }
+    if (s->n < CURVE_MIN_SAMPLES) {
+        curve_say(reason, "%zu different samples, %d needed", s->n, CURVE_MIN_SAMPLES);
+        return WT_CURVE_TOO_SHORT;
+    }
+
+    double resolution = 0.0;
+    input->step_noise = difference_noise(s, w->scratch, &resolution);
+    const double far = spike_noise * fmax(input->step_noise, resolution);
+    if (far > 0.0) /* once: again, it would wear down a contact that is noisier than the baseline */
+        input->n_spikes = leave_out_spikes(s, far);
+    if ((double)input->n_spikes > spike_share * (double)n) {
+        curve_say(reason, "%zu of %zu samples are spikes, %g %% allowed", input->n_spikes, n,
+                  100.0 * spike_share);
+        return WT_CURVE_NOT_FINITE;
+    }
+
+    const wt_curve_verdict verdict = turn_and_centre(input, reason);
+    if (verdict != WT_CURVE_ACCEPTED)
+        return verdict;
+
+    input->n_all = s->n;
+    size_t top = 0;
+    if (options->fit_force_fraction < 1.0 || options->fit_force > 0.0) {
+        input->saturated = flat_top(s, input->step_noise, resolution, &top);
+        s->n = limit_force(s, options);
+    }
+    if (s->n < CURVE_MIN_SAMPLES) {
+        curve_say(reason, "%zu samples below the limit of the force, %d needed", s->n,
+                  CURVE_MIN_SAMPLES);
+        return WT_CURVE_TOO_SHORT;
+    }
+
+    if (flat_top(s, input->step_noise, resolution, &top)) {
+        const double level = s->force[top] - mean(s->force, s->n / 10);
+        const double travelled = s->position[s->n - 1] - s->position[top];
+        input->flat_level = level;
+        curve_say(
+            reason,
+            "force stands still at %s above its start over the last %zu samples (%s of travel)",
+            curve_si(level, "N").words, s->n - top, curve_si(travelled, "m").words);
+        return WT_CURVE_SATURATED;
+    }
+    return advance_verdict(input, reason);
+}
+
+void curve_reverse(curve_samples *s)
+{
+    numbers_reverse(s->position, s->n);
+    numbers_reverse(s->force, s->n);
+    for (size_t i = 0; i < s->n; i++)
+        s->position[i] = -s->position[i];
+}

@@ -1,0 +1,552 @@
+/* Dwell on a rubber: one relaxation modulus through approach and dwell, by the hereditary integral
+ * of Lee and Radok over the heights as they were measured, with the lever in balance.
+ *
+ * Of the spectrum a dwell of two decades tells little more than its height, its slope and whether
+ * it bends: H = rise exp(slope x + bend x^2/2 + bumps), x = ln(tau/t) about the middle of the
+ * dwell, and a modulus that does not relax. What slope, bend and bumps may be of a rubber is said
+ * beforehand, and so is the drift of the force, which a constant rate of approach does not tell
+ * from a tilt; the error by that is shared by curves of one kind.
+ *
+ * SPDX-License-Identifier: GPL-3.0-or-later
+ */
+#include "indentation/numerics/relaxation.h"
+
+#include "core/math/gsl_quiet.h"
+#include "dma/law/prony_law.h"
+#include "indentation/law/hereditary.h"
+#include "indentation/law/tip.h"
+#include "indentation/numerics/curve_model.h"
+
+#include <gsl/gsl_cdf.h>
+#include <gsl/gsl_linalg.h>
+#include <math.h>
+
+/* The parameters; bumps lie as far apart as they are wide, a seventh of one and a half times what
+ * the dwell tells of ln tau; a cosine and a sine of two ripples. */
+enum { POINT, OFFSET, TILT, DRIFT, LEVEL, RISE, SLOPE, BEND, BUMP, BUMPS = 8 };
+enum { N_PARAMETERS = BUMP + BUMPS, RIPPLES = 4 };
+/* Steps of the force within one of the means of the approach, over which the depth is linear. */
+enum { SUBSTEPS = 4 };
+/* Terms of the series: those of four a decade ripple by 1e-7 (dma/numerics/master_fit.c), and 64
+ * are sixteen decades, more than a dwell has with both ends. */
+enum { MOST_TERMS = 64, TERMS_PER_DECADE = 4 };
+/* A bound of time for what does not settle. */
+enum { MAX_STEPS = 60 };
+/* Frequencies that are told: as many as there are terms, for they are no more independent. */
+enum { PER_DECADE = 4 };
+/* Standard deviations that are believed of the spectrum, H in the logarithm: of its slope, which is
+ * -1/2 in Rouse's law and above -1 and below 1 in what a modulus shows (dma/numerics/master_fit.c);
+ * of its bend over an e-fold of time and of bumps, 20 % of H. Beliefs: a dwell tells slope and
+ * level against them, and bend and bumps are what its intervals hold beyond; twice as wide, they
+ * are wider by about as much where the dwell tells neither. */
+static const double usual_slope = 0.5, usual_bend = 0.15, usual_bump = 0.2;
+/* How far the series goes beyond what was measured: a term that is slower by 30 relaxes by 3 %. */
+static const double beyond = 30;
+/* Of ripples on the spectrum that are looked for, in ln tau: about the width of one relaxation
+ * time, 1.14 decades, as single ones make them. */
+static const double period[RIPPLES / 2] = {M_LN10, 1.5 * M_LN10};
+/* Of differences for derivatives: about the root of what rounding leaves, 1e-10 of it. */
+static const double derivative_step = 1e-5;
+/* Relative fall of the sum of squares at which a fit ends: 1e-4 of a standard error. */
+static const double converged = 1e-8;
+/* Of the indentation at the beginning of the dwell what is left at its end, less than which is no
+ * dwell at constant height or force: Ting's law for a contact that shrinks is not in the fit. 5 %
+ * of indentation are 8 to 10 % of a force. */
+static const double fell = 0.95;
+/* The customary level at which a law is said not to describe what was measured. */
+static const double least_chance = 0.01;
+
+typedef struct dwell_task {
+    const wt_contact_table *table;
+    const wt_dwell_history *history;
+    dwell_nodes nodes;
+    hereditary law;
+    size_t n_terms;
+    double time[MOST_TERMS], modulus[MOST_TERMS], width; /* of a term in ln tau */
+    double middle;                                       /* time of x = 0 */
+    double bump[BUMPS], bump_width;                      /* places, in x */
+    double ripple[RIPPLES];    /* of cosine and sine of each period; 0 but where they are tried */
+    double unit[N_PARAMETERS]; /* of the parameters, so that all are of the order of 1 */
+    double sd[N_PARAMETERS];   /* known beforehand, in these; 0: nothing is */
+    double *residual, *shifted, *depth, *pressed; /* [n] */
+    double *jacobian;                             /* [N_PARAMETERS][n] */
+    double *rippled;                              /* [RIPPLES][n] derivatives by the ripples */
+} dwell_task;
+
+/* Terms from well below the first time of the dwell to well above the last. */
+static void make_terms(dwell_task *t)
+{
+    const dwell_nodes *n = &t->nodes;
+    const double load = n->time[n->first_held - 1] - n->time[n->first_pressed],
+                 first = n->time[n->first_held] - n->time[n->first_held - 1],
+                 last = n->time[n->first_free - 1] - n->time[n->first_pressed];
+    const double low = log(fmin(load, first) / beyond), high = log(last * beyond);
+    t->middle = sqrt(load * last);
+    t->bump_width = 1.5 * log(last / load) / (BUMPS - 1);
+    for (size_t k = 0; k < BUMPS; k++)
+        t->bump[k] = 1.5 * log(last / load) * ((double)k / (BUMPS - 1) - 0.5);
+    t->width = M_LN10 / TERMS_PER_DECADE;
+    t->n_terms = (size_t)((high - low) / t->width) + 1;
+    if (t->n_terms > MOST_TERMS) {
+        t->n_terms = MOST_TERMS;
+        t->width = (high - low) / (MOST_TERMS - 1);
+    }
+    for (size_t i = 0; i < t->n_terms; i++)
+        t->time[i] = exp(low + t->width * (double)i);
+}
+
+/* LEVEL is the logarithm of the relaxation modulus at the middle of the dwell, which the spectrum
+ * hardly moves, RISE the spectrum there, of that modulus. Returns what of it does not relax. */
+static double make_moduli(dwell_task *t, const double *p)
+{
+    const double level = t->history->modulus * exp(p[LEVEL]), rise = p[RISE] * level * t->width;
+    double rest = level;
+    for (size_t i = 0; i < t->n_terms; i++) {
+        const double x = log(t->time[i] / t->middle);
+        double ln = p[SLOPE] * x + 0.5 * p[BEND] * x * x;
+        for (size_t k = 0; k < BUMPS; k++) {
+            const double off = (x - t->bump[k]) / t->bump_width;
+            ln += p[BUMP + k] * exp(-0.5 * off * off);
+        }
+        for (size_t k = 0; k < RIPPLES; k += 2) {
+            const double turn = 2 * M_PI * x / period[k / 2];
+            ln += t->ripple[k] * cos(turn) + t->ripple[k + 1] * sin(turn);
+        }
+        t->modulus[i] = rise * exp(ln);
+        rest -= t->modulus[i] * exp(-t->middle / t->time[i]);
+    }
+    return rest;
+}
+
+/* Storage and loss modulus at an angular frequency. */
+static void moduli_at(dwell_task *t, const double *p, double omega, double to[2])
+{
+    to[0] = make_moduli(t, p);
+    to[1] = 0;
+    for (size_t i = 0; i < t->n_terms; i++)
+        prony_add(t->modulus[i], t->time[i], omega, &to[0], &to[1]);
+}
+
+/* What a mean over a time has more than the middle of it, where the force bends. */
+static void bend_means(const dwell_nodes *n, const double *pressed, double *force)
+{
+    const size_t part[] = {n->first_pressed, n->first_held - 1, n->first_held, n->first_free};
+    for (size_t j = 0; j < sizeof part / sizeof part[0]; j += 2)
+        for (size_t i = part[j] + 1; i + 1 < part[j + 1]; i++) {
+            const double before = n->time[i] - n->time[i - 1], after = n->time[i + 1] - n->time[i],
+                         width = n->to[i] - n->from[i];
+            const double second =
+                2 *
+                ((pressed[i + 1] - pressed[i]) / after - (pressed[i] - pressed[i - 1]) / before) /
+                (before + after);
+            force[i] += second * width * width / 24 * (1 - 1 / (n->count[i] * n->count[i]));
+        }
+}
+
+/* Forces of the nodes; and the indentation, unless NULL. */
+static void predict_forces(dwell_task *t, const double *p, double *force, double *depth)
+{
+    const dwell_nodes *n = &t->nodes;
+    const wt_dwell_history *h = t->history;
+    const double nu = h->poisson_ratio, k = h->spring_constant;
+    hereditary *law = &t->law;
+    double before = 0, start = 0;
+    const double rest = make_moduli(t, p);
+    const wt_prony series = {.equilibrium_modulus = rest,
+                             .n = t->n_terms,
+                             .relaxation_time = t->time,
+                             .modulus = t->modulus};
+    hereditary_begin(law, &series, 1 / (1 - nu * nu), t->time[0],
+                     n->time[n->first_free - 1] - n->time[0]);
+    for (size_t i = 0; i < law->n; i++)
+        law->memory[0][i] = 0;
+    for (size_t i = 0; i < n->n; i++) {
+        const double z = n->position[i] - h->contact_point - p[POINT] * t->unit[POINT];
+        double g = 0, slope = 0, pressed = 0, x = 0;
+        t->pressed[i] = 0;
+        force[i] = p[OFFSET] * t->unit[OFFSET] + p[TILT] * t->unit[TILT] * z +
+                   p[DRIFT] * t->unit[DRIFT] * (n->time[i] - n->time[n->first_held - 1]);
+        if (i == 0 || i >= n->first_free || (before <= 0 && !(z > 0)))
+            continue;
+        const double last = n->position[i - 1] - h->contact_point - p[POINT] * t->unit[POINT];
+        hereditary_step(law, (n->time[i] - n->time[i - 1]) / SUBSTEPS);
+        for (int j = 1; j <= SUBSTEPS; j++) {
+            const double at = last + (z - last) * j / SUBSTEPS,
+                         faded = hereditary_fade(law, law->memory[0]),
+                         now = hereditary_force(law, 0, 0, 1),
+                         past = hereditary_force(law, faded, before, 0);
+            g = x = pressed = 0;
+            if (k * at > past && now > 0 && at > 0) {
+                x = curve_balanced_depth(t->table, k, at, 1, past, now, start, &g, &slope);
+                pressed = past + now * g;
+            }
+            hereditary_add(law, law->memory[0], g - before);
+            before = g;
+            start = x;
+        }
+        force[i] += t->pressed[i] = pressed;
+        if (depth != NULL)
+            depth[i] = x;
+    }
+    bend_means(n, t->pressed, force);
+}
+
+/* Divided by the factor of the covariance. */
+static void whiten_residual(const dwell_nodes *n, double *x)
+{
+    for (size_t i = 0; i < n->n; i++) {
+        for (size_t k = 0; k < i; k++)
+            x[i] -= gsl_matrix_get(n->factor, i, k) * x[k];
+        x[i] /= gsl_matrix_get(n->factor, i, i);
+    }
+}
+
+/* Whitened residuals; the sum of squares with what is known beforehand. */
+static double cost_of(dwell_task *t, const double *p, double *residual)
+{
+    double sum = 0;
+    predict_forces(t, p, residual, NULL);
+    for (size_t i = 0; i < t->nodes.n; i++)
+        residual[i] = t->nodes.force[i] - residual[i];
+    whiten_residual(&t->nodes, residual);
+    for (size_t i = 0; i < t->nodes.n; i++)
+        sum += residual[i] * residual[i];
+    for (size_t a = 0; a < N_PARAMETERS; a++)
+        sum += t->sd[a] > 0 ? p[a] * p[a] / (t->sd[a] * t->sd[a]) : 0;
+    return sum;
+}
+
+/* J'J with what is known beforehand, and J'r. */
+static void dwell_equations(dwell_task *t, const double *p, double jj[N_PARAMETERS][N_PARAMETERS],
+                            double jr[N_PARAMETERS])
+{
+    const size_t n = t->nodes.n;
+    for (size_t a = 0; a < N_PARAMETERS; a++) {
+        double there[N_PARAMETERS], *column = t->jacobian + a * n;
+        for (size_t b = 0; b < N_PARAMETERS; b++)
+            there[b] = p[b] + (b == a ? derivative_step : 0);
+        (void)cost_of(t, there, column);
+        for (size_t i = 0; i < n; i++)
+            column[i] = (t->residual[i] - column[i]) / derivative_step;
+    }
+    for (size_t a = 0; a < N_PARAMETERS; a++) {
+        const double own = t->sd[a] > 0 ? 1 / (t->sd[a] * t->sd[a]) : 0;
+        jr[a] = curve_dot(t->jacobian + a * n, t->residual, n) - own * p[a];
+        for (size_t b = 0; b < N_PARAMETERS; b++)
+            jj[a][b] = curve_dot(t->jacobian + a * n, t->jacobian + b * n, n) + (a == b ? own : 0);
+    }
+}
+
+/* Levenberg and Marquardt in the first n parameters; the sum of squares, NaN where nothing came of
+ * it. */
+static double fit_parameters(dwell_task *t, size_t n, double p[N_PARAMETERS],
+                             double jj[N_PARAMETERS][N_PARAMETERS])
+{
+    double cost = cost_of(t, p, t->residual), damping = 1e-3, jr[N_PARAMETERS];
+    for (int step = 0; step < MAX_STEPS; step++) {
+        double damped[N_PARAMETERS][N_PARAMETERS], next[N_PARAMETERS], there;
+        dwell_equations(t, p, jj, jr);
+        do {
+            for (size_t a = 0; a < N_PARAMETERS; a++) {
+                for (size_t b = 0; b < N_PARAMETERS; b++)
+                    damped[a][b] = jj[a][b] * (a == b ? 1 + damping : 1);
+                next[a] = a < n ? jr[a] : 0;
+            }
+            gsl_matrix_view matrix =
+                gsl_matrix_view_array_with_tda(&damped[0][0], n, n, N_PARAMETERS);
+            gsl_vector_view x = gsl_vector_view_array(next, n);
+            there = (double)NAN;
+            if (gsl_linalg_cholesky_decomp1(&matrix.matrix) == GSL_SUCCESS &&
+                gsl_linalg_cholesky_svx(&matrix.matrix, &x.vector) == GSL_SUCCESS) {
+                for (size_t a = 0; a < N_PARAMETERS; a++)
+                    next[a] += p[a];
+                there = cost_of(t, next, t->shifted);
+            }
+            damping *= there <= cost ? 0.1 : 4;
+        } while (!(there <= cost) && damping < 1e12);
+        if (!(there <= cost))
+            return isfinite(cost) ? cost : (double)NAN;
+        const double gain = cost - there;
+        for (size_t a = 0; a < N_PARAMETERS; a++)
+            p[a] = next[a];
+        cost = cost_of(t, p, t->residual);
+        if (gain <= converged * cost)
+            break;
+    }
+    dwell_equations(t, p, jj, jr);
+    return cost;
+}
+
+/* ---- what is told ---------------------------------------------------------------------------- */
+
+/* Chance that noise, and what is assumed of the spectrum, leave as much of its ripples: single
+ * relaxation times are seen by them long before all of the misfit shows that something is off. NaN
+ * where what is fitted leaves nothing of a ripple, or noise decides: then it was not tested. */
+static double ripple_chance(dwell_task *t, const double *p, const gsl_matrix *covariance)
+{
+    const size_t n = t->nodes.n;
+    double along[RIPPLES][N_PARAMETERS], m[RIPPLES][RIPPLES], left[RIPPLES], solved[RIPPLES],
+        sum = 0;
+    for (size_t k = 0; k < RIPPLES; k++) {
+        double *column = t->rippled + k * n;
+        t->ripple[k] = derivative_step;
+        (void)cost_of(t, p, column);
+        t->ripple[k] = 0;
+        for (size_t i = 0; i < n; i++)
+            column[i] = (t->residual[i] - column[i]) / derivative_step;
+        for (size_t a = 0; a < N_PARAMETERS; a++)
+            along[k][a] = curve_dot(t->jacobian + a * n, column, n);
+        solved[k] = left[k] = curve_dot(column, t->residual, n);
+    }
+    for (size_t k = 0; k < RIPPLES; k++)
+        for (size_t l = 0; l < RIPPLES; l++) {
+            m[k][l] = curve_dot(t->rippled + k * n, t->rippled + l * n, n);
+            for (size_t a = 0; a < N_PARAMETERS; a++)
+                for (size_t b = 0; b < N_PARAMETERS; b++)
+                    m[k][l] -= along[k][a] * gsl_matrix_get(covariance, a, b) * along[l][b];
+        }
+    gsl_matrix_view matrix = gsl_matrix_view_array(&m[0][0], RIPPLES, RIPPLES);
+    gsl_vector_view x = gsl_vector_view_array(solved, RIPPLES);
+    if (gsl_linalg_cholesky_decomp1(&matrix.matrix) != GSL_SUCCESS ||
+        gsl_linalg_cholesky_svx(&matrix.matrix, &x.vector) != GSL_SUCCESS)
+        return (double)NAN;
+    for (size_t k = 0; k < RIPPLES; k++)
+        sum += left[k] * solved[k];
+    return gsl_cdf_chisq_Q(sum, RIPPLES);
+}
+
+/* g' C g, and of it what curves share by what was known beforehand; `scale`: of the noise. */
+static void errors_of(const dwell_task *t, const gsl_matrix *covariance, const double *gradient,
+                      double scale, double *error, double *common)
+{
+    double all = 0, shared = 0;
+    for (size_t a = 0; a < N_PARAMETERS; a++) {
+        double row = 0;
+        for (size_t b = 0; b < N_PARAMETERS; b++)
+            row += gsl_matrix_get(covariance, a, b) * gradient[b];
+        all += gradient[a] * row;
+        shared += t->sd[a] > 0 ? row * row / (t->sd[a] * t->sd[a]) : 0;
+    }
+    *common = sqrt(shared) * (isnan(scale) ? scale : 1);
+    *error = isnan(scale) ? scale : sqrt(fmax(0, all - shared) * scale + shared);
+}
+
+/* The frequencies of a grid that all curves have in common, between one over the times from contact
+ * to the ends of the dwell. */
+static void tell_moduli(dwell_task *t, const double *p, const gsl_matrix *covariance, double scale,
+                        wt_dwell *to)
+{
+    /* No error is known of what the model does not describe. */
+    const double known = to->misfit_chance >= least_chance ? 1 : (double)NAN;
+    const double low = ceil(-log10(to->load_time + to->duration) * PER_DECADE),
+                 high = floor(-log10(to->load_time) * PER_DECADE);
+    for (double at = low; at <= high && to->n < WT_DWELL_FREQUENCIES; at++) {
+        wt_dwell_moduli *m = &to->moduli[to->n++];
+        double value[2], there[2], gradient[2][N_PARAMETERS] = {{0}};
+        m->angular_frequency = pow(10, at / PER_DECADE);
+        moduli_at(t, p, m->angular_frequency, value);
+        for (size_t a = LEVEL; a < N_PARAMETERS; a++) {
+            double q[N_PARAMETERS];
+            for (size_t b = 0; b < N_PARAMETERS; b++)
+                q[b] = p[b] + (b == a ? derivative_step : 0);
+            moduli_at(t, q, m->angular_frequency, there);
+            for (size_t k = 0; k < 2; k++)
+                gradient[k][a] = (there[k] - value[k]) / derivative_step;
+        }
+        m->storage = (wt_estimate){.value = value[0], .unit = "Pa"};
+        m->loss = (wt_estimate){.value = value[1], .unit = "Pa"};
+        errors_of(t, covariance, gradient[0], known * scale, &m->storage.standard_error,
+                  &m->storage_common_error);
+        errors_of(t, covariance, gradient[1], known * scale, &m->loss.standard_error,
+                  &m->loss_common_error);
+    }
+}
+
+/* Contact and baseline, and what of them curves share in the indentation. */
+static void tell_place(const dwell_task *t, const double *p, const gsl_matrix *covariance,
+                       wt_dwell *to)
+{
+    const dwell_nodes *n = &t->nodes;
+    const size_t last = n->first_free - 1;
+    const double k = t->history->spring_constant;
+    const bool described = to->misfit_chance >= least_chance;
+    double gradient[N_PARAMETERS] = {0}, all;
+    to->contact_point = t->history->contact_point + p[POINT] * t->unit[POINT];
+    to->baseline_offset = p[OFFSET] * t->unit[OFFSET];
+    to->baseline_tilt = p[TILT] * t->unit[TILT];
+    to->drift = p[DRIFT] * t->unit[DRIFT];
+    to->drift_from = n->time[n->first_held - 1];
+    gradient[POINT] = -t->unit[POINT] * (1 + to->baseline_tilt / k);
+    gradient[OFFSET] = t->unit[OFFSET] / k;
+    gradient[TILT] = t->unit[TILT] * (n->position[last] - to->contact_point) / k;
+    gradient[DRIFT] = t->unit[DRIFT] * (n->time[last] - to->drift_from) / k;
+    errors_of(t, covariance, gradient, described ? 1 : (double)NAN, &all,
+              &to->indentation_common_error);
+}
+
+static void tell_points(dwell_task *t, const double *p, wt_dwell *to)
+{
+    const dwell_nodes *n = &t->nodes;
+    const double nu = t->history->poisson_ratio, k = t->history->spring_constant;
+    predict_forces(t, p, t->shifted, t->depth);
+    for (size_t i = n->first_held; i < n->first_free; i++) {
+        wt_dwell_point *point = &to->point[to->n_points++];
+        const double z = n->position[i] - t->history->contact_point - p[POINT] * t->unit[POINT];
+        const double baseline =
+            p[OFFSET] * t->unit[OFFSET] + p[TILT] * t->unit[TILT] * z +
+            p[DRIFT] * t->unit[DRIFT] * (n->time[i] - n->time[n->first_held - 1]);
+        double g[2];
+        point->time = n->time[i] - n->from[n->first_held] + to->load_time;
+        point->force = n->force[i] - baseline;
+        point->indentation = z - point->force / k;
+        wt_contact_table_eval(t->table, &point->indentation, 1, &g[0], NULL);
+        wt_contact_table_eval(t->table, &t->depth[i], 1, &g[1], NULL);
+        point->modulus = point->force * (1 - nu * nu) / g[0];
+        point->fitted = (t->shifted[i] - baseline) * (1 - nu * nu) / g[1];
+    }
+    const wt_dwell_point *first = &to->point[0], *last = &to->point[to->n_points - 1];
+    to->creep = fabs(n->position[n->first_free - 1] - n->position[n->first_held]) * k >
+                fabs(last->force - first->force);
+    if (last->indentation < fell * first->indentation)
+        to->why_not = "the indentation falls in it, of which the law holds nothing";
+    if (!contact_law_holds(contact_table_tip(t->table),
+                           fmax(first->indentation, last->indentation)))
+        to->why_not = "deeper than the contact law of the tip holds";
+}
+
+/* Time from where the means cross the contact point to the dwell. */
+static double load_time(const dwell_task *t, const double *p)
+{
+    const dwell_nodes *n = &t->nodes;
+    const double c = t->history->contact_point + p[POINT] * t->unit[POINT];
+    size_t i = n->first_pressed;
+    while (i < n->first_held && n->position[i] < c)
+        i++;
+    if (i == 0 || i == n->first_held)
+        return (double)NAN;
+    const double part = (c - n->position[i - 1]) / (n->position[i] - n->position[i - 1]);
+    return n->from[n->first_held] - n->time[i - 1] - part * (n->time[i] - n->time[i - 1]);
+}
+
+/* Of the smaller of two. One test alone can say that the law does not describe the dwell; that it
+ * does needs both, for the misfit as a whole is blind to what the ripples see. */
+static double chance_of_two(double misfit, double ripples)
+{
+    if (isnan(ripples))
+        return misfit * (2 - misfit) < least_chance ? misfit * (2 - misfit) : (double)NAN;
+    const double chance = fmin(misfit, ripples);
+    return chance * (2 - chance);
+}
+
+static void tell_relaxation(dwell_task *t, const double *p, double cost,
+                            double jj[N_PARAMETERS][N_PARAMETERS], wt_dwell *to)
+{
+    const dwell_nodes *n = &t->nodes;
+    const double freedom = (double)(n->n - N_PARAMETERS);
+    gsl_matrix_view matrix = gsl_matrix_view_array(&jj[0][0], N_PARAMETERS, N_PARAMETERS);
+    to->load_time = load_time(t, p);
+    if (!(cost >= 0) || !(to->load_time > 0) ||
+        gsl_linalg_cholesky_decomp1(&matrix.matrix) != GSL_SUCCESS ||
+        gsl_linalg_cholesky_invert(&matrix.matrix) != GSL_SUCCESS) {
+        to->why_not = "no relaxation modulus goes through approach and dwell";
+        return;
+    }
+    to->duration = n->to[n->first_free - 1] - n->from[n->first_held];
+    to->misfit = cost / freedom;
+    to->misfit_chance =
+        chance_of_two(gsl_cdf_chisq_Q(cost, freedom), ripple_chance(t, p, &matrix.matrix));
+    tell_points(t, p, to);
+    if (to->why_not[0] != '\0')
+        return;
+    tell_place(t, p, &matrix.matrix, to);
+    tell_moduli(t, p, &matrix.matrix, fmax(1, to->misfit), to);
+    if (to->n == 0)
+        to->why_not = "too short beside its loading";
+    to->found = to->n > 0;
+}
+
+/* Of an elastic sample, which is where the search begins. */
+static void begin_elastic(dwell_task *t, double p[N_PARAMETERS])
+{
+    const wt_dwell_history *h = t->history;
+    const dwell_nodes *n = &t->nodes;
+    const double deep = h->position[h->n_approach - 1] - h->contact_point,
+                 largest = n->force[n->first_held - 1] - h->baseline_offset,
+                 time = n->time[n->first_free - 1] - n->time[0];
+    const double unit[] = {deep, largest, largest / deep, largest / time};
+    const double rate = (n->position[n->first_held - 1] - n->position[0]) /
+                        (n->time[n->first_held - 1] - n->time[0]);
+    for (size_t a = 0; a < N_PARAMETERS; a++) {
+        t->unit[a] = a <= DRIFT ? unit[a] : 1;
+        t->sd[a] = a >= BUMP ? usual_bump : 0;
+    }
+    t->sd[SLOPE] = usual_slope;
+    t->sd[BEND] = usual_bend;
+    /* The tilt may all be drift, or none of it. */
+    t->sd[DRIFT] = hypot(h->baseline_tilt.value, h->baseline_tilt.standard_error) * fabs(rate) /
+                   t->unit[DRIFT];
+    if (!(t->sd[DRIFT] > 0))
+        t->sd[DRIFT] = 1;
+    p[RISE] = 0.05;
+    p[OFFSET] = h->baseline_offset / t->unit[OFFSET];
+    p[TILT] = h->baseline_tilt.value / t->unit[TILT];
+}
+
+static const char *why_no_relaxation(const wt_dwell_history *h)
+{
+    const size_t n = h->n_approach + h->n_dwell + h->n_retract;
+    if (!(h->spring_constant > 0) || !(h->modulus > 0) || !isfinite(h->contact_point) ||
+        !isfinite(h->baseline_offset) || !isfinite(h->baseline_tilt.value))
+        return "no contact point from the approach";
+    for (size_t i = 0; i < n; i++) {
+        if (!isfinite(h->time[i]) || !isfinite(h->position[i]) || !isfinite(h->force[i]))
+            return "samples without a number";
+        if (i > 0 && !(h->time[i] > h->time[i - 1]))
+            return "times that do not rise";
+    }
+    return h->position[h->n_approach - 1] > h->contact_point ? "" : "not in contact";
+}
+
+static void fit_relaxation(dwell_task *t, pool *memory, wt_dwell *to)
+{
+    const wt_dwell_history *h = t->history;
+    const double depth = h->position[h->n_approach - 1] - h->contact_point;
+    double g, slope, p[N_PARAMETERS] = {0}, jj[N_PARAMETERS][N_PARAMETERS];
+    wt_contact_table_eval(t->table, &depth, 1, &g, &slope);
+    const double s = h->modulus * slope;
+    to->why_not =
+        dwell_nodes_make(h, h->spring_constant * s / (h->spring_constant + s), memory, &t->nodes);
+    t->residual = pool_numbers(memory, t->nodes.n);
+    t->jacobian = pool_numbers(memory, N_PARAMETERS * t->nodes.n);
+    t->rippled = pool_numbers(memory, RIPPLES * t->nodes.n);
+    t->shifted = pool_numbers(memory, t->nodes.n);
+    t->depth = pool_numbers(memory, t->nodes.n);
+    t->pressed = pool_numbers(memory, t->nodes.n);
+    if (to->why_not[0] != '\0' || memory->failed)
+        return;
+    begin_elastic(t, p);
+    make_terms(t);
+    (void)fit_parameters(t, BUMP, p, jj);
+    const double cost = fit_parameters(t, N_PARAMETERS, p, jj);
+    tell_relaxation(t, p, cost, jj, to);
+}
+
+wt_status wt_dwell_fit(const wt_contact_table *table, const wt_dwell_history *history,
+                       wt_dwell *dwell, wt_error *err)
+{
+    if (table == NULL || history == NULL || dwell == NULL || history->n_approach == 0)
+        return wt_fail(err, WT_E_ARG, "no dwell");
+    dwell_task t = {.table = table, .history = history};
+    pool memory = {0};
+    *dwell = (wt_dwell){.load_time = (double)NAN, .misfit = (double)NAN};
+    dwell->why_not = why_no_relaxation(history);
+    gsl_quiet();
+    wt_status status = hereditary_reserve(&t.law, MOST_TERMS, err);
+    if (status == WT_OK && dwell->why_not[0] == '\0')
+        fit_relaxation(&t, &memory, dwell);
+    if (status == WT_OK && memory.failed)
+        status = wt_fail(err, WT_E_MEMORY, "out of memory for a dwell");
+    pool_free(&memory);
+    hereditary_clear(&t.law);
+    return status;
+}

@@ -1,0 +1,254 @@
+/* What the way out of one force curve says: the pull at its end, and the work that is lost.
+ *
+ * SPDX-License-Identifier: GPL-3.0-or-later
+ */
+#include "indentation/numerics/curve_fitting.h"
+
+#include <gsl/gsl_statistics_double.h>
+#include <math.h>
+#include <string.h>
+
+/* Of the retract: in it half of a pull-off is over, which is a jump but for the samples in it. */
+static const double let_go = 0.02;
+/* Rubber loses of what the lever gives back, too; twice what it took is no loss but a drift. */
+static const double most_loss = 2.0;
+enum { LEVER_ROUNDS = 50 };
+
+/* ---- pull-off -------------------------------------------------------------------------------- */
+
+static double median(double *x, size_t n)
+{
+    const curve_span all = curve_span_of(x, n);
+    for (size_t i = 0; i < n; i++)
+        x[i] -= all.low;
+    return all.low + curve_select(x, n, n / 2, all.high - all.low);
+}
+
+static double within(double x, double from, double to)
+{
+    return x < from ? from : x > to ? to : x;
+}
+
+/* Without branches, which noise would take at random. */
+static double middle_of(double a, double b, double c)
+{
+    const double low = a < b ? a : b, high = a < b ? b : a;
+    const double least = c < high ? c : high;
+    return least > low ? least : low;
+}
+
+/* The largest pull of n forces above the baseline, smoothed over `width` samples, the last `far` of
+ * which are free of the sample, if it stands out of them, of which `noise` is the scatter, and ends
+ * at once in `ends`; else 0. */
+WIDE_REGISTERS static double sudden_pull(const double *smooth, const double *ends, size_t n,
+                                         size_t width, size_t far, double noise)
+{
+    const size_t back = far < n ? far : n;
+    const double elsewhere = fmax(0.0, -curve_span_of(smooth + n - back, back).low),
+                 pull = fmax(0.0, -curve_span_of(smooth, n).low);
+    size_t deepest = 0;
+    while (pull > 0.0 && -smooth[deepest] < pull)
+        deepest++;
+    bool sudden = false;
+    const size_t last = deepest + width + (size_t)(let_go * (double)n);
+    for (size_t i = deepest; i < last && i < n; i++)
+        sudden |= -ends[i] < 0.5 * pull;
+    return sudden && pull > CURVE_PULL_NOISE * noise && pull > CURVE_PULL_REST * elsewhere ? pull
+                                                                                           : 0.0;
+}
+
+/* Of the last n of x, which has room for them behind them. */
+static double scatter_of(const double *x, size_t n, double *room)
+{
+    for (size_t i = 0; i < n; i++)
+        room[i] = fabs(x[i]);
+    return median(room, n) / 0.6744897501960817;
+}
+
+/* By medians of three, and if there is none by means over ever more samples up to as many as a
+ * pull-off may take: a weak one is not seen on a sample. */
+static double find_pull_off(const double *above, size_t n, size_t far, double *smooth, double *room)
+{
+    for (size_t i = 1; i + 1 < n; i++)
+        smooth[i - 1] = middle_of(above[i - 1], above[i], above[i + 1]);
+    double pull =
+        sudden_pull(smooth, above + 1, n - 2, 3, far, scatter_of(above + n - far, far, room));
+    for (double part = 0.25; part <= 1.0 && !(pull > 0.0); part *= 2.0) {
+        const size_t width = (size_t)(part * let_go * (double)n);
+        if (width < 4 || far < 4 * width)
+            continue;
+        const size_t means = n - width + 1, free = far - width + 1;
+        double sum = curve_sum(above, width);
+        for (size_t i = 0; i < means; i++) {
+            smooth[i] = sum / (double)width;
+            sum += i + width < n ? above[i + width] - above[i] : 0.0;
+        }
+        pull = sudden_pull(smooth, smooth, means, width, free,
+                           scatter_of(smooth + means - free, free, room));
+    }
+    return pull;
+}
+
+/* Work against the lever and the sample between two positions of the base: the loop is the loss. */
+static double work_along(const double *position, const double *force, size_t n, double from,
+                         double to)
+{
+    double sum = 0.0, last = n > 0 ? within(position[0], from, to) : 0.0;
+    for (size_t i = 1; i < n; i++) {
+        const double first = last;
+        last = within(position[i], from, to);
+        if (!(fabs(last - first) > 0.0))
+            continue;
+        const double before = force[i - 1] > 0.0 ? force[i - 1] : 0.0,
+                     behind = force[i] > 0.0 ? force[i] : 0.0;
+        const double step = position[i] - position[i - 1];
+        const double middle = (0.5 * (first + last) - position[i - 1]) / step;
+        sum += (before + middle * (behind - before)) * (last - first);
+    }
+    return fabs(sum);
+}
+
+/* What the lever holds of it at a position, by the fit: of a soft one it is nearly all, and noise
+ * of one force would make loss. */
+static double lever_work(const curve_fitting *f, double top)
+{
+    const double *p = f->solution.p, k = f->input.samples.spring_constant,
+                 z = fmax(top - p[CURVE_C], 0.0);
+    double depth = z, step = z;
+    for (int i = 0; i < LEVER_ROUNDS && fabs(step) > 1e-9 * z; i++) {
+        double g, slope;
+        wt_contact_table_eval(f->table, &depth, 1, &g, &slope);
+        step = (k * (z - depth) - p[CURVE_E] * g) / (k + p[CURVE_E] * slope);
+        depth = fmax(depth + step, 0.0);
+    }
+    const double force = k * (z - depth);
+    return 0.5 * force * force / k;
+}
+
+/* Positions of the retract and forces above the baseline; returns how many are numbers. */
+WIDE_REGISTERS static size_t measure_retract(const curve_fitting *f, const double *height,
+                                             const double *force, size_t n)
+{
+    double *above = f->workspace->retract_force, *position = f->workspace->retract_position;
+    double sum = 0.0;
+    for (size_t i = 0; i < n; i++) {
+        position[i] = f->input.direction * height[i] - f->input.position_origin;
+        above[i] = force[i] - f->input.force_origin - curve_baseline(&f->solution, position[i]);
+    }
+    sum = curve_sum(position, n) + curve_sum(above, n);
+    if (isfinite(sum))
+        return n;
+    size_t kept = 0;
+    for (size_t i = 0; i < n; i++)
+        if (isfinite(position[i]) && isfinite(above[i])) {
+            position[kept] = position[i];
+            above[kept++] = above[i];
+        }
+    return kept;
+}
+
+/* Takes the wave of the way in out of n forces above the baseline, of which the last `far` are free
+ * of the sample, if it is there, too. */
+static void take_out_wave(const curve_fitting *f, const double *position, double *above, size_t n,
+                          size_t far)
+{
+    const curve_wave *wave = &f->solution.wave;
+    const double number = wave->p[WAVE_NUMBER];
+    double *part = f->workspace->scratch;
+    for (size_t i = 0; i < n; i++) {
+        const double bent = i < n - far && !wave->by_height
+                                ? fmax(above[i], 0.0) / f->input.samples.spring_constant
+                                : 0.0;
+        const double angle = number * (position[i] - bent);
+        part[i] = wave->p[WAVE_COSINE] * cos(angle) + wave->p[WAVE_SINE] * sin(angle);
+    }
+    const double with = gsl_stats_variance(above + n - far, 1, far);
+    for (size_t i = 0; i < n; i++)
+        part[i] = above[i] - part[i];
+    if (gsl_stats_variance(part + n - far, 1, far) < with)
+        memcpy(above, part, n * sizeof *above);
+}
+
+/* In samples of the way out from its end on: the first that is in contact, behind the edge of the
+ * pull-off, by the largest sum of departures from half of it. */
+static size_t edge_of(const curve_samples *s, double pull)
+{
+    const double low = curve_span_of(s->force, s->n).low;
+    double sum = 0.0, most = -(double)INFINITY;
+    size_t edge = 0;
+    for (size_t i = 0; i < s->n; i++) {
+        if (sum > most) {
+            most = sum;
+            edge = i;
+        }
+        sum += s->force[i] + 0.5 * pull;
+        if (!(s->force[i] > low))
+            break;
+    }
+    return edge;
+}
+
+/* For a fit: the way out as if it went in, without the samples of a lever on its way from the
+ * sample, which stand out of the noise. */
+static void keep_way_out(curve_fitting *f, size_t n)
+{
+    wt_indent_workspace *w = f->workspace;
+    curve_samples *s = &f->way_out.samples;
+    *s = (curve_samples){
+        n, w->retract_position, w->retract_force, f->input.samples.spring_constant, 0, 0};
+    for (size_t i = 0; i < n / 2; i++) {
+        const size_t j = n - 1 - i;
+        const double z = s->position[i], force = s->force[i];
+        s->position[i] = s->position[j];
+        s->force[i] = s->force[j];
+        s->position[j] = z;
+        s->force[j] = force;
+    }
+    if (!(f->pull_off > 0.0))
+        return;
+    const double noise = f->input.step_noise, low = curve_span_of(s->force, n).low;
+    size_t jump = edge_of(s, f->pull_off), end = jump;
+    if (-low > CURVE_PULL_NOISE * noise) {
+        jump = curve_tail_start(s->force, jump, noise);
+        while (s->force[end] > low)
+            end++;
+        end++;
+    }
+    memmove(s->position + jump, s->position + end, (n - end) * sizeof *s->position);
+    memmove(s->force + jump, s->force + end, (n - end) * sizeof *s->force);
+    s->n -= end - jump;
+    f->way_out.jump = jump;
+}
+
+void curve_read_retract(curve_fitting *f, const double *height, const double *force, size_t n)
+{
+    wt_indent_workspace *w = f->workspace;
+    const curve_samples *s = &f->input.samples;
+    const double c = f->solution.p[CURVE_C];
+    double *above = w->retract_force, *position = w->retract_position, *scratch = w->scratch;
+    const size_t kept = measure_retract(f, height, force, n);
+    const size_t far = kept / 4;
+    if (far < CURVE_BASELINE_SAMPLES)
+        return;
+    if (curve_has_wave(&f->solution.wave))
+        take_out_wave(f, position, above, kept, far);
+    /* The far end is its own baseline: drag and drift part it from that of the approach. */
+    memcpy(scratch, above + kept - far, far * sizeof *scratch);
+    const double level = median(scratch, far);
+    for (size_t i = 0; i < kept; i++)
+        above[i] -= level;
+    f->pull_off = find_pull_off(above, kept, far, scratch, w->weight);
+    /* A way out may begin below the top of the way in: what both have is compared. */
+    const double top =
+        fmin(curve_span_of(position, kept).high, curve_span_of(s->position, f->input.n_all).high);
+    const double back = work_along(position, above, kept, c, top);
+    for (size_t i = 0; i < f->input.n_all; i++)
+        scratch[i] = s->force[i] - curve_baseline(&f->solution, s->position[i]);
+    const double in = work_along(s->position, scratch, f->input.n_all, c, top);
+    const double share = (in - back) / (in - lever_work(f, top));
+    /* Else the sample took too little of the work to say. */
+    if (share > 1.0 - most_loss && share < most_loss)
+        f->loss = share;
+    if (!curve_has_wave(&f->solution.wave))
+        keep_way_out(f, kept);
+}

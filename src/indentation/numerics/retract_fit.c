@@ -1,0 +1,100 @@
+/* A contact law fitted to the way out of one force curve.
+ *
+ * SPDX-License-Identifier: GPL-3.0-or-later
+ */
+#include "indentation/numerics/curve_fitting.h"
+
+#include "core/math/normal_quantile.h"
+#include "indentation/law/adhesion.h"
+#include "indentation/law/tip.h"
+
+#include <math.h>
+
+/* Adhesion of the pull-off, as the parameter of a law; NaN: that law has none. */
+static double adhesion_of_pull_off(const curve_fitting *f, const curve_kind *kind, double reduced)
+{
+    if (kind->constant_pull)
+        return f->pull_off;
+    return sqrt(adhesion_work(f->table, reduced, f->way_out.samples.spring_constant, f->pull_off));
+}
+
+bool curve_fit_way_out(const curve_fitting *f, const curve_kind *kind, const curve_solution *in,
+                       curve_solution *out)
+{
+    const curve_samples *s = &f->way_out.samples;
+    const size_t jump = f->way_out.jump;
+    const bool adhesive = jump > 0;
+    const curve_kind fitted = {.tilt = kind->tilt,
+                               .adhesive = adhesive,
+                               .constant_pull = adhesive && kind->constant_pull,
+                               .jump = jump};
+    double p[CURVE_N_PARAMETERS] = {[CURVE_E] = in->p[CURVE_E], [CURVE_C] = in->p[CURVE_C]};
+    if (s->n < CURVE_MIN_SAMPLES ||
+        (adhesive && (jump < CURVE_BASELINE_SAMPLES || s->n - jump < CURVE_CONTACT_SAMPLES)))
+        return false;
+    if (fitted.adhesive && !fitted.constant_pull && !adhesion_applies(contact_table_tip(f->table)))
+        return false;
+    if (adhesive)
+        p[CURVE_W] = adhesion_of_pull_off(f, kind, p[CURVE_E]);
+    if (isnan(p[CURVE_W]))
+        return false;
+    curve_refine(f->table, s, fitted, p, f->workspace, out);
+    return out->effective_n > 0.0;
+}
+
+/* The better one of the laws; false if none fits. */
+static bool fit_better_law(const curve_fitting *f, curve_solution *best, curve_kind *kind)
+{
+    const bool adhesive = f->way_out.jump > 0;
+    bool found = false;
+    for (int pull = 0; pull <= adhesive; pull++) {
+        const curve_kind law = {.tilt = f->kind.tilt,
+                                .adhesive = adhesive,
+                                .constant_pull = pull,
+                                .jump = f->way_out.jump};
+        curve_solution out;
+        if (!curve_fit_way_out(f, &law, &f->solution, &out) || !out.converged ||
+            (found && !(out.cost < best->cost)))
+            continue;
+        found = true;
+        *best = out;
+        *kind = law;
+    }
+    return found;
+}
+
+static void say_other_modulus(const curve_fitting *f, wt_indent_fit *fit)
+{
+    const double error = hypot(fit->modulus.standard_error, fit->retract_modulus.standard_error);
+    char text[160];
+    if (!wt_curve_usable(fit->verdict) || !(fabs(f->loss) < CURVE_LEAST_LOSS) ||
+        !(fabs(fit->retract_modulus.value - fit->modulus.value) > NORMAL_95 * error))
+        return;
+    curve_say(text, "; the retract gives %s +- %s",
+              curve_si(fit->retract_modulus.value, "Pa").words,
+              curve_si(fit->retract_modulus.standard_error, "Pa").words);
+    curve_append_note(fit->reason, text);
+}
+
+void curve_report_way_out(curve_fitting *f, wt_indent_fit *fit)
+{
+    const double reduced = 1.0 - f->options->poisson_ratio * f->options->poisson_ratio;
+    curve_fitting out = *f;
+    if (!fit_better_law(f, &out.solution, &out.kind))
+        return;
+    out.input.samples = f->way_out.samples;
+    out.snap_on = 0.0;
+    curve_add_misfit(&out);
+    const curve_solution *s = &out.solution;
+    fit->retract_modulus.value = reduced * s->p[CURVE_E];
+    fit->retract_modulus.standard_error = reduced * s->standard_error[CURVE_E];
+    const double root = s->p[CURVE_W], error = s->standard_error[CURVE_W];
+    if (out.kind.constant_pull) {
+        fit->retract_pull.value = root;
+        fit->retract_pull.standard_error = error;
+    } else if (out.kind.adhesive) {
+        fit->retract_work.value = root * root;
+        fit->retract_work.standard_error = 2.0 * root * error;
+    }
+    say_other_modulus(f, fit);
+}

@@ -1,0 +1,133 @@
+/* A snap-on of the approach: the pull right before the force rises.
+ *
+ * SPDX-License-Identifier: GPL-3.0-or-later
+ */
+#include "indentation/numerics/curve_fitting.h"
+
+#include <gsl/gsl_fit.h>
+#include <math.h>
+#include <string.h>
+
+/* Of the indentation: how far from the contact point of a fit without adhesion a snap-on may lie;
+ * beyond it is an event of the baseline. */
+static const double gap_tolerance = 0.5;
+/* Of the largest force: a smaller pull draws no baseline along so far that it does not stand out,
+ * and what a line that is continued to twice its length misses is a bend of the baseline. */
+static const double large_pull = 0.25;
+
+/* Their mean is below the baseline by the scatter of one sample where a pull goes on: by chance at
+ * one in 400 places of white noise. */
+enum { TAIL_SAMPLES = 8 };
+
+size_t curve_tail_start(const double *above, size_t at, double noise)
+{
+    const size_t half = at / 2;
+    const double scatter = half > 0 ? sqrt(curve_dot(above, above, half) / (double)half) : noise;
+    while (at > 0 && above[at - 1] < -2.0 * noise && above[at - 1] < 0.0)
+        at--;
+    while (at >= TAIL_SAMPLES &&
+           curve_sum(above + at - TAIL_SAMPLES, TAIL_SAMPLES) < -TAIL_SAMPLES * scatter)
+        at--;
+    return at;
+}
+
+/* That stands out of everything before it, above the baseline of p. */
+WIDE_REGISTERS static bool stands_out(const curve_fitting *f, const double p[CURVE_N_PARAMETERS],
+                                      curve_snap *found)
+{
+    const curve_samples *s = &f->input.samples;
+    const curve_solution line = {
+        .p = {[CURVE_C] = p[CURVE_C], [CURVE_F0] = p[CURVE_F0], [CURVE_T] = p[CURVE_T]}};
+    double *restrict above = f->workspace->scratch;
+    size_t deepest = 0;
+    for (size_t i = 0; i < s->n; i++)
+        above[i] = s->force[i] - curve_baseline(&line, s->position[i]);
+    const double pull = -curve_span_of(above, s->n).low;
+    while (-above[deepest] < pull)
+        deepest++;
+    const size_t start = curve_tail_start(above, deepest, f->input.step_noise);
+    size_t end = deepest;
+    while (end < s->n && above[end] < 0.0)
+        end++;
+    if (start < CURVE_BASELINE_SAMPLES)
+        return false;
+    double elsewhere = 0.0, noise = 0.0;
+    for (size_t i = 0; i < start; i++) {
+        elsewhere = -above[i] > elsewhere ? -above[i] : elsewhere;
+        noise += above[i] * above[i];
+    }
+    noise = sqrt(noise / (double)start);
+    const double after_contact = s->position[start] - p[CURVE_C];
+    const double reach = s->position[s->n - 1] - p[CURVE_C];
+    *found = (curve_snap){start, deepest, end, pull};
+    return pull > CURVE_PULL_NOISE * noise && pull > CURVE_PULL_REST * elsewhere &&
+           fabs(after_contact) < gap_tolerance * reach && end < s->n &&
+           s->n - (end - start) >= CURVE_MIN_SAMPLES;
+}
+
+/* The baseline of p becomes the line through the first n samples; returns its standard error at the
+ * contact point. */
+static double set_baseline(const curve_fitting *f, size_t n, double p[CURVE_N_PARAMETERS])
+{
+    const curve_samples *s = &f->input.samples;
+    double offset, tilt, cov00, cov01, cov11, rest, there, error;
+    (void)gsl_fit_linear(s->position, 1, s->force, 1, n, &offset, &tilt, &cov00, &cov01, &cov11,
+                         &rest);
+    if (!f->kind.tilt) {
+        offset = curve_sum(s->force, n) / (double)n;
+        cov00 = rest / (double)(n * n);
+        tilt = cov01 = cov11 = 0.0;
+    }
+    (void)gsl_fit_linear_est(p[CURVE_C], offset, tilt, cov00, cov01, cov11, &there, &error);
+    p[CURVE_F0] = there;
+    p[CURVE_T] = tilt;
+    return error;
+}
+
+/* A pull as large as the force draws the baseline of a fit without it along: the line through the
+ * far half of what is before the lowest force is free of it, which is where the tip touches. */
+static bool stands_out_of_far(const curve_fitting *f, double p[CURVE_N_PARAMETERS],
+                              curve_snap *found)
+{
+    const curve_samples *s = &f->input.samples;
+    const double low = curve_span_of(s->force, s->n).low;
+    size_t deepest = 0;
+    while (s->force[deepest] > low)
+        deepest++;
+    const size_t half = deepest / 2;
+    if (half < CURVE_BASELINE_SAMPLES || f->kind.contact_fixed)
+        return false;
+    p[CURVE_C] = s->position[deepest];
+    const double error = set_baseline(f, half, p);
+    if (!stands_out(f, p, found))
+        return false;
+    const double top = curve_span_of(f->workspace->scratch, s->n).high;
+    return found->deepest == deepest && found->pull > CURVE_PULL_NOISE * error &&
+           found->pull > large_pull * top;
+}
+
+bool curve_find_snap(curve_fitting *f, curve_snap *found)
+{
+    double p[CURVE_N_PARAMETERS];
+    memcpy(p, f->solution.p, sizeof p);
+    if (!stands_out(f, p, found) && !stands_out_of_far(f, p, found)) {
+        *found = (curve_snap){.pull = 0.0};
+        return false;
+    }
+    (void)set_baseline(f, found->start, p);
+    memcpy(f->solution.p, p, sizeof p);
+    return true;
+}
+
+void curve_leave_out(curve_fitting *f, size_t start, size_t end)
+{
+    curve_samples *s = &f->input.samples;
+    const wt_indent_workspace *w = f->workspace;
+    const size_t behind = f->input.n_all - f->n_snap - end;
+    memmove(s->position + start, s->position + end, behind * sizeof *s->position);
+    memmove(s->force + start, s->force + end, behind * sizeof *s->force);
+    if (s->force != w->force) /* less a wave */
+        memmove(w->force + start, w->force + end, behind * sizeof *w->force);
+    s->n -= end - start;
+    f->n_snap += end - start;
+}

@@ -1,0 +1,347 @@
+/* Thermal noise of a lever: a simple harmonic oscillator on a white floor, by maximum likelihood.
+ *
+ * An averaged periodogram is its mean times a gamma variable, so that the likelihood is Whittle's:
+ * the sum of ln S + p/S, whatever the number of averages is. That number is found from the scatter
+ * about the fit, and what neighbours share (a window shares bins) from their correlation.
+ *
+ * SPDX-License-Identifier: GPL-3.0-or-later
+ */
+#include "weartrack/fit.h"
+
+#include "core/base/array.h"
+#include "core/math/cholesky.h"
+
+#include <gsl/gsl_cdf.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* Parameters, as logarithms: floor, mean square of the deflection, resonance, quality. */
+enum { FLOOR, SQUARE, RESONANCE, QUALITY, P };
+/* A bound of time; bins that neighbours share noise over, which is two under the weights of Hann;
+ * points at least, six for each parameter; blocks by which a slow departure is seen, five for each;
+ * bins of a mean that looks for the peak. */
+enum { STEPS = 200, LAGS = 3, LEAST_POINTS = 24, BLOCKS = 20, PEAK_SMOOTH = 3 };
+/* Qualities to start with, from a lever in water that hardly swings to one in vacuum; the range:
+ * widths of the peak to either side (an oscillator is 1/6400 of its top there, so that the floor is
+ * seen), within these shares of the resonance: noise that rises towards low frequencies is below,
+ * and the second mode of a lever, 6.27 times as high (Butt and Jaschke 1995), above. */
+static const double least_quality = 0.7, most_quality = 1e6, quality_step = 1.5;
+static const double range_widths = 40, range_low = 0.25, range_high = 3;
+/* Intervals of 95 %; residuals are clipped at so many standard deviations, one normal one in 370;
+ * standard deviation of a normal distribution over its median distance from the median. */
+static const double level = 0.975, clipped = 3, mad_to_deviation = 1.4826;
+static const double pi = 3.14159265358979323846; /* to the digits of a double */
+
+typedef struct noise {
+    const double *f, *p; /* [n] within the range */
+    size_t n;
+} noise;
+
+/* Spectrum at a frequency and what it changes by with each parameter, of itself. */
+static double oscillator_spectrum(const double theta[P], double f, double g[P])
+{
+    const double white = exp(theta[FLOOR]), f0 = exp(theta[RESONANCE]), q = exp(theta[QUALITY]);
+    const double x = f / f0, x2 = x * x, d = (1 - x2) * (1 - x2) + x2 / (q * q);
+    const double peak = 2 * exp(theta[SQUARE]) / (pi * f0 * q) / d, s = white + peak;
+    if (g != NULL) {
+        /* ln peak = ln square - ln f0 - ln q - ln d; x goes as 1/f0 */
+        const double d_x = -4 * x2 * (1 - x2) + 2 * x2 / (q * q); /* d d / d ln x */
+        const double d_q = -2 * x2 / (q * q);
+        g[FLOOR] = white / s;
+        g[SQUARE] = peak / s;
+        g[RESONANCE] = peak / s * (-1 + d_x / d);
+        g[QUALITY] = peak / s * (-1 - d_q / d);
+    }
+    return s;
+}
+
+/* Half of the deviance, for one average. */
+static double half_deviance(const noise *v, const double theta[P])
+{
+    double sum = 0;
+    for (size_t i = 0; i < v->n; i++) {
+        const double ratio = v->p[i] / oscillator_spectrum(theta, v->f[i], NULL);
+        sum += ratio - 1 - log(ratio);
+    }
+    return sum;
+}
+
+/* Solves a x = b for a positive definite a; false if it is not. */
+static bool solve_scoring(double a[P][P], const double b[P], double x[P])
+{
+    double l[P][P];
+    memcpy(l, a, sizeof l);
+    memcpy(x, b, P * sizeof *b);
+    return cholesky_solve(&l[0][0], P, P, 0, x);
+}
+
+static void fisher_information(const noise *v, const double theta[P], double fisher[P][P],
+                               double score[P])
+{
+    for (int a = 0; a < P; a++) {
+        score[a] = 0;
+        for (int b = 0; b < P; b++)
+            fisher[a][b] = 0;
+    }
+    for (size_t i = 0; i < v->n; i++) {
+        double g[P];
+        const double r = v->p[i] / oscillator_spectrum(theta, v->f[i], g) - 1;
+        for (int a = 0; a < P; a++) {
+            score[a] += r * g[a];
+            for (int b = 0; b < P; b++)
+                fisher[a][b] += g[a] * g[b];
+        }
+    }
+}
+
+/* Scoring with damping; true when no step is left. */
+static bool raise_likelihood(const noise *v, double theta[P])
+{
+    double best = half_deviance(v, theta), damping = 1e-3;
+    for (int step = 0; step < STEPS; step++) {
+        double fisher[P][P], score[P], move[P], next[P], largest = 0;
+        fisher_information(v, theta, fisher, score);
+        for (int a = 0; a < P; a++)
+            fisher[a][a] *= 1 + damping;
+        if (!solve_scoring(fisher, score, move))
+            return false;
+        for (int a = 0; a < P; a++) {
+            next[a] = theta[a] + move[a];
+            largest = fmax(largest, fabs(move[a]));
+        }
+        const double now = half_deviance(v, next);
+        if (!(now <= best)) {
+            if (largest < 1e-9)
+                return true;
+            damping *= 10;
+            continue;
+        }
+        best = now;
+        damping /= 10;
+        for (int a = 0; a < P; a++)
+            theta[a] = next[a];
+        if (largest < 1e-9)
+            return true;
+    }
+    return false;
+}
+
+/* ---- errors ---------------------------------------------------------------------------------- */
+
+/* Variance of the residuals and their correlation with the next ones. */
+static double scatter_of(const double *r, size_t n, double correlation[LAGS + 1])
+{
+    double squares = 0;
+    for (size_t i = 0; i < n; i++)
+        squares += r[i] * r[i];
+    for (size_t lag = 0; lag <= LAGS; lag++) {
+        double sum = 0;
+        for (size_t i = 0; i + lag < n; i++)
+            sum += r[i] * r[i + lag];
+        /* what chance gives in so many samples is none */
+        correlation[lag] = lag == 0 || sum / squares > 2 / sqrt((double)n) ? sum / squares : 0;
+    }
+    return squares / (double)(n - P);
+}
+
+/* Covariance of the parameters, with what neighbours share; false if it is none. */
+static bool parameter_covariance(const noise *v, const double theta[P], const double *gradient,
+                                 double variance, const double correlation[LAGS + 1],
+                                 double cov[P][P])
+{
+    double fisher[P][P], score[P], meat[P][P] = {{0}}, inverse[P][P];
+    fisher_information(v, theta, fisher, score);
+    for (size_t lag = 0; lag <= LAGS; lag++)
+        for (size_t i = 0; i + lag < v->n; i++)
+            for (int a = 0; a < P; a++)
+                for (int b = 0; b < P; b++) {
+                    const double *x = gradient + i * P, *y = gradient + (i + lag) * P;
+                    meat[a][b] += variance * correlation[lag] *
+                                  (lag == 0 ? x[a] * x[b] : x[a] * y[b] + y[a] * x[b]);
+                }
+    for (int a = 0; a < P; a++) {
+        double unit[P] = {0};
+        unit[a] = 1;
+        if (!solve_scoring(fisher, unit, inverse[a]))
+            return false;
+    }
+    for (int a = 0; a < P; a++)
+        for (int b = 0; b < P; b++) {
+            cov[a][b] = 0;
+            for (int k = 0; k < P; k++)
+                for (int l = 0; l < P; l++)
+                    cov[a][b] += inverse[a][k] * meat[k][l] * inverse[b][l];
+        }
+    return true;
+}
+
+static wt_interval log_normal_interval(double log_value, double variance)
+{
+    const double value = exp(log_value), error = sqrt(variance);
+    const double half = gsl_cdf_ugaussian_Pinv(level) * error;
+    return (wt_interval){value, value * error, value * exp(-half), value * exp(half)};
+}
+
+/* Chance that blocks of residuals are off to one side as much by scatter alone. What departs would
+ * hide in the scatter that it is held against: that is of the middle of the residuals. */
+static double slow_chance(const double *r, size_t n, double *room)
+{
+    double shared = 1, squares = 0, correlation[LAGS + 1];
+    for (size_t i = 0; i < n; i++)
+        room[i] = fabs(r[i]);
+    numbers_sort(room, n);
+    const double most = clipped * mad_to_deviation * room[n / 2];
+    for (size_t i = 0; i < n; i++)
+        room[i] = fmax(-most, fmin(most, r[i]));
+    const double variance = scatter_of(room, n, correlation);
+    for (size_t lag = 1; lag <= LAGS; lag++)
+        shared += 2 * correlation[lag];
+    for (size_t b = 0; b < BLOCKS; b++) {
+        const size_t first = n * b / BLOCKS, end = n * (b + 1) / BLOCKS;
+        double sum = 0;
+        for (size_t i = first; i < end; i++)
+            sum += r[i];
+        squares += sum * sum / (double)(end - first) / (variance * shared);
+    }
+    return gsl_cdf_chisq_Q(squares, BLOCKS - P);
+}
+
+static bool tell_errors(const noise *v, const double theta[P], wt_thermal *t, double *room)
+{
+    double *const r = room, *const gradient = room + v->n;
+    double correlation[LAGS + 1], cov[P][P];
+    for (size_t i = 0; i < v->n; i++)
+        r[i] = v->p[i] / oscillator_spectrum(theta, v->f[i], gradient + i * P) - 1;
+    const double variance = scatter_of(r, v->n, correlation);
+    if (!parameter_covariance(v, theta, gradient, variance, correlation, cov))
+        return false;
+    t->mean_square = log_normal_interval(theta[SQUARE], cov[SQUARE][SQUARE]);
+    t->resonance = log_normal_interval(theta[RESONANCE], cov[RESONANCE][RESONANCE]);
+    t->quality = log_normal_interval(theta[QUALITY], cov[QUALITY][QUALITY]);
+    t->floor = exp(theta[FLOOR]);
+    t->averages = 1 / variance;
+    t->chance = slow_chance(r, v->n, gradient);
+    return isfinite(t->mean_square.standard_error) && isfinite(t->quality.standard_error);
+}
+
+/* ---- where the peak is ----------------------------------------------------------------------- */
+
+/* Largest of p f, which noise that rises towards low frequencies does not carry, over a few bins.
+ */
+static size_t find_peak(const double *f, const double *p, size_t n)
+{
+    size_t peak = PEAK_SMOOTH / 2;
+    double most = 0;
+    for (size_t i = PEAK_SMOOTH / 2; i + PEAK_SMOOTH / 2 < n; i++) {
+        double sum = 0;
+        for (size_t k = 0; k < PEAK_SMOOTH; k++)
+            sum += p[i + k - PEAK_SMOOTH / 2];
+        if (f[i] * sum > most) {
+            most = f[i] * sum;
+            peak = i;
+        }
+    }
+    return peak;
+}
+
+/* The tenth part that is lowest ends here. */
+static double low_level(const double *p, size_t n, double *room)
+{
+    for (size_t i = 0; i < n; i++)
+        room[i] = p[i];
+    numbers_sort(room, n);
+    return room[n / 10];
+}
+
+/* Start with the quality that suits the spectrum about the peak best. */
+static void start_parameters(const noise *v, double f0, double ground, double theta[P])
+{
+    double best = (double)INFINITY, area = 0;
+    for (size_t i = 1; i < v->n; i++)
+        area += fmax(0, v->p[i] - ground) * (v->f[i] - v->f[i - 1]);
+    for (double q = least_quality; q < most_quality; q *= quality_step) {
+        const double guess[P] = {log(ground), log(area), log(f0), log(q)};
+        const double now = half_deviance(v, guess);
+        if (now < best) {
+            best = now;
+            for (int a = 0; a < P; a++)
+                theta[a] = guess[a];
+        }
+    }
+}
+
+static noise frequency_range(const double *f, const double *p, size_t n, double from, double to)
+{
+    size_t first = 0, end = n;
+    while (first < n && !(f[first] >= from))
+        first++;
+    while (end > first && !(f[end - 1] <= to))
+        end--;
+    return (noise){f + first, p + first, end - first};
+}
+
+static bool tell_no_oscillator(wt_thermal *t, const char *why)
+{
+    t->why_not = why;
+    return false;
+}
+
+static bool fit_oscillator(const double *f, const double *p, size_t n, double from, double to,
+                           wt_thermal *t, double *room)
+{
+    if (n < LEAST_POINTS)
+        return tell_no_oscillator(t, "too few points");
+    const double f0 = f[find_peak(f, p, n)], ground = low_level(p, n, room);
+    double theta[P] = {0};
+    const noise about = frequency_range(f, p, n, range_low * f0, range_high * f0);
+    start_parameters(&about, f0, ground, theta);
+    const double width = f0 / exp(theta[QUALITY]);
+    t->from = !isnan(from) ? from : fmax(range_low * f0, f0 - range_widths * width);
+    t->to = !isnan(to) ? to : fmin(range_high * f0, f0 + range_widths * width);
+    const noise v = frequency_range(f, p, n, t->from, t->to);
+    t->n = v.n;
+    if (v.n < LEAST_POINTS)
+        return tell_no_oscillator(t, "too few points in the range of the fit");
+    if (f0 < v.f[0] || f0 > v.f[v.n - 1])
+        return tell_no_oscillator(t, "the largest peak lies outside of the range of the fit");
+    if (!raise_likelihood(&v, theta))
+        return tell_no_oscillator(t, "no oscillator on a white floor fits");
+    if (exp(theta[RESONANCE]) < v.f[0] || exp(theta[RESONANCE]) > v.f[v.n - 1])
+        return tell_no_oscillator(t, "the resonance lies outside of the range of the fit");
+    return tell_errors(&v, theta, t, room) ||
+           tell_no_oscillator(t, "the spectrum does not bound the oscillator");
+}
+
+wt_status wt_thermal_fit(const double *frequency, const double *density, size_t n, double from,
+                         double to, wt_thermal *thermal, wt_error *err)
+{
+    const double nan_ = (double)NAN;
+    const wt_interval unknown = {nan_, nan_, nan_, nan_};
+    if (frequency == NULL || density == NULL || thermal == NULL)
+        return wt_fail(err, WT_E_ARG, "no spectrum");
+    *thermal = (wt_thermal){.mean_square = unknown,
+                            .resonance = unknown,
+                            .quality = unknown,
+                            .floor = nan_,
+                            .from = nan_,
+                            .to = nan_,
+                            .averages = nan_,
+                            .chance = nan_,
+                            .why_not = ""};
+    if (n > SIZE_MAX / sizeof(double) / (P + 3))
+        return wt_fail(err, WT_E_MEMORY, "no memory for %zu points", n);
+    double *room = malloc((P + 3) * (n + 1) * sizeof *room);
+    if (room == NULL)
+        return wt_fail(err, WT_E_MEMORY, "no memory for %zu points", n);
+    double *const f = room, *const p = room + n + 1;
+    size_t m = 0;
+    for (size_t i = 0; i < n; i++)
+        if (frequency[i] > 0 && density[i] > 0 && isfinite(density[i])) {
+            f[m] = frequency[i];
+            p[m++] = density[i];
+        }
+    thermal->found = fit_oscillator(f, p, m, from, to, thermal, room + 2 * (n + 1));
+    free(room);
+    return WT_OK;
+}

@@ -1,0 +1,600 @@
+/* The job of deflection sensitivity: curves on a hard surface, both ways of each, their scatter,
+ * and whether the surface is as hard and the detector as straight as that takes.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#include "core/base/param.h"
+#include "core/math/normal_quantile.h"
+#include "job/cost.h"
+#include "job/inputs.h"
+#include "job/outliers.h"
+
+#include "core/base/array.h"
+#include "core/data/force_curve.h"
+#include "core/table/registry.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* Approach and retract; those and both. */
+enum { WAYS = 2, ROWS = 3 };
+/* Of so many curves of a file the far ones are left out. A heuristic: of fewer the usual values are
+ * not known well enough to call one far. */
+enum { OUTLIER_LEAST = 8 };
+static const wt_segment_kind kinds[WAYS] = {WT_SEGMENT_APPROACH, WT_SEGMENT_RETRACT};
+
+wt_sensitivity_job wt_sensitivity_job_defaults(void)
+{
+    /* 5 %: the mean slope of such a part is off by less than half of that, which is what deflection
+     * sensitivities are repeated to (a heuristic). */
+    return (wt_sensitivity_job){.options = wt_slope_defaults(), .most_bend = 0.05};
+}
+
+static const wt_param job_rows[] = {
+    {PARAM_CHOICE_OF("direction", wt_sensitivity_job, ways, "both|approach|retract"),
+     .flags = PARAM_NO_CASE,
+     .help = "which ways of the curves the answer is of; the mean of both is free of friction of "
+             "the tip and of the piezo's hysteresis to first order"},
+    {PARAM("most-bend", wt_sensitivity_job, most_bend, WT_Q_NONE, ABOVE(0)), .value = "X",
+     .flags = PARAM_NO_CASE,
+     .help = "largest change of the slope within the part, of the slope, that is still straight"},
+};
+PARAM_TABLE(wt_sensitivity_job_params, wt_sensitivity_job, job_rows, wt_sensitivity_job_defaults,
+            PARAM_PART(wt_slope_params, wt_sensitivity_job, options))
+
+void wt_sensitivity_tables_clear(wt_sensitivity_tables *tables)
+{
+    if (tables == NULL)
+        return;
+    wt_table_free(tables->sensitivity);
+    wt_table_free(tables->sensitivity_curves);
+    *tables = (wt_sensitivity_tables){0};
+}
+
+/* ---- reading --------------------------------------------------------------------------------- */
+
+/* A curve and the slopes of its two ways; of a force, by the spring constant, those of the
+ * deflection. */
+typedef struct item {
+    const flow_file *file;
+    long unit;
+    size_t curve;
+    bool there[WAYS], outlier;
+    bool volts;     /* else the signal is a deflection in metres */
+    double of_file; /* sensitivity [m/V], NaN: not said */
+    wt_contact_slope way[WAYS];
+} item;
+
+typedef struct sensitivity_task {
+    const wt_sensitivity_job *job;
+    const wt_job *work;
+    item *items; /* [n] */
+    size_t n;
+} sensitivity_task;
+
+static wt_status measure_ways(const sensitivity_task *task, const wt_force_curve *curve,
+                              wt_quantity signal, item *it, wt_error *err)
+{
+    wt_status status = WT_OK;
+    it->of_file = curve->cantilever.sensitivity;
+    it->volts = signal == WT_Q_DEFLECTION_VOLTAGE;
+    it->curve = curve->index;
+    for (size_t w = 0; w < WAYS && status == WT_OK; w++) {
+        const wt_segment *segment = wt_force_curve_segment(curve, kinds[w]);
+        if (segment == NULL)
+            continue;
+        const double *height = segment_height(segment);
+        const wt_channel *channel = wt_segment_channel(segment, signal);
+        it->there[w] = true;
+        if (height != NULL && channel != NULL)
+            status = wt_contact_slope_fit(height, channel->values, segment->n_points,
+                                          &task->job->options, &it->way[w], err);
+        else
+            snprintf(it->way[w].why_not, sizeof it->way[w].why_not, "no %s in the curve",
+                     height == NULL ? "height" : "deflection");
+    }
+    for (size_t w = 0; w < WAYS && signal == WT_Q_FORCE; w++) {
+        it->way[w].slope /= curve->cantilever.spring_constant;
+        it->way[w].slope_error /= curve->cantilever.spring_constant;
+        it->way[w].found = it->way[w].found && isfinite(it->way[w].slope);
+        if (isnan(curve->cantilever.spring_constant))
+            snprintf(it->way[w].why_not, sizeof it->way[w].why_not,
+                     "a force without a spring constant: give --spring-constant 0.1N/m");
+    }
+    return status;
+}
+
+/* All curves of a file by one signal. *no_signal: its first curve does not have it, none was
+ * taken. */
+static wt_status read_curves(sensitivity_task *task, const flow_file *file, long unit,
+                             wt_input *input, wt_quantity signal, bool *no_signal, wt_error *err)
+{
+    wt_read_options options = flow_read_options(file);
+    wt_force_source *source = NULL;
+    wt_force_curve curve = {0};
+    bool first = true;
+    options.want = WT_Q_BIT(WT_Q_HEIGHT) | WT_Q_BIT(WT_Q_MEASURED_HEIGHT) | WT_Q_BIT(signal);
+    options.one_height = true;
+    options.segments = WT_SEGMENT_BIT(WT_SEGMENT_APPROACH) | WT_SEGMENT_BIT(WT_SEGMENT_RETRACT);
+    wt_status status =
+        wt_force_open(task->work->formats, input, &options, task->work->log, &source, err);
+    *no_signal = false;
+    while (status == WT_OK) {
+        status = wt_force_next(source, &curve, err);
+        if (status != WT_OK)
+            break;
+        if (first && curve.n_segments > 0) {
+            first = false;
+            *no_signal = wt_segment_channel(&curve.segments[0], signal) == NULL;
+            if (*no_signal)
+                break;
+        }
+        item *items = array_grow(task->items, task->n, sizeof *items);
+        if (items == NULL) {
+            status = wt_fail(err, WT_E_MEMORY, "out of memory");
+            break;
+        }
+        task->items = items;
+        items[task->n] = (item){.file = file, .unit = unit};
+        status = measure_ways(task, &curve, signal, &items[task->n], err);
+        task->n++;
+    }
+    wt_force_curve_clear(&curve);
+    wt_force_close(source);
+    return status == WT_END ? WT_OK : status;
+}
+
+/* Volts of the detector, or metres where the file does not lead to them. */
+static wt_status read_file(void *user, flow_file *file, size_t unit, wt_error *err)
+{
+    sensitivity_task *task = user;
+    static const wt_quantity signals[] = {WT_Q_DEFLECTION_VOLTAGE, WT_Q_DEFLECTION, WT_Q_FORCE};
+    wt_input *input = NULL;
+    bool no_signal = true;
+    wt_status status = flow_open(task->work, file, "sensitivity", WT_KIND_FORCE, &input, err);
+    for (size_t i = 0; i < COUNT_OF(signals) && status == WT_OK && no_signal; i++)
+        status = read_curves(task, file, (long)unit, input, signals[i], &no_signal, err);
+    if (status == WT_OK && no_signal) {
+        status = wt_fail(err, WT_E_MISSING, "the curves have no deflection");
+        wt_error_expected(err, "a channel of deflection in volts or metres, or of force");
+        wt_error_advice(err, "`weartrack info FILE` shows what a file holds");
+    }
+    wt_input_close(input);
+    return status;
+}
+
+static wt_status read_files(sensitivity_task *task, const flow_files *files, wt_error *err)
+{
+    size_t n_failed;
+    wt_status status = flow_files_take(files, task->work, read_file, task, &n_failed, err);
+    if (status == WT_OK && task->n == 0) {
+        status = wt_fail(err, WT_E_EMPTY, "no force curve could be read");
+        flow_tell_files(files, n_failed, err);
+    }
+    return status;
+}
+
+/* ---- curves ---------------------------------------------------------------------------------- */
+
+static bool has_way(const item *it, size_t way)
+{
+    return it->there[way] && it->way[way].found;
+}
+
+static double travel_per_signal(const item *it, size_t way)
+{
+    return 1 / it->way[way].slope;
+}
+
+static double sensitivity_of(const item *it, size_t way)
+{
+    return it->volts ? travel_per_signal(it, way) : (double)NAN;
+}
+
+static double factor_of(const item *it, size_t way)
+{
+    return it->volts ? travel_per_signal(it, way) / it->of_file : travel_per_signal(it, way);
+}
+
+/* Curves of one file whose slope is far from that of the others, by one way. */
+static void mark_outliers_of(item *items, size_t n, size_t way, double *values)
+{
+    size_t m = 0;
+    for (size_t i = 0; i < n; i++)
+        if (has_way(&items[i], way))
+            values[m++] = travel_per_signal(&items[i], way);
+    if (m < OUTLIER_LEAST)
+        return;
+    const usual_values usual = flow_usual_values(values, m);
+    for (size_t i = 0; i < n; i++)
+        if (has_way(&items[i], way) &&
+            fabs(travel_per_signal(&items[i], way) - usual.middle) > usual.most)
+            items[i].outlier = true;
+}
+
+static wt_status mark_outliers(sensitivity_task *task, wt_error *err)
+{
+    double *values = malloc(task->n * sizeof *values);
+    if (values == NULL)
+        return wt_fail(err, WT_E_MEMORY, "out of memory");
+    for (size_t first = 0, end; first < task->n; first = end) {
+        for (end = first + 1; end < task->n && task->items[end].unit == task->items[first].unit;)
+            end++;
+        for (size_t w = 0; w < WAYS; w++)
+            mark_outliers_of(task->items + first, end - first, w, values);
+    }
+    free(values);
+    return WT_OK;
+}
+
+/* Volts tell the sensitivity, metres only what theirs is off by: a mean of both would be of curves
+ * that are not those of the other numbers. */
+static wt_status check_signals(const sensitivity_task *task, wt_error *err)
+{
+    const item *volts = NULL, *metres = NULL;
+    for (size_t i = 0; i < task->n; i++) {
+        const item *it = &task->items[i];
+        const item **const of = it->volts ? &volts : &metres;
+        *of = *of == NULL ? it : *of;
+    }
+    if (volts == NULL || metres == NULL)
+        return WT_OK;
+    wt_fail(err, WT_E_AMBIGUOUS, "curves in volts of the detector and curves in metres");
+    wt_error_expected(err, "those of one of them");
+    wt_error_found(err, "%s in volts, %s in metres", volts->file->name, metres->file->name);
+    wt_error_advice(err, "give each in a call of its own: volts tell the sensitivity, metres the "
+                         "factor on that of the file");
+    return WT_E_AMBIGUOUS;
+}
+
+static wt_status put_curves(const sensitivity_task *task, wt_table **table, wt_error *err)
+{
+    table_writer t = table_begin(&sensitivity_curves_schema, err);
+    sensitivity_curves_set_print(&t, SENSITIVITY_CURVES_KEY_FROM, "%g", task->job->options.from);
+    sensitivity_curves_set_print(&t, SENSITIVITY_CURVES_KEY_TO, "%g", task->job->options.to);
+    for (size_t i = 0; i < task->n; i++)
+        for (size_t w = 0; w < WAYS; w++) {
+            const item *it = &task->items[i];
+            const wt_contact_slope *c = &it->way[w];
+            if (!it->there[w])
+                continue;
+            table_row(&t);
+            sensitivity_curves_put_text(&t, SENSITIVITY_CURVES_FILE, it->file->name);
+            sensitivity_curves_put(&t, SENSITIVITY_CURVES_CURVE, (double)it->curve);
+            sensitivity_curves_put_text(&t, SENSITIVITY_CURVES_DIRECTION,
+                                        wt_segment_kind_name(kinds[w]));
+            sensitivity_curves_put_text(&t, SENSITIVITY_CURVES_VERDICT,
+                                        !c->found     ? c->why_not
+                                        : it->outlier ? "left out: far from the other curves"
+                                                      : "used");
+            sensitivity_curves_put(&t, SENSITIVITY_CURVES_POINTS, (double)c->n);
+            if (!c->found)
+                continue;
+            const double s = sensitivity_of(it, w);
+            sensitivity_curves_put(&t, SENSITIVITY_CURVES_SENSITIVITY, s);
+            sensitivity_curves_put(&t, SENSITIVITY_CURVES_SENSITIVITY_STANDARD_ERROR,
+                                   s * c->slope_error / c->slope);
+            sensitivity_curves_put(&t, SENSITIVITY_CURVES_FACTOR, factor_of(it, w));
+            sensitivity_curves_put(&t, SENSITIVITY_CURVES_CHANGE, c->change);
+            sensitivity_curves_put(&t, SENSITIVITY_CURVES_CHANGE_STANDARD_ERROR, c->change_error);
+            sensitivity_curves_put(&t, SENSITIVITY_CURVES_TILT, c->tilt);
+            sensitivity_curves_put(&t, SENSITIVITY_CURVES_MISFIT, c->misfit);
+            sensitivity_curves_put(&t, SENSITIVITY_CURVES_TRAVEL, c->travel);
+        }
+    return table_end(&t, table);
+}
+
+/* ---- all curves together --------------------------------------------------------------------- */
+
+/* Of the curves that have the ways of a row. */
+typedef struct group {
+    size_t n, n_units;
+    wt_interval sensitivity, factor, change, difference; /* difference: retract over approach */
+    double tilt, own_error; /* of one curve alone, of the sensitivity */
+    double scatter;         /* of a unit, of the sensitivity */
+    double ways_error;      /* by the difference of the ways, of the sensitivity; NaN: not known */
+    const char *verdict;
+    bool refused;
+} group;
+
+/* Rows of the table; the first two are the ways themselves. */
+static const char *const row_names[ROWS] = {"approach", "retract", "both"};
+
+typedef struct collected {
+    double *values; /* [n] */
+    long *units;
+    size_t n;
+    const item *last;
+} collected;
+
+static bool is_usable(const item *it, size_t row)
+{
+    return !it->outlier && (row < WAYS ? has_way(it, row) : has_way(it, 0) && has_way(it, 1));
+}
+
+/* The change of the slope of one curve, with the error of the scatter within it. */
+static wt_interval own_change(const item *it, size_t row, double value)
+{
+    const bool both = row == WAYS;
+    const wt_contact_slope *const a = &it->way[both ? 0 : row], *const b = &it->way[1];
+    const double error = both ? hypot(a->change_error, b->change_error) / 2 : a->change_error;
+    const double half = wt_student(both ? fmin(a->freedom, b->freedom) : a->freedom) * error;
+    return (wt_interval){value, error, value - half, value + half};
+}
+
+static void decide_straight(group *g, double most)
+{
+    const wt_interval *c = &g->change;
+    const bool rises = c->value > most && c->low > 0, falls = c->value < -most && c->high < 0;
+    g->refused = rises || falls;
+    g->verdict = rises   ? "soft surface: the slope rises with the deflection"
+                 : falls ? "not straight: the slope falls with the deflection"
+                 : c->low >= -most && c->high <= most
+                     ? "straight"
+                     : "cannot say whether the surface is hard: the slope scatters too much";
+}
+
+/* Mean over the ways of a row of what `of` takes from a curve. */
+static double over_ways(const item *it, size_t row, double (*of)(const item *it, size_t way))
+{
+    return row < WAYS ? of(it, row) : 0.5 * (of(it, 0) + of(it, 1));
+}
+
+static double change_of(const item *it, size_t way)
+{
+    return it->way[way].change;
+}
+
+static double tilt_of(const item *it, size_t way)
+{
+    return it->way[way].tilt;
+}
+
+static double difference_of(const item *it, size_t way)
+{
+    (void)way;
+    return travel_per_signal(it, 1) / travel_per_signal(it, 0);
+}
+
+static wt_interval mean_of(const sensitivity_task *task, size_t row, collected *c, size_t *n_units,
+                           double (*of)(const item *it, size_t way))
+{
+    c->n = 0;
+    for (size_t i = 0; i < task->n; i++) {
+        const item *it = &task->items[i];
+        const double value = is_usable(it, row) ? over_ways(it, row, of) : (double)NAN;
+        if (isnan(value))
+            continue;
+        c->values[c->n] = value;
+        c->units[c->n++] = it->unit;
+        c->last = it;
+    }
+    return wt_student_mean(c->values, c->units, c->n, n_units);
+}
+
+/* What parts the ways (friction of the tip, hysteresis and creep of the piezo) is in both, and no
+ * curve tells how much in each: the sensitivity lies anywhere between them. The standard deviation
+ * of that about their mean is the difference over sqrt(12), about one of them over sqrt(3); an
+ * interval of 95 % about the mean then holds both ways. */
+static double ways_error(size_t row, double retract_over_approach)
+{
+    const double of[ROWS] = {1, retract_over_approach, (1 + retract_over_approach) / 2};
+    return fabs(retract_over_approach - 1) / of[row] / sqrt(row < WAYS ? 3 : 12);
+}
+
+static void widen_interval(wt_interval *i, double relative)
+{
+    const double low = hypot(i->value - i->low, NORMAL_95 * relative * i->value),
+                 high = hypot(i->high - i->value, NORMAL_95 * relative * i->value);
+    i->standard_error = hypot(i->standard_error, relative * i->value);
+    i->low = i->value - low;
+    i->high = i->value + high;
+}
+
+/* Without curves that have both ways the difference is not known and not held. */
+static void add_ways_error(group groups[ROWS])
+{
+    const double difference = groups[WAYS].n > 0 ? groups[WAYS].difference.value : (double)NAN;
+    for (size_t row = 0; row < ROWS; row++) {
+        group *g = &groups[row];
+        const wt_interval *of = isnan(g->sensitivity.value) ? &g->factor : &g->sensitivity;
+        g->scatter = of->standard_error * sqrt((double)g->n_units) / of->value;
+        g->ways_error = ways_error(row, difference);
+        if (isnan(g->ways_error))
+            continue;
+        widen_interval(&g->sensitivity, g->ways_error);
+        widen_interval(&g->factor, g->ways_error);
+    }
+}
+
+static wt_status make_groups(const sensitivity_task *task, group groups[ROWS], wt_error *err)
+{
+    collected c = {malloc(task->n * sizeof *c.values), malloc(task->n * sizeof *c.units), 0, NULL};
+    wt_status status = WT_OK;
+    if (c.values == NULL || c.units == NULL)
+        status = wt_fail(err, WT_E_MEMORY, "out of memory");
+    for (size_t row = 0; row < ROWS && status == WT_OK; row++) {
+        group *g = &groups[row];
+        size_t ignored;
+        g->sensitivity = mean_of(task, row, &c, &ignored, sensitivity_of);
+        g->factor = mean_of(task, row, &c, &ignored, factor_of);
+        g->tilt = mean_of(task, row, &c, &ignored, tilt_of).value;
+        g->change = mean_of(task, row, &c, &g->n_units, change_of);
+        g->n = c.n;
+        if (g->n == 0)
+            continue;
+        if (g->n == 1) {
+            const item *it = c.last;
+            const double own[] = {it->way[0].slope_error / it->way[0].slope,
+                                  it->way[1].slope_error / it->way[1].slope};
+            g->change = own_change(it, row, g->change.value);
+            g->own_error = row < WAYS ? own[row] : hypot(own[0], own[1]) / 2;
+        }
+        if (row == WAYS)
+            g->difference = mean_of(task, row, &c, &ignored, difference_of);
+        decide_straight(g, task->job->most_bend);
+    }
+    if (status == WT_OK)
+        add_ways_error(groups);
+    free(c.values);
+    free(c.units);
+    return status;
+}
+
+/* On an elastic surface a sphere adds a travel like deflection^(2/3) to that of the lever. What
+ * this adds to the sensitivity by the change of the slope that it makes: both from a line and a
+ * parabola through the part. */
+static double sphere_share(const wt_slope_options *o)
+{
+    enum { NODES = 200 }; /* of Chebyshev; the integrand is smooth in them */
+    double line = 0, parabola = 0;
+    for (int i = 0; i < NODES; i++) {
+        const double x = (2.0 * i + 1) / NODES - 1;
+        const double u = pow(o->from + 0.5 * (o->to - o->from) * (1 + x), 2.0 / 3);
+        line += 1.5 * u * x;
+        parabola += 2.5 * u * (1.5 * x * x - 0.5);
+    }
+    return line / (-6 * parabola);
+}
+
+/* The columns of a number, its error and the ends of its interval stand behind one another. */
+static void put_interval(table_writer *t, sensitivity_column first, wt_interval i)
+{
+    sensitivity_put(t, first, i.value);
+    sensitivity_put(t, first + 1, i.standard_error);
+    sensitivity_put(t, first + 2, i.low);
+    sensitivity_put(t, first + 3, i.high);
+}
+
+static void put_group(table_writer *t, size_t row, const group *g, double share)
+{
+    char note[160] = "";
+    if (g->n == 1)
+        snprintf(note, sizeof note,
+                 "one curve: the scatter between curves is not known; standard error within the "
+                 "curve %.2g %%",
+                 100 * g->own_error);
+    table_row(t);
+    sensitivity_put_text(t, SENSITIVITY_DIRECTION, row_names[row]);
+    sensitivity_put(t, SENSITIVITY_N, (double)g->n);
+    sensitivity_put(t, SENSITIVITY_UNITS, (double)g->n_units);
+    sensitivity_put_text(t, SENSITIVITY_VERDICT, g->verdict);
+    sensitivity_put_text(t, SENSITIVITY_NOTE, note);
+    sensitivity_put(t, SENSITIVITY_TILT, g->tilt);
+    put_interval(t, SENSITIVITY_CHANGE, g->change);
+    sensitivity_put(t, SENSITIVITY_SHARE, share * fmax(0, g->change.high));
+    if (g->refused)
+        return;
+    put_interval(t, SENSITIVITY_VALUE, g->sensitivity);
+    put_interval(t, SENSITIVITY_FACTOR, g->factor);
+    sensitivity_put(t, SENSITIVITY_SCATTER, g->scatter);
+    sensitivity_put(t, SENSITIVITY_WAYS_ERROR, g->ways_error);
+}
+
+/* What other subcommands are given. */
+static void set_options(table_writer *t, const group *g)
+{
+    const double share = g->sensitivity.standard_error / g->sensitivity.value;
+    if (!isnan(g->sensitivity.value))
+        sensitivity_set_print(t, SENSITIVITY_KEY_INDENT, "--sensitivity %.6gnm/V",
+                              1e9 * g->sensitivity.value);
+    if (share > 0)
+        sensitivity_set_print(t, SENSITIVITY_KEY_COMPARE, "--sensitivity-error %.2g", share);
+    if (!isnan(g->factor.value))
+        sensitivity_set_print(t, SENSITIVITY_KEY_SPRING, "%.4g",
+                              1 / (g->factor.value * g->factor.value));
+}
+
+static void set_interval(table_writer *t, sensitivity_key key, wt_interval i)
+{
+    sensitivity_set_value(t, key, i.value, i.standard_error, 0);
+}
+
+static void set_keys(table_writer *t, const sensitivity_task *task, size_t row, const group *g)
+{
+    size_t left_out = 0;
+    for (size_t i = 0; i < task->n; i++)
+        left_out +=
+            task->items[i].outlier || !(has_way(&task->items[i], 0) || has_way(&task->items[i], 1));
+    sensitivity_set_text(t, SENSITIVITY_KEY_DIRECTION, row_names[row]);
+    sensitivity_set_text(t, SENSITIVITY_KEY_VERDICT, g->verdict);
+    sensitivity_set_print(t, SENSITIVITY_KEY_N_CURVES, "%zu", task->n);
+    sensitivity_set_print(t, SENSITIVITY_KEY_N_LEFT_OUT, "%zu", left_out);
+    if (row == WAYS)
+        set_interval(t, SENSITIVITY_KEY_DIFFERENCE, g->difference);
+    if (g->refused)
+        return;
+    if (!isnan(g->sensitivity.value))
+        set_interval(t, SENSITIVITY_KEY_SENSITIVITY, g->sensitivity);
+    if (!isnan(g->factor.value))
+        set_interval(t, SENSITIVITY_KEY_FACTOR, g->factor);
+    set_options(t, g);
+}
+
+/* The row that answers: both ways if curves have both, else what there is. */
+static size_t answer_row(const sensitivity_task *task, const group groups[ROWS])
+{
+    static const size_t asked[] = {
+        [WT_WAYS_BOTH] = WAYS, [WT_WAYS_APPROACH] = 0, [WT_WAYS_RETRACT] = 1};
+    const size_t row = asked[task->job->ways];
+    if (row < WAYS || groups[row].n > 0)
+        return row;
+    return groups[0].n > 0 ? 0 : 1;
+}
+
+static wt_status put_groups(const sensitivity_task *task, wt_table **table, wt_error *err)
+{
+    group groups[ROWS] = {{0}};
+    wt_status status = make_groups(task, groups, err);
+    if (status != WT_OK)
+        return status;
+    const size_t answer = answer_row(task, groups);
+    if (groups[answer].n == 0) {
+        status = wt_fail(err, WT_E_RANGE, "no curve has a slope in contact");
+        wt_error_place(err, "%s", task->items[0].file->name);
+        for (size_t w = WAYS; w-- > 0;)
+            if (task->items[0].there[w] && !task->items[0].way[w].found)
+                wt_error_found(err, "%s: %s", wt_segment_kind_name(kinds[w]),
+                               task->items[0].way[w].why_not);
+        return status;
+    }
+    table_writer t = table_begin(&sensitivity_schema, err);
+    for (size_t row = 0; row < ROWS; row++)
+        if (groups[row].n > 0)
+            put_group(&t, row, &groups[row], sphere_share(&task->job->options));
+    set_keys(&t, task, answer, &groups[answer]);
+    cost_say(task->work, (cost_summary){.items = (double)task->n});
+    return table_end(&t, table);
+}
+
+wt_status wt_sensitivity_make(const wt_sensitivity_job *job, const wt_job *work,
+                              wt_sensitivity_tables *tables, wt_error *err)
+{
+    if (job == NULL || work == NULL || tables == NULL)
+        return wt_fail(err, WT_E_ARG, "no job of sensitivity");
+    sensitivity_task task = {.job = job, .work = work};
+    wt_sensitivity_tables made = {0};
+    flow_files files = {NULL, 0, NULL};
+    wt_status status = param_check(wt_sensitivity_job_params(), job, err);
+    if (status == WT_OK && !(job->options.from < job->options.to))
+        status = range_error("contact-to", job->options.to, "more than contact-from", err);
+    if (status == WT_OK)
+        status = flow_files_list(job->sets, job->n_sets, work, &files, err);
+    if (status == WT_OK)
+        status = read_files(&task, &files, err);
+    if (status == WT_OK)
+        status = check_signals(&task, err);
+    if (status == WT_OK)
+        status = mark_outliers(&task, err);
+    if (status == WT_OK)
+        status = put_curves(&task, &made.sensitivity_curves, err);
+    if (status == WT_OK)
+        status = put_groups(&task, &made.sensitivity, err);
+    if (status == WT_OK) {
+        *tables = made;
+        made = (wt_sensitivity_tables){0};
+    }
+    wt_sensitivity_tables_clear(&made);
+    free(task.items);
+    flow_files_clear(&files);
+    return status;
+}

@@ -1,0 +1,263 @@
+/* The job of a spot: how rough a height image is under the tip at the depth it reached, and what
+ * the indentation left there by an image taken after it. SPDX-License-Identifier: GPL-3.0-or-later
+ */
+#include "core/base/param.h"
+#include "job/cost.h"
+#include "job/inputs.h"
+
+#include "core/base/array.h"
+#include "core/base/clocale.h"
+#include "core/base/range_text.h"
+#include "core/table/table_rows.h"
+#include "indentation/spot.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* Steps of the position within its error to each side: 81 places, of which the largest and the
+ * least are told. */
+enum { WITHIN = 4 };
+
+wt_spot_job wt_spot_job_defaults(void)
+{
+    return (wt_spot_job){.depth = (double)NAN,
+                         .x = (double)NAN,
+                         .y = (double)NAN,
+                         .position_error = (double)NAN,
+                         .largest_effect = 0.1,
+                         .read = wt_read_defaults()};
+}
+
+static const wt_param rows[] = {
+    {PARAM("depth", wt_spot_job, depth, WT_Q_INDENTATION, ABOVE(0)), .value = "D",
+     .flags = PARAM_REQUIRED | PARAM_NO_CASE,
+     .help = "indentation that the tip reached, such as 70nm"},
+    {PARAM("at-x", wt_spot_job, x, WT_Q_LENGTH, ANY_NUMBER), .value = "X",
+     .unset = "the middle of the image", .flags = PARAM_NO_CASE,
+     .help = "where it went in, in the coordinates of the image, such as 1.2um"},
+    {PARAM("at-y", wt_spot_job, y, WT_Q_LENGTH, ANY_NUMBER), .value = "Y",
+     .unset = "the middle of the image", .flags = PARAM_NO_CASE,
+     .help = "where it went in, in the coordinates of the image"},
+    {PARAM("position-error", wt_spot_job, position_error, WT_Q_LENGTH, AT_LEAST(0)), .value = "D",
+     .unset = "one contact radius", .flags = PARAM_NO_CASE,
+     .help = "how far from there it may have gone in, such as 50nm"},
+    {PARAM("largest-effect", wt_spot_job, largest_effect, WT_Q_NONE, FROM_BELOW(0, 1)),
+     .value = "X", .flags = PARAM_NO_CASE,
+     .help = "relative error of the contact area by the roughness that is still fine"},
+    {PARAM_TEXT_OF("image", wt_spot_job, image), .value = "NAME",
+     .unset = "the first image of heights", .flags = PARAM_NO_CASE,
+     .help = "which image of a file: a part of its name, such as backward"},
+    {PARAM_TEXT_OF("after", wt_spot_job, after), .value = "FILE", .unset = "",
+     .flags = PARAM_NO_CASE, .help = "image of the spot after the indentation"},
+    {PARAM_FLAG_OF("map", wt_spot_job, map), .flags = PARAM_NO_CASE,
+     .help =
+         "the table spot_map, too: heights about the place before and after, of which weartrack "
+         "report makes a figure"},
+};
+PARAM_TABLE(wt_spot_job_params, wt_spot_job, rows, wt_spot_job_defaults, NO_PARTS)
+
+/* ---- roughness ------------------------------------------------------------------------------- */
+
+static double contact_radius(const wt_tip *tip, double depth)
+{
+    double g, slope;
+    wt_contact_function(tip, depth, &g, &slope);
+    return slope / 2;
+}
+
+/* False where it is not measured about one of the places. */
+static bool find_range(const wt_height_map *f, spot *s)
+{
+    s->low = s->high = s->plane.rms;
+    for (int j = -WITHIN; j <= WITHIN; j++)
+        for (int i = -WITHIN; i <= WITHIN; i++) {
+            const double u = s->error * i / WITHIN, v = s->error * j / WITHIN;
+            if (hypot(u, v) > s->error)
+                continue;
+            if (!spot_covers(f, s->x + u, s->y + v, s->contact))
+                return false;
+            const double rms = spot_plane_fit(f, s->x + u, s->y + v, s->contact).rms;
+            s->low = fmin(s->low, rms);
+            s->high = fmax(s->high, rms);
+        }
+    return true;
+}
+
+static wt_status find_median(const wt_height_map *f, spot *s, wt_error *err)
+{
+    const spot_places p = spot_places_lay(f, s->contact);
+    double *rms = malloc((p.nx * p.ny + 1) * sizeof *rms);
+    size_t n = 0;
+    if (rms == NULL)
+        return wt_fail(err, WT_E_MEMORY, "out of memory");
+    for (size_t j = 0; j < p.ny; j++)
+        for (size_t i = 0; i < p.nx; i++) {
+            const double here = spot_plane_fit(f, p.radius * (2 * (double)i + 1),
+                                               p.radius * (2 * (double)j + 1), s->contact)
+                                    .rms;
+            if (!isnan(here))
+                rms[n++] = here;
+        }
+    s->median = n > 0 ? numbers_median(rms, n) : (double)NAN;
+    free(rms);
+    return WT_OK;
+}
+
+static double limit_of(const wt_spot_job *job, const spot *s)
+{
+    return s->power > 0 ? job->largest_effect / (2 * s->power) : (double)NAN;
+}
+
+/* "cannot say" goes on with what would tell. */
+static void judge_roughness(const wt_spot_job *job, const wt_height_map *f, bool covered, spot *s)
+{
+    const double limit = limit_of(job, s), low = s->low / job->depth, high = s->high / job->depth;
+    char pixel[32], contact[32], need[32], within[32];
+    wt_format_si(fmax(f->dx, f->dy), "m", 3, pixel, sizeof pixel);
+    wt_format_si(s->contact, "m", 3, contact, sizeof contact);
+    wt_format_si(s->contact * sqrt(M_PI / (SPOT_LEAST_PIXELS + 2)), "m", 2, need, sizeof need);
+    wt_format_si(s->contact + s->error, "m", 3, within, sizeof within);
+    if (s->x < 0 || s->y < 0 || s->x > f->dx * (double)(f->nx - 1) ||
+        s->y > f->dy * (double)(f->ny - 1))
+        clocale_print(s->verdict, sizeof s->verdict,
+                      "cannot say: the place lies outside of the image; its coordinates, as the "
+                      "image counts them, would tell (--at-x, --at-y)");
+    else if (isnan(s->plane.rms) && s->plane.n + s->plane.missing < SPOT_LEAST_PIXELS)
+        clocale_print(
+            s->verdict, sizeof s->verdict,
+            "cannot say: pixels of %s are too coarse for a contact radius of %s (%zu in it, "
+            "%d are needed); an image with pixels of %s or less would tell",
+            pixel, contact, s->plane.n + s->plane.missing, SPOT_LEAST_PIXELS, need);
+    else if (!covered)
+        clocale_print(
+            s->verdict, sizeof s->verdict,
+            "cannot say: the contact radius of %s is not measured about each place that the "
+            "tip may have gone in (%d heights and nine tenths of its pixels); an image that has "
+            "heights up to %s from the place would tell",
+            contact, SPOT_LEAST_PIXELS, within);
+    else if (isnan(limit))
+        clocale_print(
+            s->verdict, sizeof s->verdict,
+            "cannot say: the contact of this tip does not grow with its depth, so no limit "
+            "follows from the depth; the roughness stands beside it for you to judge");
+    else if (low > limit)
+        clocale_print(
+            s->verdict, sizeof s->verdict,
+            "too rough: %.2g of the depth, above the limit of %.2g, where one rms height of "
+            "depth makes %.2g %% of the contact area",
+            s->plane.rms / job->depth, limit, 100 * job->largest_effect);
+    else if (high <= limit)
+        clocale_print(s->verdict, sizeof s->verdict,
+                      "smooth enough: %.2g of the depth, the limit is %.2g",
+                      s->plane.rms / job->depth, limit);
+    else
+        clocale_print(s->verdict, sizeof s->verdict,
+                      "cannot say: %s of the depth, depending on the place, and the limit is "
+                      "%.2g; a better known position would tell (--position-error)",
+                      ends_of(low, high, 2).text, limit);
+}
+
+static wt_status find_roughness(const wt_spot_job *job, const wt_image *image,
+                                const wt_height_map *f, spot *s, wt_error *err)
+{
+    const double step = 1e-3, depth = job->depth;
+    s->contact = contact_radius(&job->tip, depth);
+    s->power = (log(contact_radius(&job->tip, depth * exp(step))) -
+                log(contact_radius(&job->tip, depth * exp(-step)))) /
+               (2 * step);
+    s->x = isnan(job->x) ? image->width / 2 : job->x - image->x_min;
+    s->y = isnan(job->y) ? image->height / 2 : job->y - image->y_min;
+    s->error = isnan(job->position_error) ? s->contact : job->position_error;
+    s->plane = spot_plane_fit(f, s->x, s->y, s->contact);
+    s->low = s->high = s->median = (double)NAN;
+    const bool inside = s->x >= s->contact + s->error && s->y >= s->contact + s->error &&
+                        s->x <= image->width - s->contact - s->error &&
+                        s->y <= image->height - s->contact - s->error;
+    const bool covered = inside && find_range(f, s);
+    wt_status status = WT_OK;
+    if (covered)
+        status = find_median(f, s, err);
+    else
+        s->plane.rms = (double)NAN;
+    judge_roughness(job, f, covered, s);
+    return status;
+}
+
+/* ---- the table ------------------------------------------------------------------------------- */
+
+TABLE_ROW(spot, SPOT, spot spot; imprint left; wt_interval roughness, ratio;
+          wt_estimate shift_x, shift_y;
+          double x, y, depth, tilt, limit, places, deepest_x, deepest_y;)
+
+TABLE_KEYS(spot, SPOT, const char *tip, *image, *verdict; wt_estimate effect;)
+
+static wt_status put_spot(const wt_spot_job *job, const wt_image *image, const spot *s,
+                          const imprint *left, wt_table **table, wt_error *err)
+{
+    const double nan = (double)NAN, depth = job->depth, rms = s->plane.rms;
+    const wt_interval none = {nan, nan, nan, nan};
+    const bool rough = !isnan(rms), found = left->shift.found;
+    const spot_shift *shift = &left->shift;
+    char tip[256];
+    table_writer t = table_begin(&spot_schema, err);
+    TABLE_ADD(
+        spot, &t, .spot = *s, .left = *left,
+        .roughness = rough ? (wt_interval){rms, nan, s->low, s->high} : none,
+        .ratio = rough ? (wt_interval){rms / depth, nan, s->low / depth, s->high / depth} : none,
+        .shift_x = {found ? shift->x : nan, found ? shift->x_error : nan, 0, NULL},
+        .shift_y = {found ? shift->y : nan, found ? shift->y_error : nan, 0, NULL},
+        .x = s->x + image->x_min, .y = s->y + image->y_min, .depth = depth,
+        .tilt = rough ? hypot(s->plane.slope_x, s->plane.slope_y) : nan, .limit = limit_of(job, s),
+        .places = job->after != NULL ? (double)left->places : nan,
+        .deepest_x = left->deepest_x + image->x_min, .deepest_y = left->deepest_y + image->y_min);
+    if (job->after != NULL)
+        spot_set_text(&t, SPOT_KEY_IMPRINT, left->verdict);
+    wt_tip_describe(&job->tip, tip, sizeof tip);
+    TABLE_SET(spot, &t, tip, image->name, s->verdict, {job->largest_effect, 0, 0, NULL});
+    return table_end(&t, table);
+}
+
+void wt_spot_tables_clear(wt_spot_tables *tables)
+{
+    if (tables == NULL)
+        return;
+    wt_table_free(tables->spot);
+    wt_table_free(tables->spot_map);
+    *tables = (wt_spot_tables){0};
+}
+
+wt_status wt_spot_make(const wt_spot_job *job, const char *path, const wt_job *work,
+                       wt_spot_tables *tables, wt_error *err)
+{
+    if (job == NULL || path == NULL || work == NULL || tables == NULL)
+        return wt_fail(err, WT_E_ARG, "no image of a spot");
+    wt_image image = {.values = NULL};
+    wt_height_map field = {.z = NULL};
+    spot s = {0};
+    imprint left = spot_no_imprint();
+    wt_spot_tables made = {0};
+    wt_status status = param_check(wt_spot_job_params(), job, err);
+    if (status == WT_OK)
+        status = wt_tip_check(&job->tip, err);
+    if (status == WT_OK)
+        status = spot_image_read(job, path, "before", work, &image, err);
+    if (status == WT_OK) {
+        field = wt_height_map_of(&image);
+        status = find_roughness(job, &image, &field, &s, err);
+    }
+    if (status == WT_OK && job->after != NULL)
+        status = spot_imprint_find(job, &image, &s, work, &left, err);
+    if (status == WT_OK)
+        status = put_spot(job, &image, &s, &left, &made.spot, err);
+    if (status == WT_OK && job->map)
+        status = spot_map_make(&field, &s, left.difference, &made.spot_map, err);
+    cost_say(work, (cost_summary){.items = 1});
+    if (status == WT_OK)
+        *tables = made;
+    else
+        wt_spot_tables_clear(&made);
+    free(left.difference);
+    wt_image_clear(&image);
+    return status;
+}

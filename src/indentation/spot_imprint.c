@@ -1,0 +1,258 @@
+/* What an indentation left at a spot: the image after it, laid on the one before.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#include "indentation/spot.h"
+
+#include "core/base/clocale.h"
+#include "core/math/students_t.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+/* Fewest untouched places that tell an error; largest ratio of pixels and of sides of the images;
+ * steps of the place where the change is deepest, in a contact radius, and how many of those it is
+ * looked for at most. */
+enum { LEAST_PLACES = 8, MOST_RATIO = 4, STEPS = 4, SEARCHED = 2 };
+
+/* The largest of 50 normal deviates, more than the discs within SEARCHED radii that have nothing in
+ * common, is above one more by 4.43 in 2.5 % of all draws; one alone is by 1.96. */
+static const double more_of_many = 4.43 / 1.96;
+
+/* What a place has, less what untouched ones have in the mean, whose scatter is its error. */
+static wt_interval less_untouched(double value, const double *others, size_t n)
+{
+    const moments m = moments_of(others, n);
+    const double error = sqrt(m.variance * (1 + 1 / (double)n)),
+                 reach = students_t_quantile((double)n - 1) * error;
+    return (wt_interval){value - m.mean, error, value - m.mean - reach, value - m.mean + reach};
+}
+
+/* The dents of untouched places; depth and volume have room for all of them. */
+static wt_status measure_others(const wt_height_map *difference, const spot *s,
+                                const spot_places *p, double *depth, double *volume, size_t *n,
+                                wt_error *err)
+{
+    wt_status status = WT_OK;
+    for (size_t k = 0; k < p->nx * p->ny && status == WT_OK; k++) {
+        const double x = p->radius * (2 * (double)(k % p->nx) + 1),
+                     y = p->radius * (2 * (double)(k / p->nx) + 1);
+        spot_dent other;
+        if (hypot(x - s->x, y - s->y) < 6 * s->contact + s->error)
+            continue;
+        status = spot_dent_at(difference, x, y, s->contact, &other, err);
+        if (isnan(other.depth) || isnan(other.volume))
+            continue;
+        depth[*n] = other.depth;
+        volume[(*n)++] = other.volume;
+    }
+    return status;
+}
+
+/* Where within the error of the position the change is deepest. */
+static wt_status find_deepest(const wt_height_map *difference, const spot *s, imprint *to,
+                              wt_error *err)
+{
+    enum { MOST = 24 }; /* steps to each side, a bound of time */
+    const double within = fmin(s->error, SEARCHED * s->contact);
+    const int steps = (int)fmin(MOST, ceil(STEPS * within / s->contact));
+    wt_status status = WT_OK;
+    for (int k = 0; k < (2 * steps + 1) * (2 * steps + 1) && status == WT_OK; k++) {
+        const double x = s->x + within * (k % (2 * steps + 1) - steps) / fmax(steps, 1),
+                     y = s->y + within * (k / (2 * steps + 1) - steps) / fmax(steps, 1);
+        spot_dent dent;
+        if (hypot(x - s->x, y - s->y) > within * (1 + 1e-9))
+            continue;
+        status = spot_dent_at(difference, x, y, s->contact, &dent, err);
+        if (isnan(dent.depth) || dent.depth <= to->deepest)
+            continue;
+        to->deepest = dent.depth;
+        to->deepest_x = x;
+        to->deepest_y = y;
+    }
+    return status;
+}
+
+static wt_status measure_dent(const wt_height_map *difference, const spot *s, imprint *to,
+                              wt_error *err)
+{
+    if (s->plane.n + s->plane.missing < SPOT_LEAST_PIXELS)
+        return WT_OK; /* far more places than pixels */
+    const spot_places p = spot_places_lay(difference, 2 * s->contact);
+    spot_dent here;
+    double *depth = malloc(2 * (p.nx * p.ny + 1) * sizeof *depth);
+    if (depth == NULL)
+        return wt_fail(err, WT_E_MEMORY, "out of memory");
+    double *volume = depth + p.nx * p.ny + 1;
+    wt_status status = spot_dent_at(difference, s->x, s->y, s->contact, &here, err);
+    if (status == WT_OK)
+        status = measure_others(difference, s, &p, depth, volume, &to->places, err);
+    if (status == WT_OK && !isnan(here.depth) && !isnan(here.volume) &&
+        to->places >= LEAST_PLACES) {
+        to->depth = less_untouched(here.depth, depth, to->places);
+        to->volume = less_untouched(here.volume, volume, to->places);
+        status = find_deepest(difference, s, to, err);
+        to->deepest -= here.depth - to->depth.value;
+    }
+    free(depth);
+    return status;
+}
+
+static void judge_shift(const imprint *to, char *verdict, size_t size)
+{
+    if (isnan(to->shift.overlap))
+        clocale_print(
+            verdict, size,
+            "cannot say: there is no shift at which a quarter of the images has heights of "
+            "both; images of the same place would tell");
+    else
+        clocale_print(
+            verdict, size,
+            "cannot say: the parts of the images do not agree how one lies beside the other "
+            "(overlap at the best shift %.0f %%); images of the same place that show more "
+            "around it would tell",
+            100 * to->shift.overlap);
+}
+
+/* Than here and than nothing: places on the lines of a dent look higher than they are. */
+static bool is_deeper_elsewhere(const imprint *to)
+{
+    return to->deepest - fmax(to->depth.value, 0) >
+           more_of_many * (to->depth.high - to->depth.value);
+}
+
+static void judge_elsewhere(const wt_image *before, const imprint *to, char *verdict, size_t size)
+{
+    char depth[32], x[32], y[32];
+    wt_format_si(to->deepest, "m", 3, depth, sizeof depth);
+    wt_format_si(to->deepest_x + before->x_min, "m", 4, x, sizeof x);
+    wt_format_si(to->deepest_y + before->y_min, "m", 4, y, sizeof y);
+    clocale_print(verdict, size,
+                  "cannot say: the change is deepest (%s) at x %s, y %s, within the error of the "
+                  "position; that place instead would tell (--at-x, --at-y)",
+                  depth, x, y);
+}
+
+static void judge_imprint(const wt_image *before, const spot *s, imprint *to)
+{
+    char depth[32], error[32], high[32], around[32];
+    wt_format_si(to->depth.value, "m", 3, depth, sizeof depth);
+    wt_format_si(to->depth.standard_error, "m", 2, error, sizeof error);
+    wt_format_si(to->depth.high, "m", 2, high, sizeof high);
+    wt_format_si(4 * s->contact, "m", 3, around, sizeof around);
+    if (!to->shift.found)
+        judge_shift(to, to->verdict, sizeof to->verdict);
+    else if (isnan(to->depth.value) && to->places < LEAST_PLACES)
+        clocale_print(
+            to->verdict, sizeof to->verdict,
+            "cannot say: %zu untouched places as large as the contact tell the error, %d are "
+            "needed; images that show more around it or a better known position would tell",
+            to->places, LEAST_PLACES);
+    else if (isnan(to->depth.value))
+        clocale_print(
+            to->verdict, sizeof to->verdict,
+            "cannot say: the images overlap in %.0f %%, and that does not hold %s about the "
+            "place, four contact radii; images that do would tell",
+            100 * to->shift.overlap, around);
+    else if (!(to->depth.standard_error > 0))
+        clocale_print(to->verdict, sizeof to->verdict,
+                      "cannot say: both images have the same heights; an image taken after the "
+                      "indentation would tell");
+    else if (to->depth.low > 0)
+        clocale_print(to->verdict, sizeof to->verdict,
+                      "yes: %s deep over the contact, on average, standard error %s", depth, error);
+    else if (is_deeper_elsewhere(to))
+        judge_elsewhere(before, to, to->verdict, sizeof to->verdict);
+    else if (to->depth.high < 0)
+        clocale_print(
+            to->verdict, sizeof to->verdict,
+            "cannot say: the surface is higher after the indentation, or lower two to four "
+            "contact radii beside the place; a third image would tell whether it stays");
+    else
+        clocale_print(to->verdict, sizeof to->verdict,
+                      "none is seen%s: at most %s over the contact, on average",
+                      s->error > SEARCHED * s->contact ? " within two contact radii" : "", high);
+}
+
+/* Pixels of other sizes are mended; images that have little in common are not. */
+static wt_status check_sizes(const wt_image *a, const wt_image *b, const char *path, wt_error *err)
+{
+    const wt_height_map f = wt_height_map_of(a), g = wt_height_map_of(b);
+    const double ratios[] = {f.dx / g.dx, f.dy / g.dy, a->width / b->width, a->height / b->height};
+    bool good = true;
+    for (size_t i = 0; i < sizeof ratios / sizeof *ratios; i++)
+        good = good && ratios[i] >= 1.0 / MOST_RATIO && ratios[i] <= MOST_RATIO;
+    if (good)
+        return WT_OK;
+    char size[4][32];
+    const double sizes[] = {a->width, a->height, b->width, b->height};
+    for (size_t i = 0; i < 4; i++)
+        wt_format_si(sizes[i], "m", 4, size[i], sizeof size[i]);
+    const wt_status status = wt_fail(
+        err, WT_E_RANGE, "the image after the indentation is too different from the one before");
+    wt_error_file(err, path);
+    wt_error_expected(err, "sides and pixels within %d times of %zu x %zu pixels over %s x %s",
+                      MOST_RATIO, a->n_columns, a->n_rows, size[0], size[1]);
+    wt_error_found(err, "%zu x %zu pixels over %s x %s", b->n_columns, b->n_rows, size[2], size[3]);
+    wt_error_advice(err, "take an image of the same area with as many pixels");
+    return status;
+}
+
+static double strain_of(const double g[2][2])
+{
+    /* The largest singular value. */
+    const double sum = hypot(g[0][0] + g[1][1], g[1][0] - g[0][1]),
+                 difference = hypot(g[0][0] - g[1][1], g[1][0] + g[0][1]);
+    return 0.5 * (sum + difference);
+}
+
+/* `after` has the pixels of `before`. */
+static wt_status compare_images(const wt_height_map *before, const wt_height_map *after,
+                                const spot *s, imprint *to, wt_error *err)
+{
+    const wt_status status = spot_align(before, after, s->x, s->y, 3 * s->contact, &to->shift, err);
+    if (status != WT_OK || !to->shift.found)
+        return status;
+    to->difference = malloc(before->nx * before->ny * sizeof *to->difference);
+    if (to->difference == NULL)
+        return wt_fail(err, WT_E_MEMORY, "out of memory");
+    spot_difference(before, after, &to->shift, to->difference);
+    wt_height_map changed = *before;
+    changed.z = to->difference;
+    to->strain = strain_of((const double(*)[2])to->shift.gradient);
+    return measure_dent(&changed, s, to, err);
+}
+
+imprint spot_no_imprint(void)
+{
+    const double nan = (double)NAN;
+    const wt_interval unknown = {nan, nan, nan, nan};
+    return (imprint){.shift = {.overlap = nan},
+                     .strain = nan,
+                     .depth = unknown,
+                     .volume = unknown,
+                     .deepest = nan,
+                     .deepest_x = nan,
+                     .deepest_y = nan};
+}
+
+wt_status spot_imprint_find(const wt_spot_job *job, const wt_image *before, const spot *s,
+                            const wt_job *work, imprint *to, wt_error *err)
+{
+    wt_image after = {.values = NULL};
+    wt_height_map again = {.z = NULL};
+    *to = spot_no_imprint();
+    wt_status status = spot_image_read(job, job->after, "after", work, &after, err);
+    if (status == WT_OK)
+        status = check_sizes(before, &after, job->after, err);
+    if (status == WT_OK) {
+        const wt_height_map was = wt_height_map_of(before), is = wt_height_map_of(&after);
+        const bool same = fabs(is.dx / was.dx - 1) < 1e-6 && fabs(is.dy / was.dy - 1) < 1e-6;
+        if (!same)
+            status = spot_resample(&is, was.dx, was.dy, &again, err);
+        if (status == WT_OK)
+            status = compare_images(&was, same ? &is : &again, s, to, err);
+        judge_imprint(before, s, to);
+    }
+    free((void *)again.z);
+    wt_image_clear(&after);
+    return status;
+}

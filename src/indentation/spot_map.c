@@ -1,0 +1,59 @@
+/* The heights about a spot before and after, for a figure. SPDX-License-Identifier:
+ * GPL-3.0-or-later */
+#include "indentation/spot.h"
+
+#include "core/table/table_rows.h"
+
+#include <math.h>
+
+/* Contact radii on each side of the place, so that a dent and what lies untouched are both seen;
+ * most pixels along an axis, as many as a small figure shows. */
+enum { AROUND = 5, MOST = 81 };
+
+/* The pixels that are shown of an axis. */
+typedef struct shown {
+    size_t first, last, step;
+} shown;
+
+static shown shown_pixels(double place, double reach, double pixel, size_t n)
+{
+    const double low = fmax(0, ceil((place - reach) / pixel)),
+                 high = fmin((double)(n - 1), floor((place + reach) / pixel));
+    if (!(low <= high))
+        return (shown){1, 0, 1};
+    const size_t first = (size_t)low, last = (size_t)high;
+    return (shown){first, last, (last - first) / MOST + 1};
+}
+
+static double less_plane(const wt_height_map *f, const spot_plane *p, size_t i, size_t j, double u,
+                         double v)
+{
+    return f->z[j * f->nx + i] - (p->height + p->slope_x * u + p->slope_y * v);
+}
+
+TABLE_ROW(spot_map, SPOT_MAP, double x, y, before, after, change;)
+
+wt_status spot_map_make(const wt_height_map *before, const spot *s, const double *difference,
+                        wt_table **table, wt_error *err)
+{
+    const double reach = AROUND * s->contact, nan = (double)NAN;
+    const shown x = shown_pixels(s->x, reach, before->dx, before->nx),
+                y = shown_pixels(s->y, reach, before->dy, before->ny);
+    wt_height_map changed = *before;
+    spot_plane planes[2] = {spot_plane_fit(before, s->x, s->y, reach), {nan, nan, nan, nan, 0, 0}};
+    if (difference != NULL) {
+        changed.z = difference;
+        planes[1] = spot_plane_fit(&changed, s->x, s->y, reach);
+    }
+    table_writer t = table_begin(&spot_map_schema, err);
+    for (size_t j = y.first; j <= y.last; j += y.step)
+        for (size_t i = x.first; i <= x.last; i += x.step) {
+            const double u = (double)i * before->dx - s->x, v = (double)j * before->dy - s->y;
+            const double was = less_plane(before, &planes[0], i, j, u, v),
+                         change = difference != NULL ? less_plane(&changed, &planes[1], i, j, u, v)
+                                                     : nan;
+            TABLE_ADD(spot_map, &t, u, v, was, was + change, change);
+        }
+    spot_map_set_value(&t, SPOT_MAP_KEY_CONTACT_RADIUS, s->contact, 0, 0);
+    return table_end(&t, table);
+}

@@ -1,0 +1,257 @@
+/* The columns and keys of the tables of indentation. Included by tables.h alone.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef WT_INDENTATION_TABLES_H
+#define WT_INDENTATION_TABLES_H
+
+/* Those that a curve has: WT_CURVE_WAVES. */
+#define MISFIT_WAVE(X, n)                                                                          \
+    X(INDENTATION_MISFIT_WAVE_##n, "misfit_wave_" #n,                                              \
+      "cosine " #n " of the residual over the contact, of the largest force; of curves that tell " \
+      "of depth",                                                                                  \
+      NUMBER, SHOWS(deep.misfit[n - 1]), OPTIONAL)
+
+/* A table written by hand needs the verdicts and the moduli only. */
+#define INDENTATION_COLUMNS(X)                                                                     \
+    X(INDENTATION_FILE, AS(file), "file of the curve", TEXT, LABEL("File"), OPTIONAL)              \
+    X(INDENTATION_CURVE, AS(curve), "number of the curve in its file", NUMBER, LABEL("Curve"),     \
+      OPTIONAL)                                                                                    \
+    X(INDENTATION_SPOT, AS(spot), "place on the sample; curves of one spot are not independent",   \
+      TEXT, LABEL("Spot"), OPTIONAL)                                                               \
+    X(INDENTATION_X, AS(x), "lateral position x", SI(POSITION_X), OPTIONAL)                        \
+    X(INDENTATION_Y, AS(y), "lateral position y", SI(POSITION_Y), OPTIONAL)                        \
+    X(INDENTATION_VERDICT, AS(verdict), "accepted, doubtful, or why there is no modulus", TEXT)    \
+    X(INDENTATION_REASON, IN(fit, reason), "the verdict with its numbers", TEXT, LABEL("Reason"),  \
+      OPTIONAL)                                                                                    \
+    X(INDENTATION_MODULUS, IN(fit, modulus), "Young's modulus", SI(MODULUS),                       \
+      STANDARD_ERROR(INDENTATION_MODULUS))                                                         \
+    X(INDENTATION_MODULUS_STANDARD_ERROR, "modulus_standard_error",                                \
+      "standard error of the modulus, with that of a misfit", SI(MODULUS), OPTIONAL)               \
+    X(INDENTATION_MODULUS_MISFIT_ERROR, "modulus_misfit_error",                                    \
+      "what the contact law misses, in the standard error of the modulus", SI(MODULUS),            \
+      SHOWS(fit.misfit_error), OPTIONAL)                                                           \
+    X(INDENTATION_CONTACT_POINT, IN(fit, contact_point), "tip position at contact", SI(LENGTH),    \
+      STANDARD_ERROR(INDENTATION_CONTACT_POINT), OPTIONAL)                                         \
+    X(INDENTATION_CONTACT_POINT_STANDARD_ERROR, "contact_point_standard_error",                    \
+      "standard error of the contact point", SI(LENGTH), OPTIONAL)                                 \
+    X(INDENTATION_CONTACT_POINT_MISFIT_ERROR, "contact_point_misfit_error",                        \
+      "what the contact law misses, in that of the contact point", SI(LENGTH),                     \
+      SHOWS(fit.contact_misfit_error), OPTIONAL)                                                   \
+    X(INDENTATION_CONTACT_THRESHOLD, "contact_threshold",                                          \
+      "contact by the threshold of the baseline, less contact_point", SI(LENGTH),                  \
+      SHOWS(fit.contact_by[WT_CONTACT_THRESHOLD]), OPTIONAL)                                       \
+    X(INDENTATION_CONTACT_VARIANCES, "contact_variances",                                          \
+      "contact by the ratio of variances, less contact_point", SI(LENGTH),                         \
+      SHOWS(fit.contact_by[WT_CONTACT_VARIANCES]), OPTIONAL)                                       \
+    X(INDENTATION_CONTACT_LINES, "contact_lines",                                                  \
+      "contact by the meeting of two lines, less contact_point", SI(LENGTH),                       \
+      SHOWS(fit.contact_by[WT_CONTACT_LINES]), OPTIONAL)                                           \
+    X(INDENTATION_CONTACT_DIRECT_PATH, "contact_direct_path",                                      \
+      "contact by the distance from the direct path, less contact_point", SI(LENGTH),              \
+      SHOWS(fit.contact_by[WT_CONTACT_DIRECT_PATH]), OPTIONAL)                                     \
+    X(INDENTATION_CONTACT_GOODNESS_OF_FIT, "contact_goodness_of_fit",                              \
+      "contact by the goodness of fit, less contact_point", SI(LENGTH),                            \
+      SHOWS(fit.contact_by[WT_CONTACT_GOODNESS_OF_FIT]), OPTIONAL)                                 \
+    X(INDENTATION_BASELINE_OFFSET, IN(fit, baseline_offset), "force of the baseline at contact",   \
+      SI(FORCE), OPTIONAL)                                                                         \
+    X(INDENTATION_BASELINE_TILT, IN(fit, baseline_tilt), "slope of the baseline", UNIT("N/m"),     \
+      OPTIONAL)                                                                                    \
+    X(INDENTATION_NOISE, IN(fit, noise), "standard deviation of the baseline residual", SI(FORCE), \
+      OPTIONAL)                                                                                    \
+    X(INDENTATION_LACK_OF_FIT, IN(fit, lack_of_fit),                                               \
+      "slow residual in contact over what the noise of the baseline explains", NUMBER, OPTIONAL)   \
+    X(INDENTATION_LACK_OF_FIT_CHANCE, IN(fit, lack_of_fit_chance),                                 \
+      "chance of more by noise alone", NUMBER, OPTIONAL)                                           \
+    X(INDENTATION_BASELINE_CHANCE, IN(fit, baseline_chance),                                       \
+      "chance that a straight baseline departs as much from a line", NUMBER, OPTIONAL)             \
+    X(INDENTATION_BEND_SHIFT, IN(fit, bend_shift),                                                 \
+      "what the bend of the baseline adds to the modulus if it goes on in contact; 0: straight",   \
+      SI(MODULUS), OPTIONAL)                                                                       \
+    X(INDENTATION_INTERFERENCE_AMPLITUDE, IN(fit, interference_amplitude),                         \
+      "amplitude of a sine that the baseline shows, fitted with the modulus; 0: none", SI(FORCE),  \
+      OPTIONAL)                                                                                    \
+    X(INDENTATION_INTERFERENCE_PERIOD, IN(fit, interference_period), "its period", SI(LENGTH),     \
+      OPTIONAL)                                                                                    \
+    X(INDENTATION_MAX_FORCE, IN(fit, max_force), "largest force above the baseline", SI(FORCE),    \
+      OPTIONAL)                                                                                    \
+    X(INDENTATION_MAX_INDENTATION, IN(fit, max_indentation), "largest indentation in the fit",     \
+      SI(INDENTATION), OPTIONAL)                                                                   \
+    X(INDENTATION_FITTED_FROM, IN(fit, fitted_from),                                               \
+      "indentation at which the range of the fit begins; 0: at contact", SI(INDENTATION),          \
+      OPTIONAL)                                                                                    \
+    X(INDENTATION_ADHESION_FORCE, IN(fit, adhesion_force), "largest pull before contact",          \
+      SI(FORCE), OPTIONAL)                                                                         \
+    X(INDENTATION_WORK_OF_ADHESION, IN(fit, work_of_adhesion), "work of adhesion of the approach", \
+      UNIT("J/m^2"), STANDARD_ERROR(INDENTATION_WORK_OF_ADHESION), OPTIONAL)                       \
+    X(INDENTATION_WORK_OF_ADHESION_STANDARD_ERROR, "work_of_adhesion_standard_error",              \
+      "standard error of the work of adhesion", UNIT("J/m^2"), OPTIONAL)                           \
+    X(INDENTATION_CONTACT_PULL, "contact_pull",                                                    \
+      "constant pull in contact, of adhesion of long range", SI(FORCE),                            \
+      SHOWS(fit.contact_pull.value), OPTIONAL)                                                     \
+    X(INDENTATION_PULL_OFF_FORCE, IN(fit, pull_off_force), "largest pull of the retract",          \
+      SI(FORCE), OPTIONAL)                                                                         \
+    X(INDENTATION_PULL_OFF_WORK, IN(fit, pull_off_work),                                           \
+      "work of adhesion of the retract, an upper bound", UNIT("J/m^2"), OPTIONAL)                  \
+    X(INDENTATION_RETRACT_MODULUS, IN(fit, retract_modulus),                                       \
+      "Young's modulus of an elastic contact fitted to the retract alone", SI(MODULUS),            \
+      STANDARD_ERROR(INDENTATION_RETRACT_MODULUS), OPTIONAL)                                       \
+    X(INDENTATION_RETRACT_MODULUS_STANDARD_ERROR, "retract_modulus_standard_error",                \
+      "standard error of it, with that of a misfit", SI(MODULUS), OPTIONAL)                        \
+    X(INDENTATION_RETRACT_WORK, "retract_work_of_adhesion", "work of adhesion of that fit",        \
+      UNIT("J/m^2"), SHOWS(fit.retract_work.value), OPTIONAL)                                      \
+    X(INDENTATION_RETRACT_PULL, "retract_contact_pull", "constant pull in contact of that fit",    \
+      SI(FORCE), SHOWS(fit.retract_pull.value), OPTIONAL)                                          \
+    X(INDENTATION_TABOR_NUMBER, IN(fit, tabor_number),                                             \
+      "Tabor number: above 5 the adhesion is that of the fit", NUMBER, OPTIONAL)                   \
+    X(INDENTATION_LOSS, IN(fit, loss), "share of the work that the retract does not give back",    \
+      NUMBER, OPTIONAL)                                                                            \
+    X(INDENTATION_LOSS_BIAS, IN(fit, loss_bias),                                                   \
+      "what a fit without memory has more than |E*| at 1/load_time, of the modulus", NUMBER,       \
+      OPTIONAL)                                                                                    \
+    X(INDENTATION_PIEZO_RATE, IN(fit, piezo_rate), "rate of the piezo", SI(VELOCITY), OPTIONAL)    \
+    X(INDENTATION_RATE, IN(fit, indentation_rate), "mean rate of indentation", SI(VELOCITY),       \
+      OPTIONAL)                                                                                    \
+    X(INDENTATION_LOAD_TIME, IN(fit, load_time), "time from contact to the end of what is fitted", \
+      SI(TIME), OPTIONAL)                                                                          \
+    X(INDENTATION_SECOND_MINIMUM_RATIO, IN(fit, second_minimum_ratio),                             \
+      "misfit of the second best contact point over the best; nan if there is no second", NUMBER,  \
+      OPTIONAL)                                                                                    \
+    X(INDENTATION_SENSITIVITY_GAIN, IN(fit, sensitivity_gain),                                     \
+      "relative error of the modulus per relative error of sensitivity", NUMBER, OPTIONAL)         \
+    X(INDENTATION_EQUIVALENT_FREQUENCY, AS(equivalent_frequency),                                  \
+      "angular frequency of equal loading", SI(ANGULAR_FREQUENCY), OPTIONAL)                       \
+    X(INDENTATION_SPECTRUM_FACTOR, IN(fit, spectrum_factor),                                       \
+      "factor on the spectrum of the DMA: modulus over its |E*|", NUMBER,                          \
+      STANDARD_ERROR(INDENTATION_SPECTRUM_FACTOR), OPTIONAL)                                       \
+    X(INDENTATION_SPECTRUM_FACTOR_STANDARD_ERROR, "spectrum_factor_standard_error",                \
+      "standard error of the factor", NUMBER, OPTIONAL)                                            \
+    MISFIT_WAVE(X, 1)                                                                              \
+    MISFIT_WAVE(X, 2)                                                                              \
+    MISFIT_WAVE(X, 3)                                                                              \
+    MISFIT_WAVE(X, 4)                                                                              \
+    MISFIT_WAVE(X, 5)                                                                              \
+    MISFIT_WAVE(X, 6)                                                                              \
+    X(INDENTATION_MISFIT_LENGTH, "misfit_length", "travel of the piezo that the cosines are over", \
+      SI(LENGTH), SHOWS(deep.window), OPTIONAL)                                                    \
+    X(INDENTATION_BASELINE_LENGTH, "baseline_length", "travel of the piezo before contact",        \
+      SI(LENGTH), SHOWS(deep.baseline), OPTIONAL)                                                  \
+    X(INDENTATION_BASELINE_CURVATURE, "baseline_curvature",                                        \
+      "factor of the square of the position in the baseline", UNIT("N/m^2"),                       \
+      SHOWS(deep.curvature), OPTIONAL)                                                             \
+    X(INDENTATION_LOSS_ERROR, "loss_error",                                                        \
+      "relative error of the modulus by the memory that stands for loss; nan: loss, and what it "  \
+      "does is not known",                                                                         \
+      NUMBER, SHOWS(deep.loss_error), OPTIONAL)
+
+/* Where an error of theirs is stated: relative standard error of what all curves share, and what 1
+ * of it does to ln E, with the standard error of that. In the order of wt_common_source. */
+#define INDENTATION_COMMON_KEYS(X)                                                                 \
+    X(INDENTATION_KEY_LEVER_ERROR, "spring_constant_error", NUMBER, OPTIONAL)                      \
+    X(INDENTATION_KEY_SENSITIVITY_ERROR, "sensitivity_error", NUMBER, OPTIONAL)                    \
+    X(INDENTATION_KEY_HALF_ANGLE_ERROR, "half_angle_error", NUMBER, OPTIONAL)                      \
+    X(INDENTATION_KEY_RADIUS_ERROR, "radius_error", NUMBER, OPTIONAL)                              \
+    X(INDENTATION_KEY_LEVER_GAIN, "spring_constant_gain", NUMBER, OPTIONAL)                        \
+    X(INDENTATION_KEY_SENSITIVITY_GAIN, "sensitivity_gain", NUMBER, OPTIONAL)                      \
+    X(INDENTATION_KEY_HALF_ANGLE_GAIN, "half_angle_gain", NUMBER, OPTIONAL)                        \
+    X(INDENTATION_KEY_RADIUS_GAIN, "radius_gain", NUMBER, OPTIONAL)                                \
+    X(INDENTATION_KEY_LOSS_ERROR, "loss_error", NUMBER, OPTIONAL)                                  \
+    X(INDENTATION_KEY_BEND_ERROR, "bend_error", NUMBER, OPTIONAL)                                  \
+    X(INDENTATION_KEY_MISFIT_ERROR, "misfit_error", NUMBER, OPTIONAL)
+
+/* What the key tip begins with where curves of the group had different tips. */
+#define INDENTATION_SEVERAL "several: "
+
+#define INDENTATION_KEYS(X)                                                                        \
+    X(INDENTATION_KEY_TIP, "tip", TEXT, OPTIONAL)                                                  \
+    X(INDENTATION_KEY_POISSON_RATIO, "poisson_ratio", PLAIN, OPTIONAL)                             \
+    X(INDENTATION_KEY_FIT_RANGE, "fit_range", TEXT, LABEL("Range of the fit"), OPTIONAL)           \
+    X(INDENTATION_KEY_SPRING_CONSTANT, "spring_constant", SI(SPRING_CONSTANT), OPTIONAL)           \
+    X(INDENTATION_KEY_SPRING_CONSTANTS, "spring_constants", TEXT, OPTIONAL)                        \
+    X(INDENTATION_KEY_SENSITIVITY, "sensitivity", SI(SENSITIVITY), OPTIONAL)                       \
+    X(INDENTATION_KEY_SENSITIVITIES, "sensitivities", TEXT, OPTIONAL)                              \
+    INDENTATION_COMMON_KEYS(X)                                                                     \
+    X(INDENTATION_KEY_SPOTS, "spots", TEXT, OPTIONAL)                                              \
+    X(INDENTATION_KEY_SPECTRUM_TEMPERATURE, "spectrum_temperature", SI(TEMPERATURE),               \
+      LABEL("Temperature of the spectrum"), OPTIONAL)                                              \
+    X(INDENTATION_KEY_POOLED_MISFIT, "pooled_misfit", PLAIN,                                       \
+      LABEL("Mean residual of all curves, of the largest force"), OPTIONAL)                        \
+    X(INDENTATION_KEY_POOLED_MISFIT_CHANCE, "pooled_misfit_chance", PLAIN,                         \
+      LABEL("Chance of more by scatter alone"), OPTIONAL)                                          \
+    X(INDENTATION_KEY_NOT_SHOWN, "not_shown", TEXT, LABEL("What no curve shows"), OPTIONAL)        \
+    X(INDENTATION_KEY_N_ACCEPTED, "n_accepted", PLAIN, LABEL("Curves with a modulus"), OPTIONAL)   \
+    X(INDENTATION_KEY_N_DOUBTFUL, "n_doubtful", PLAIN, LABEL("Of them doubtful"), OPTIONAL)        \
+    X(INDENTATION_KEY_N_REJECTED, "n_rejected", PLAIN, LABEL("Curves rejected"), OPTIONAL)
+
+#define FORCE_DISPLACEMENT_COLUMNS(X)                                                              \
+    X(FORCE_DISPLACEMENT_GROUP, AS(group), "bulk or track", TEXT)                                  \
+    X(FORCE_DISPLACEMENT_SEGMENT, AS(segment), "approach or retract", TEXT)                        \
+    X(FORCE_DISPLACEMENT_DISPLACEMENT, AS(displacement),                                           \
+      "piezo displacement towards the sample, from the contact point", SI(LENGTH))                 \
+    X(FORCE_DISPLACEMENT_FORCE, AS(force), "force above the baseline at contact", SI(FORCE))
+
+/* One of each for every group. */
+#define FORCE_DISPLACEMENT_KEYS(X)                                                                 \
+    X(FORCE_DISPLACEMENT_KEY_CURVE, "curve_", TEXT, OPTIONAL)                                      \
+    X(FORCE_DISPLACEMENT_KEY_CONTACT_POINT, "contact_point_", SI(LENGTH), OPTIONAL)                \
+    X(FORCE_DISPLACEMENT_KEY_CONTACT_FORCE, "contact_force_", SI(FORCE), OPTIONAL)
+
+#define FORCE_INDENTATION_COLUMNS(X)                                                               \
+    X(FORCE_INDENTATION_GROUP, AS(group), "bulk or track", TEXT)                                   \
+    X(FORCE_INDENTATION_INDENTATION, AS(indentation), "indentation depth", SI(INDENTATION))        \
+    X(FORCE_INDENTATION_FORCE, AS(force), "force above the baseline", SI(FORCE))                   \
+    X(FORCE_INDENTATION_FITTED_FORCE, AS(fitted_force), "force of the fitted contact model",       \
+      SI(FORCE))
+#define FORCE_INDENTATION_KEYS(X)
+
+/* One block for each curve. */
+#define CURVES_COLUMNS(X)                                                                          \
+    X(CURVES_GROUP, AS(group), "bulk or track", TEXT)                                              \
+    X(CURVES_FILE, AS(file), "file of the curve", TEXT)                                            \
+    X(CURVES_CURVE, AS(curve), "number of the curve in its file", NUMBER)                          \
+    X(CURVES_SEGMENT, AS(segment), "approach or retract", TEXT)                                    \
+    X(CURVES_DISPLACEMENT, AS(displacement),                                                       \
+      "piezo displacement from the contact point; of a curve without one from its first sample",   \
+      SI(LENGTH))                                                                                  \
+    X(CURVES_FORCE, AS(force),                                                                     \
+      "force above the baseline; of a curve without a contact point as measured", SI(FORCE))       \
+    X(CURVES_INDENTATION, AS(indentation), "displacement less the bending of the lever",           \
+      SI(LENGTH))                                                                                  \
+    X(CURVES_FITTED_FORCE, AS(fitted_force), "fit to the approach at the same indentation",        \
+      SI(FORCE))                                                                                   \
+    X(CURVES_RESIDUAL, AS(residual), "force less the fit", SI(FORCE))
+#define CURVES_KEYS(X)
+
+/* As a file: what was chosen by hand. As a result: of it what was applied. */
+#define CHOICES_COLUMNS(X)                                                                         \
+    X(CHOICES_GROUP, AS(group), "group that it is for", TEXT, LABEL("Group"), OPTIONAL)            \
+    X(CHOICES_FILE, AS(file), "file, or the end of its path", TEXT, LABEL("File"))                 \
+    X(CHOICES_CURVE, AS(curve), "number of the curve in its file; nan: all of the file", NUMBER,   \
+      LABEL("Curve"), OPTIONAL)                                                                    \
+    X(CHOICES_CHOICE, AS(choice), "exclude, contact-point, spring-constant, sensitivity or tip",   \
+      TEXT, LABEL("Choice"))                                                                       \
+    X(CHOICES_VALUE, AS(value), "with its unit", TEXT, LABEL("Value"), OPTIONAL)                   \
+    X(CHOICES_NOTE, AS(note), "why, in words", TEXT, LABEL("Why"), OPTIONAL)                       \
+    X(CHOICES_APPLIED, AS(applied), "curves that it was applied to", NUMBER, LABEL("Curves"),      \
+      OPTIONAL)
+#define CHOICES_KEYS(X)
+
+/* The rows of a group have the same numbers of curves and units. */
+#define MODULUS_DEPTH_COLUMNS(X)                                                                   \
+    X(MODULUS_DEPTH_GROUP, AS(group), "bulk or track", TEXT, LABEL("Group"))                       \
+    X(MODULUS_DEPTH_DEPTH, AS(depth), "indentation depth", SI(INDENTATION), LABEL("Depth"))        \
+    X(MODULUS_DEPTH_MODULUS, AS(modulus),                                                          \
+      "modulus of a homogeneous rubber with the force at this depth, geometric mean", SI(MODULUS), \
+      LABEL("Modulus at this depth"), INTERVAL(MODULUS_DEPTH_LOW, MODULUS_DEPTH_HIGH))             \
+    INTERVAL_COLUMNS(X, MODULUS_DEPTH, "", SI(MODULUS))                                            \
+    X(MODULUS_DEPTH_N, AS(n), "number of curves", NUMBER, LABEL("Curves"))                         \
+    X(MODULUS_DEPTH_UNITS, AS(n_units), "spots, or curves where fewer than three spots are",       \
+      NUMBER, LABEL("Units"))
+/* One of each for every group. */
+#define MODULUS_DEPTH_KEYS(X)                                                                      \
+    X(MODULUS_DEPTH_KEY_CHANGES, "changes_", TEXT, SHOWS(changes), OPTIONAL)                       \
+    X(MODULUS_DEPTH_KEY_READING, "reading_", TEXT, SHOWS(reading), OPTIONAL)                       \
+    X(MODULUS_DEPTH_KEY_RATIO, "ratio_", PLAIN, SHOWS(ratio), OPTIONAL)                            \
+    X(MODULUS_DEPTH_KEY_CHANCE, "chance_", PLAIN, SHOWS(chance), PRECISION(3), OPTIONAL)           \
+    X(MODULUS_DEPTH_KEY_MISFIT_CHANCE, "misfit_chance_", PLAIN, SHOWS(misfit_chance),              \
+      PRECISION(3), OPTIONAL)
+
+#endif

@@ -1,0 +1,455 @@
+/* The job of thermal noise: spectra of levers at rest to spring constants.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#include "core/base/clocale.h"
+#include "core/base/param.h"
+#include "core/math/normal_quantile.h"
+#include "job/cost.h"
+#include "job/inputs.h"
+
+#include "core/table/registry.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+static const double boltzmann = 1.380649e-23;  /* [J/K], exact */
+static const double room_temperature = 298.15; /* [K]; 10 K more are 3 % of a spring constant */
+/* Of a rectangular lever read at its end: the first mode has 0.971 of the thermal energy, and the
+ * slope of its free end is 1.09 times that of a pressed one for the same deflection; together
+ * 0.817. Butt and Jaschke 1995. */
+static const double first_mode = 0.971, free_over_pressed = 1.09;
+/* A heuristic: no interval is told of a misfit that one good spectrum in a thousand has. */
+static const double least_chance = 1e-3;
+/* A heuristic: the averages by the scatter are those of the file up to a factor, for windows share
+ * bins and instruments count differently. */
+static const double averages_agree = 2;
+/* The scatter between spectra, where there are so many: of two it has one degree of freedom, and
+ * the interval would be 13 standard errors wide. */
+enum { LEAST_SPECTRA = 3 };
+/* Two spring constants of one lever contradict one another beyond this factor. A heuristic: thermal
+ * noise, Sader's method and plan view are each good to 10 or 20 % where nothing is wrong, so that
+ * this is two standard deviations of their ratio at least. */
+static const double contradiction = 1.5;
+/* Length over width of the levers on which Sader, Chon and Mulvaney tried their formula. */
+static const double least_slender = 3.3, most_slender = 13.7;
+
+wt_thermal_job wt_thermal_job_defaults(void)
+{
+    const double unknown = (double)NAN;
+    return (wt_thermal_job){.temperature = {unknown, 0, 0, "K"},
+                            .mode_shape = first_mode,
+                            .chi = free_over_pressed,
+                            .from = unknown,
+                            .to = unknown,
+                            .length = {unknown, 0, 0, "m"},
+                            .width = {unknown, 0, 0, "m"},
+                            .sader_coefficient = {unknown, 0, 0, "1"}};
+}
+
+static const wt_param rows[] = {
+    {PARAM("lever-temperature", wt_thermal_job, temperature, WT_Q_TEMPERATURE, ABOVE(0)),
+     .value = "T", .unset = "that of the file, else 25degC with a warning", .flags = PARAM_NO_CASE,
+     .help = "temperature of the lever, such as \"23degC +- 1K\""},
+    {PARAM("sensitivity-error", wt_thermal_job, sensitivity_error, WT_Q_NONE, FROM_BELOW(0, 1)),
+     .value = "X", .flags = PARAM_NO_CASE,
+     .help = "relative standard error of the deflection sensitivity, such as 0.02"},
+    {PARAM("mode-shape", wt_thermal_job, mode_shape, WT_Q_NONE, ABOVE(0)), .value = "X",
+     .flags = PARAM_NO_CASE,
+     .help = "share of the first mode in the thermal energy of the lever's end: 0.971 of a "
+             "rectangular lever, 1 to leave it out"},
+    {PARAM("chi", wt_thermal_job, chi, WT_Q_NONE, ABOVE(0)), .value = "X", .flags = PARAM_NO_CASE,
+     .help = "deflection sensitivity of the free lever over that on a hard surface: 1.09 of a "
+             "rectangular lever with the laser at its end; 1 if it is in the spectrum already"},
+    {PARAM("fit-from", wt_thermal_job, from, WT_Q_FREQUENCY, AT_LEAST(0)), .value = "F",
+     .unset = "40 widths of the peak below it, at least a quarter of its frequency",
+     .flags = PARAM_NO_CASE, .help = "beginning of the range of the fit, such as 50kHz"},
+    {PARAM("fit-to", wt_thermal_job, to, WT_Q_FREQUENCY, ABOVE(0)), .value = "F",
+     .unset = "40 widths above it, at most three times its frequency", .flags = PARAM_NO_CASE,
+     .help = "end of the range of the fit"},
+    {PARAM("length", wt_thermal_job, length, WT_Q_LENGTH, ABOVE(0)), .value = "L", .unset = "",
+     .flags = PARAM_NO_CASE,
+     .help = "length of a rectangular lever, such as \"225um +- 2%\": with --width its spring "
+             "constant by Sader's method stands beside that of the noise"},
+    {PARAM("width", wt_thermal_job, width, WT_Q_LENGTH, ABOVE(0)), .value = "B", .unset = "",
+     .flags = PARAM_NO_CASE, .help = "width of a rectangular lever, such as 40um"},
+    {PARAM_CHOICE_OF("medium", wt_thermal_job, medium, "air|water"), .flags = PARAM_NO_CASE,
+     .help = "what surrounds the lever, at its temperature and 1013 hPa; for --length and --width"},
+    {PARAM("sader-coefficient", wt_thermal_job, sader_coefficient, WT_Q_NONE, ABOVE(0)),
+     .value = "A", .unset = "", .flags = PARAM_NO_CASE,
+     .help = "coefficient of a kind of lever of any shape, k = A Q f^1.3 with k in N/m and f in "
+             "kHz, as of one that was calibrated; instead of --length and --width"},
+};
+PARAM_TABLE(wt_thermal_job_params, wt_thermal_job, rows, wt_thermal_job_defaults, NO_PARTS)
+
+/* ---- one spectrum ---------------------------------------------------------------------------- */
+
+typedef struct lever {
+    wt_noise_spectrum spectrum;
+    wt_thermal fit;
+    wt_estimate temperature;
+    double sensitivity;             /* 1 of a spectrum in metres */
+    double constant, common, error; /* relative errors: of all spectra alike, of this one */
+    wt_estimate sader;              /* by Sader's method; NaN: not asked for */
+    char contradiction[512];        /* to another spring constant; "" = none */
+    char note[768];
+} lever;
+
+static void add_note(lever *l, const char *note)
+{
+    const size_t used = strlen(l->note);
+    snprintf(l->note + used, sizeof l->note - used, "%s%s", used > 0 ? "; " : "", note);
+}
+
+static wt_status find_sensitivity(const wt_job *work, lever *l, const flow_file *file,
+                                  wt_error *err)
+{
+    const double given = file->set->read.sensitivity, own = l->spectrum.sensitivity;
+    if (!l->spectrum.volts) {
+        l->sensitivity = given > 0 && own > 0 ? given / own : 1;
+        if (given > 0 && !(own > 0))
+            wt_parselog_add(work->log, WT_WARNING, file->name, NULL,
+                            "the spectrum is in metres and the file does not say by which "
+                            "sensitivity: that of --sensitivity is not used");
+        return WT_OK;
+    }
+    l->sensitivity = !isnan(given) ? given : own;
+    if (l->sensitivity > 0)
+        return WT_OK;
+    const wt_status status = wt_fail(err, WT_E_MISSING, "the spectrum is in volts");
+    wt_error_expected(err, "a deflection sensitivity");
+    wt_error_advice(err, "give it, e.g. --sensitivity 60nm/V");
+    return status;
+}
+
+static void find_temperature(const wt_thermal_job *job, const wt_job *work, const flow_file *file,
+                             lever *l)
+{
+    l->temperature = job->temperature;
+    if (!isnan(l->temperature.value))
+        return;
+    l->temperature = (wt_estimate){l->spectrum.temperature, 0, 0, "K"};
+    if (l->temperature.value > 0)
+        return;
+    l->temperature.value = room_temperature;
+    wt_parselog_add(work->log, WT_WARNING, file->name, NULL,
+                    "the file %s: 25 degC is taken, and 3 K off are 1 %% of the spring constant; "
+                    "give --lever-temperature",
+                    isnan(l->spectrum.temperature) ? "does not say the temperature of the lever"
+                                                   : "says a temperature below absolute zero");
+}
+
+/* What the fit does not take: the mean, which no noise is, is no loss; a density that is missing,
+ * or 0, may be. */
+static void say_left_out(const wt_job *work, const flow_file *file, lever *l)
+{
+    const wt_noise_spectrum *s = &l->spectrum;
+    size_t n = 0, first = 0;
+    char text[160];
+    for (size_t i = 0; i < s->n; i++)
+        if (s->frequency[i] > 0 && !(s->density[i] > 0 && isfinite(s->density[i])))
+            first = n++ == 0 ? i : first;
+    if (s->n > 0 && s->frequency[0] == 0)
+        add_note(l, "the point at 0 Hz is left out");
+    if (n == 0)
+        return;
+    snprintf(text, sizeof text, "%zu of %zu points without a density above 0 left out", n, s->n);
+    add_note(l, text);
+    wt_parselog_add(work->log, WT_WARNING, file->name, NULL, "%s, the first at %g Hz", text,
+                    s->frequency[first]);
+}
+
+static void say_misfit(const wt_job *work, const flow_file *file, lever *l)
+{
+    const double said = l->spectrum.averages;
+    if (!l->fit.found) {
+        add_note(l, l->fit.why_not);
+        return;
+    }
+    if (l->fit.chance < least_chance) {
+        add_note(l, "the spectrum departs from an oscillator on a white floor: no interval");
+        wt_parselog_add(work->log, WT_WARNING, file->name, NULL,
+                        "the spectrum departs from an oscillator on a white floor more than its "
+                        "scatter explains; another range of the fit (--fit-from, --fit-to) may "
+                        "help; no interval is told");
+    }
+    if (said > averages_agree * l->fit.averages)
+        add_note(l, "scatters more than so many averages do");
+    if (l->spectrum.amplitudes)
+        add_note(l, "amplitudes are taken for roots of averaged power");
+}
+
+static void find_spring_constant(const wt_thermal_job *job, lever *l)
+{
+    const double square = l->sensitivity * l->sensitivity * l->fit.mean_square.value;
+    const double of_temperature = l->temperature.standard_error > 0
+                                      ? l->temperature.standard_error / l->temperature.value
+                                      : 0;
+    l->constant =
+        job->mode_shape / (job->chi * job->chi) * boltzmann * l->temperature.value / square;
+    l->error = l->fit.mean_square.standard_error / l->fit.mean_square.value;
+    l->common = hypot(of_temperature, 2 * job->sensitivity_error);
+}
+
+/* ---- beside it: Sader's method, the file ----------------------------------------------------- */
+
+static wt_estimate estimate_of(wt_interval i, const char *unit)
+{
+    return (wt_estimate){i.value, i.standard_error, 0, unit};
+}
+
+/* Of the resonance and the quality factor of the fit. */
+static void find_sader(const wt_thermal_job *job, lever *l)
+{
+    const wt_estimate f = estimate_of(l->fit.resonance, "Hz"), q = estimate_of(l->fit.quality, "1"),
+                      a = job->sader_coefficient;
+    const double slender = job->length.value / job->width.value;
+    if (!isnan(a.value)) {
+        const double k = a.value * q.value * pow(1e-3 * f.value, 1.3);
+        l->sader = (wt_estimate){
+            k,
+            k * hypot(a.standard_error / a.value,
+                      hypot(q.standard_error / q.value, 1.3 * f.standard_error / f.value)),
+            0, "N/m"};
+        return;
+    }
+    if (isnan(slender))
+        return;
+    l->sader = wt_sader_spring_constant(job->length, job->width, f, q,
+                                        wt_fluid_at(job->medium, l->temperature.value));
+    if (isnan(l->sader.value))
+        add_note(l,
+                 "no spring constant by Sader's method: water is not liquid at this temperature");
+    if (slender < least_slender || slender > most_slender)
+        add_note(l, "Sader's method was tried on levers 3.3 to 13.7 times as long as wide");
+}
+
+/* What would make the spring constant of the noise `ratio` times another one. */
+static void say_contradiction(lever *l, const char *other, double ratio)
+{
+    const bool small = ratio < 1;
+    if (!(fmax(ratio, 1 / ratio) > contradiction) || l->contradiction[0] != '\0')
+        return;
+    clocale_print(l->contradiction, sizeof l->contradiction,
+                  "the noise gives %.3g times the spring constant %s; what could be the cause: a "
+                  "deflection sensitivity %.3g times too %s, %s, or the other one (nominal, or of "
+                  "a plan view or quality factor that is not this lever's)",
+                  ratio, other, small ? sqrt(1 / ratio) : sqrt(ratio), small ? "large" : "small",
+                  small ? "densities of peak values (a factor 2) or with the width of a window in "
+                          "them (1.5 of Hann's)"
+                        : "two-sided densities (a factor 2) or a peak that is not the lever's");
+}
+
+static void compare_spring_constants(const wt_job *work, const flow_file *file, lever *l)
+{
+    say_contradiction(l, "by Sader's method", l->constant / l->sader.value);
+    say_contradiction(l, "of the file", l->constant / l->spectrum.spring_constant);
+    if (l->contradiction[0] == '\0')
+        return;
+    add_note(l, l->contradiction);
+    wt_parselog_add(work->log, WT_WARNING, file->name, NULL, "%s; none is advised",
+                    l->contradiction);
+}
+
+static wt_status measure_lever(const wt_thermal_job *job, const wt_job *work, flow_file *file,
+                               lever *l, wt_error *err)
+{
+    wt_input *input = NULL;
+    wt_status status = flow_open(work, file, "thermal", WT_KIND_NOISE, &input, err);
+    const wt_read_options read = flow_read_options(file);
+    if (status == WT_OK)
+        status = wt_noise_read(work->formats, input, &read, work->log, &l->spectrum, err);
+    if (status == WT_OK)
+        status = find_sensitivity(work, l, file, err);
+    if (status == WT_OK)
+        status = wt_thermal_fit(l->spectrum.frequency, l->spectrum.density, l->spectrum.n,
+                                job->from, job->to, &l->fit, err);
+    wt_input_close(input);
+    if (status != WT_OK)
+        return status;
+    find_temperature(job, work, file, l);
+    say_left_out(work, file, l);
+    say_misfit(work, file, l);
+    l->sader.value = l->sader.standard_error = (double)NAN;
+    if (!l->fit.found)
+        return WT_OK;
+    find_spring_constant(job, l);
+    find_sader(job, l);
+    compare_spring_constants(work, file, l);
+    return WT_OK;
+}
+
+/* ---- the table ------------------------------------------------------------------------------- */
+
+static bool has_interval(const lever *l)
+{
+    return l->fit.found && !(l->fit.chance < least_chance);
+}
+
+/* The columns of a number, its error and the ends of its interval stand behind one another. */
+static void put_interval(table_writer *t, thermal_column first, wt_interval i, bool known)
+{
+    thermal_put(t, first, i.value);
+    if (!known)
+        return;
+    thermal_put(t, first + 1, i.standard_error);
+    thermal_put(t, first + 2, i.low);
+    thermal_put(t, first + 3, i.high);
+}
+
+static void put_lever(table_writer *t, const flow_file *file, const lever *l)
+{
+    const wt_thermal *f = &l->fit;
+    const bool known = has_interval(l);
+    table_row(t);
+    thermal_put_text(t, THERMAL_FILE, file->name);
+    thermal_put_text(t, THERMAL_NOTE, l->note);
+    thermal_put(t, THERMAL_TEMPERATURE, l->temperature.value);
+    thermal_put(t, THERMAL_POINTS, (double)f->n);
+    thermal_put(t, THERMAL_OF_FILE, l->spectrum.spring_constant);
+    thermal_put(t, THERMAL_AVERAGES_OF_FILE, l->spectrum.averages);
+    thermal_put(t, THERMAL_FROM, f->from);
+    thermal_put(t, THERMAL_TO, f->to);
+    if (!f->found)
+        return;
+    const double error = hypot(l->error, l->common), half = NORMAL_95 * error;
+    put_interval(t, THERMAL_SPRING_CONSTANT,
+                 (wt_interval){l->constant, l->constant * error, l->constant * exp(-half),
+                               l->constant * exp(half)},
+                 known);
+    put_interval(t, THERMAL_RESONANCE, f->resonance, known);
+    put_interval(t, THERMAL_QUALITY, f->quality, known);
+    if (known)
+        thermal_put(t, THERMAL_FIT_ERROR, l->error);
+    thermal_put(t, THERMAL_DEFLECTION, l->sensitivity * sqrt(f->mean_square.value));
+    thermal_put(t, THERMAL_FLOOR, l->sensitivity * sqrt(f->floor));
+    thermal_put(t, THERMAL_RATIO, l->constant / l->spectrum.spring_constant);
+    thermal_put(t, THERMAL_SADER, l->sader.value);
+    if (known)
+        thermal_put(t, THERMAL_SADER_STANDARD_ERROR, l->sader.standard_error);
+    thermal_put(t, THERMAL_SADER_RATIO, l->constant / l->sader.value);
+    thermal_put(t, THERMAL_AVERAGES, f->averages);
+    thermal_put(t, THERMAL_CHANCE, f->chance);
+}
+
+/* Of one spectrum its own; of several the mean, with the scatter between them from three on. */
+static wt_estimate all_together(const lever *levers, size_t n, double *scatter)
+{
+    wt_estimate k = {(double)NAN, (double)NAN, 0, "N/m"};
+    double sum = 0, own = 0, squares = 0, common = 0, found = 0;
+    bool known = true; /* what a spectrum that is no oscillator's is off by may be in all of them */
+    *scatter = (double)NAN;
+    for (size_t i = 0; i < n; i++)
+        if (levers[i].fit.found) {
+            sum += levers[i].constant;
+            own += levers[i].error * levers[i].error;
+            common = levers[i].common;
+            known = known && has_interval(&levers[i]);
+            found++;
+        }
+    if (!(found > 0))
+        return k;
+    k.value = sum / found;
+    for (size_t i = 0; i < n; i++)
+        if (levers[i].fit.found)
+            squares += pow(levers[i].constant / k.value - 1, 2);
+    if (found >= LEAST_SPECTRA)
+        *scatter = sqrt(squares / (found - 1));
+    const double of_mean = (found >= LEAST_SPECTRA ? *scatter : sqrt(own / found)) / sqrt(found);
+    if (known)
+        k.standard_error = k.value * hypot(of_mean, common);
+    return k;
+}
+
+static void set_keys(table_writer *t, const wt_thermal_job *job, const lever *levers, size_t n)
+{
+    double scatter;
+    const wt_estimate k = all_together(levers, n, &scatter);
+    const bool of_temperature = n > 0 && levers[0].temperature.standard_error > 0;
+    thermal_set_print(t, THERMAL_KEY_MODE_SHAPE, "%g", job->mode_shape);
+    thermal_set_print(t, THERMAL_KEY_CHI, "%g", job->chi);
+    thermal_set_print(t, THERMAL_KEY_N_SPECTRA, "%zu", n);
+    thermal_set_print(t, THERMAL_KEY_INCLUDES, "%s%s%s",
+                      isnan(scatter) ? "the fit" : "the scatter between spectra",
+                      job->sensitivity_error > 0 ? " and the sensitivity" : "",
+                      of_temperature ? " and the temperature" : "");
+    if (isnan(k.value))
+        return;
+    thermal_set(t, THERMAL_KEY_SPRING_CONSTANT, k);
+    if (!isnan(scatter))
+        thermal_set_print(t, THERMAL_KEY_SCATTER, "%.3g", scatter);
+    for (size_t i = 0; i < n; i++)
+        if (levers[i].contradiction[0] != '\0') {
+            thermal_set_text(t, THERMAL_KEY_CONTRADICTION, levers[i].contradiction);
+            return;
+        }
+    thermal_set_print(t, THERMAL_KEY_INDENT, "--spring-constant %.6gN/m", k.value);
+    if (k.standard_error > 0)
+        thermal_set_print(t, THERMAL_KEY_COMPARE, "--spring-constant-error %.2g",
+                          k.standard_error / k.value);
+}
+
+static wt_status make_table(const wt_thermal_job *job, const wt_job *work, const flow_files *files,
+                            wt_table **table, wt_error *err)
+{
+    wt_status status = WT_OK;
+    size_t n = 0, n_failed = 0;
+    lever *levers = calloc(files->n + 1, sizeof *levers);
+    if (levers == NULL)
+        return wt_fail(err, WT_E_MEMORY, "out of memory");
+    table_writer t = table_begin(&thermal_schema, err);
+    for (size_t i = 0; status == WT_OK && i < files->n; i++) {
+        wt_error failure = WT_ERROR_INIT;
+        lever l = {.note = ""};
+        status = measure_lever(job, work, &files->file[i], &l, &failure);
+        if (status == WT_OK) {
+            put_lever(&t, &files->file[i], &l);
+            levers[n++] = l;
+        } else if (flow_leave_out(work, &files->file[i], &failure)) {
+            status = WT_OK;
+        } else {
+            n_failed++;
+            status = wt_job_failed(work, files->file[i].name, status, &failure, err);
+        }
+        wt_noise_spectrum_clear(&l.spectrum);
+    }
+    if (status == WT_OK && n == 0) {
+        status = wt_fail(err, WT_E_EMPTY, "no spectrum of thermal noise could be read");
+        flow_tell_files(files, n_failed, err);
+    }
+    set_keys(&t, job, levers, n);
+    free(levers);
+    cost_say(work, (cost_summary){.items = (double)n});
+    const wt_status written = table_end(&t, table);
+    if (status != WT_OK && written == WT_OK) {
+        wt_table_free(*table);
+        *table = NULL;
+    }
+    return status != WT_OK ? status : written;
+}
+
+wt_status wt_thermal_make(const wt_thermal_job *job, const wt_job *work, wt_table **table,
+                          wt_error *err)
+{
+    if (job == NULL || work == NULL || table == NULL)
+        return wt_fail(err, WT_E_ARG, "no job of thermal noise");
+    flow_files files = {NULL, 0, NULL};
+    wt_status status = param_check(wt_thermal_job_params(), job, err);
+    if (status == WT_OK && isnan(job->length.value) != isnan(job->width.value)) {
+        status =
+            wt_fail(err, WT_E_ARG, "%s without %s", isnan(job->width.value) ? "length" : "width",
+                    isnan(job->width.value) ? "width" : "length");
+        wt_error_advice(err, "Sader's method takes both: --length 225um --width 40um");
+    }
+    if (status == WT_OK && !isnan(job->length.value) && !isnan(job->sader_coefficient.value)) {
+        status = wt_fail(err, WT_E_ARG, "length and width beside a coefficient of Sader's method");
+        wt_error_advice(err, "give --length and --width, or --sader-coefficient");
+    }
+    if (status == WT_OK && !(isnan(job->from) || isnan(job->to) || job->from < job->to))
+        status = range_error("fit-to", job->to, "more than fit-from", err);
+    if (status == WT_OK)
+        status = flow_files_list(job->sets, job->n_sets, work, &files, err);
+    if (status == WT_OK)
+        status = make_table(job, work, &files, table, err);
+    flow_files_clear(&files);
+    return status;
+}

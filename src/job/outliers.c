@@ -1,0 +1,25 @@
+/* Values far from the others. SPDX-License-Identifier: GPL-3.0-or-later */
+#include "job/outliers.h"
+
+#include "core/base/array.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+/* In standard deviations: normal scatter has one of 1.7 million there. */
+static const double far = 5;
+/* Standard deviations of a normal distribution over its median and its mean distance. */
+static const double of_median = 1.4826, of_mean = 1.253314137315500;
+
+usual_values flow_usual_values(double *values, size_t n)
+{
+    const double middle = numbers_median(values, n);
+    double sum = 0;
+    for (size_t i = 0; i < n; i++) {
+        values[i] = fabs(values[i] - middle);
+        sum += values[i];
+    }
+    const double distance = numbers_median(values, n);
+    return (usual_values){middle,
+                          far * (distance > 0 ? of_median * distance : of_mean * sum / (double)n)};
+}

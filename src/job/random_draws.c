@@ -1,0 +1,69 @@
+/* Random draws from stated errors: a hash of seed, replicate and purpose, then Box-Muller.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#include "job/random_draws.h"
+
+#include "core/math/splitmix64.h"
+#include "core/math/students_t.h"
+
+#include <math.h>
+
+/* In (0, 1). */
+static double uniform_of(uint64_t bits)
+{
+    return ((double)(bits >> 11) + 0.5) * 0x1p-53;
+}
+
+double flow_draw_normal(uint64_t seed, size_t replicate, flow_draw what)
+{
+    if (replicate == WT_NO_REPLICATE)
+        return 0;
+    uint64_t state = mix64(mix64(mix64(seed) ^ (uint64_t)replicate) ^ (uint64_t)what);
+    double radius = sqrt(-2 * log(uniform_of(state)));
+    return radius * cos(2 * M_PI * uniform_of(mix64(state)));
+}
+
+double flow_draw_value(wt_estimate e, uint64_t seed, size_t replicate, flow_draw what)
+{
+    if (!(e.standard_error > 0))
+        return e.value;
+    return e.value + e.standard_error * flow_draw_normal(seed, replicate, what);
+}
+
+double flow_draw_positive(wt_estimate e, uint64_t seed, size_t replicate, flow_draw what)
+{
+    if (!(e.standard_error > 0) || !(e.value > 0))
+        return e.value;
+    return e.value * exp(e.standard_error / e.value * flow_draw_normal(seed, replicate, what));
+}
+
+wt_estimate flow_as_stated(wt_estimate input)
+{
+    if (!(input.standard_error > 0))
+        input.standard_error = (double)NAN;
+    return input;
+}
+
+double flow_draw_positive_t(wt_estimate e, double df, uint64_t seed, size_t replicate,
+                            flow_draw what)
+{
+    const double z = flow_draw_normal(seed, replicate, what);
+    if (!(df > 0) || !(e.standard_error > 0) || !(e.value > 0))
+        return flow_draw_positive(e, seed, replicate, what);
+    return e.value * exp(e.standard_error / e.value * students_t_of_normal(z, df));
+}
+
+double flow_spread(const double *x, size_t n, size_t stride)
+{
+    double mean = 0, sum = 0;
+    size_t count = 0;
+    for (size_t i = 0; i < n; i++) {
+        double value = x[i * stride];
+        if (!isfinite(value))
+            continue;
+        count++;
+        double step = value - mean;
+        mean += step / (double)count;
+        sum += step * (value - mean);
+    }
+    return count < 2 ? (double)NAN : sqrt(sum / (double)(count - 1));
+}

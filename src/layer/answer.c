@@ -1,0 +1,151 @@
+/* What the answer says of a layer beyond its thickness at constant load.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#include "case/answer/answer_context.h"
+
+#include <ctype.h>
+#include <math.h>
+#include <string.h>
+
+static const char how_thick[] = "How thick is it?",
+                  what_friction[] = "What does it do to friction?";
+
+/* The thinnest that a layer stays at; NaN: none. */
+static double thinnest_stable(const table_view *v)
+{
+    double least = (double)NAN;
+    for (size_t i = 0; i < v->n_rows; i++)
+        if (strcmp(layer_balances_text(v, i, LAYER_BALANCES_STABLE), "stable") == 0)
+            least = fmin(least, layer_balances_get(v, i, LAYER_BALANCES_THICKNESS));
+    return least;
+}
+
+void tell_balance(telling *t, const table_view *balances)
+{
+    const double least = thinnest_stable(balances);
+    tell(t, "where the layer acts back on the energy that makes it, from a bare surface %s%s",
+         isnan(least) ? "no balance is found"
+         : least > 0  ? "the balance is at "
+                      : "there is no layer",
+         least > 0 ? words_of(least, "m").text : "");
+}
+
+static bool cannot_say(const char *words)
+{
+    return words != NULL && strncmp(words, "cannot say", strlen("cannot say")) == 0;
+}
+
+static void say_balances(const answer_story *story)
+{
+    const table_view *const v = &story->layer_balances;
+    if (v->table == NULL)
+        return;
+    const char *const agreement = layer_balances_words(v, LAYER_BALANCES_KEY_AGREEMENT);
+    char text[160];
+    telling t = {text, sizeof text, 0};
+    tell_balance(&t, v);
+    text[0] = (char)toupper((unsigned char)text[0]);
+    answer_say(story, how_thick, "thickness", "%s: %s.", text,
+               layer_balances_words(v, LAYER_BALANCES_KEY_WORDS));
+    if (cannot_say(agreement))
+        answer_say(story, how_thick, "thickness",
+                   "Whether that many balances are there, the inputs %s.", agreement);
+}
+
+static void say_existence(const answer_story *story)
+{
+    const table_view *const v = &story->existence;
+    if (v->table == NULL)
+        return;
+    const char *const known = existence_words(v, EXISTENCE_KEY_KNOWN);
+    answer_say(story, how_thick, "thickness", "At %s a layer exists %s.",
+               words_of(existence_value(v, EXISTENCE_KEY_PRESSURE).value, "Pa").text,
+               existence_words(v, EXISTENCE_KEY_WORDS));
+    const wt_estimate from = existence_value(v, EXISTENCE_KEY_FROM_VELOCITY),
+                      to = existence_value(v, EXISTENCE_KEY_TO_VELOCITY);
+    const double begins[] = {existence_value(v, EXISTENCE_KEY_FROM_VELOCITY_LOW).value,
+                             existence_value(v, EXISTENCE_KEY_FROM_VELOCITY_HIGH).value},
+                 ends[] = {existence_value(v, EXISTENCE_KEY_TO_VELOCITY_LOW).value,
+                           existence_value(v, EXISTENCE_KEY_TO_VELOCITY_HIGH).value};
+    if (isfinite(begins[0]))
+        answer_say(story, how_thick, "thickness", "It begins at %s.",
+                   words_between(from, begins[0], begins[1]).text);
+    if (isfinite(ends[0]))
+        answer_say(story, how_thick, "thickness", "It ends at %s.",
+                   words_between(to, ends[0], ends[1]).text);
+    if (cannot_say(known))
+        answer_say(story, how_thick, "thickness", "Of its edges the inputs %s.", known);
+}
+
+void answer_track_layer(const answer_story *story)
+{
+    const table_view *const v = &story->track_layer;
+    if (v->table == NULL)
+        return;
+    const char *const allowed = track_layer_words(v, TRACK_LAYER_KEY_ALLOWED),
+                      *const agree = track_layer_words(v, TRACK_LAYER_KEY_AGREE),
+                      *const settled_by = track_layer_words(v, TRACK_LAYER_KEY_SETTLED_BY);
+    answer_say(story, how_thick, "thickness",
+               "What thickness do the curves alone allow? %c%s.%s%s%s%s%s%s",
+               toupper((unsigned char)allowed[0]), allowed + 1,
+               agree != NULL ? " Does the theory agree? " : "", agree != NULL ? agree : "",
+               agree != NULL ? "." : "", settled_by != NULL ? " What would settle it: " : "",
+               settled_by != NULL ? settled_by : "", settled_by != NULL ? "." : "");
+}
+
+static void say_bands(const answer_story *story)
+{
+    const table_view *const v = &story->layer_bands;
+    const char *const events =
+        v->table != NULL ? layer_bands_words(v, LAYER_BANDS_KEY_EVENTS) : NULL;
+    if (events == NULL)
+        return;
+    const wt_estimate first = layer_bands_value(v, LAYER_BANDS_KEY_FIRST);
+    answer_say(story, how_thick, "thickness", "By the transport of damage: %s.", events);
+    if (first.standard_error > 0 &&
+        isfinite(layer_bands_value(v, LAYER_BANDS_KEY_FIRST_HIGH).value))
+        answer_say(story, how_thick, "thickness", "Rubber is first modified after %s.",
+                   words_between(first, layer_bands_value(v, LAYER_BANDS_KEY_FIRST_LOW).value,
+                                 layer_bands_value(v, LAYER_BANDS_KEY_FIRST_HIGH).value)
+                       .text);
+    const char *const known = layer_bands_words(v, LAYER_BANDS_KEY_KNOWN);
+    if (cannot_say(known))
+        answer_say(story, how_thick, "thickness", "Of that the inputs %s.", known);
+}
+
+void answer_layer_models(const answer_story *story)
+{
+    say_bands(story);
+    say_balances(story);
+    say_existence(story);
+}
+
+static number_words words_of_end(wt_estimate e)
+{
+    return e.standard_error > 0 ? words_of_estimate(e) : words_of_value(e);
+}
+
+void answer_running_in(const answer_story *story)
+{
+    const table_view *const v = &story->running_in;
+    if (v->table == NULL)
+        return;
+    const wt_estimate bare = running_in_value(v, RUNNING_IN_KEY_BARE),
+                      end = running_in_value(v, RUNNING_IN_KEY_BALANCE),
+                      settled = running_in_value(v, RUNNING_IN_KEY_SETTLED);
+    char text[192] = "";
+    telling t = {text, sizeof text, 0};
+    const double low = running_in_value(v, RUNNING_IN_KEY_SETTLED_LOW).value,
+                 high = running_in_value(v, RUNNING_IN_KEY_SETTLED_HIGH).value;
+    if (!isnan(settled.value) && isnan(high)) /* no replicates, or some settle beyond the times */
+        tell(&t, "; 5 %% of the change are left after %s in contact", words_of_value(settled).text);
+    else if (!isnan(settled.value))
+        tell(&t, "; 5 %% of the change are left after %s in contact",
+             words_between(settled, low, high).text);
+    if (!isnan(end.value))
+        answer_say(story, what_friction, "friction",
+                   "While the layer grows, friction goes from %s to %s%s.", words_of_end(bare).text,
+                   words_of_end(end).text, text);
+    const char *const known = running_in_words(v, RUNNING_IN_KEY_KNOWN);
+    if (cannot_say(known))
+        answer_say(story, what_friction, "friction", "Of when that is the inputs %s.", known);
+}

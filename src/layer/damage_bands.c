@@ -1,0 +1,407 @@
+/* The table of the modified bands: upper and lower edge of the modified rubber in time, through the
+ * loads that follow one another, by the values themselves and, for the standard errors, by
+ * replicates. SPDX-License-Identifier: GPL-3.0-or-later */
+#include "job/cost.h"
+#include "job/random_draws.h"
+#include "layer/layer_loads.h"
+#include "layer/monte_carlo.h"
+
+#include "core/base/clocale.h"
+#include "core/base/quantity.h"
+#include "core/table/table_rows.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* Times of a load that follows another one or is followed by one, in equal ratios from this part on
+ * of how long it lasts; of the last one, of what came before it. */
+enum { TIMES_OF_LOAD = 20 };
+static const double first_part = 1e-3;
+/* Events that are told, and what the words of a load and of an event need at most. */
+enum { MOST_EVENTS = 12, LOAD_WORDS = 192, EVENT_WORDS = 96 };
+
+/* The loads by one set of values. */
+typedef struct loads {
+    size_t n;
+    layer_energy *energy;  /* [n] */
+    wt_layer_stage *stage; /* [n] */
+} loads;
+
+typedef struct bands_task {
+    layer_draws draws;
+    wt_sliding range;   /* whose velocities hold those of the loads */
+    double velocity[2]; /* of it */
+    layer_load *load;   /* [n] */
+    size_t n;
+    loads centre;
+    double *time; /* [n_times] */
+    size_t n_times;
+    wt_layer_section *section; /* [n_times] */
+    double latest;             /* of the times */
+    double first;              /* time at which rubber is first modified; NaN: never */
+    char *words;               /* [(n + 1) LOAD_WORDS] */
+    char events[(MOST_EVENTS + 1) * EVENT_WORDS], known[200], errors[560];
+} bands_task;
+
+TABLE_ROW(layer_bands, LAYER_BANDS, double time, load, worn, band; wt_estimate upper, lower;
+          double share;)
+TABLE_KEYS(layer_bands, LAYER_BANDS, const char *loads, *events, *method;
+           wt_estimate first, thickness; double first_low, first_high; const char *known, *errors;)
+
+/* ---- loads ----------------------------------------------------------------------------------- */
+
+static void loads_clear(loads *l)
+{
+    for (size_t i = 0; l->energy != NULL && i < l->n; i++)
+        layer_energy_clear(&l->energy[i]);
+    free(l->energy);
+    free(l->stage);
+    *l = (loads){0};
+}
+
+static void say_load(bands_task *task, size_t i)
+{
+    const layer_load *load = &task->load[i];
+    const wt_layer_parameters *p = &task->centre.stage[i].parameters;
+    const size_t used = strlen(task->words), size = (task->n + 1) * LOAD_WORDS;
+    char lasts[48] = "for ever", warm[32] = "";
+    if (!isnan(load->temperature))
+        clocale_print(warm, sizeof warm, ", %.1f degC", load->temperature - WT_ZERO_CELSIUS);
+    if (!isnan(load->time))
+        clocale_print(lasts, sizeof lasts, "%.4g s", load->time);
+    clocale_print(task->words + used, size - used,
+                  "%s%s at %.4g MPa, %.4g mm/s, k = %.3g mm^3/(N m)%s", used > 0 ? "; then " : "",
+                  lasts, 1e-6 * p->pressure, 1e3 * p->velocity, 1e9 * p->specific_wear_rate, warm);
+}
+
+/* The wear rate of a load has the relative error of that of the job, and is drawn with it. */
+static double wear_of(const layer_scene *scene, double own)
+{
+    wt_estimate wear = scene->job->specific_wear_rate;
+    wear.standard_error *= wear.value > 0 ? own / wear.value : 0;
+    wear.value = own;
+    return flow_draw_positive(wear, scene->work->seed, scene->replicate, FLOW_DRAW_WEAR);
+}
+
+static wt_status loads_make(const bands_task *task, const layer_scene *scene, loads *l,
+                            wt_error *err)
+{
+    *l = (loads){.energy = calloc(task->n + 1, sizeof *l->energy),
+                 .stage = calloc(task->n + 1, sizeof *l->stage)};
+    if (l->energy == NULL || l->stage == NULL)
+        return wt_fail(err, WT_E_MEMORY, "out of memory");
+    for (size_t i = 0; i < task->n; i++) {
+        const layer_load *load = &task->load[i];
+        const layer_spot spot = {load->pressure, load->velocity, load->temperature,
+                                 layer_here().layer};
+        wt_layer_stage *stage = &l->stage[i];
+        const wt_status status = layer_at(scene, spot, &l->energy[i], &stage->parameters, err);
+        if (status != WT_OK)
+            return status;
+        l->n++;
+        if (!isnan(load->specific_wear_rate))
+            stage->parameters.specific_wear_rate = wear_of(scene, load->specific_wear_rate);
+        stage->parameters.incubation = true;
+        stage->source = &l->energy[i].source;
+        stage->duration = isnan(load->time) ? 0 : load->time;
+    }
+    return WT_OK;
+}
+
+/* As they are given; without any, that of the sliding. */
+static wt_status parse_loads(bands_task *task, const wt_layer_job *job, wt_error *err)
+{
+    const double unset = (double)NAN;
+    task->n = job->n_loads > 0 ? job->n_loads : 1;
+    task->load = calloc(task->n, sizeof *task->load);
+    task->words = calloc(task->n + 1, LOAD_WORDS);
+    if (task->load == NULL || task->words == NULL)
+        return wt_fail(err, WT_E_MEMORY, "out of memory");
+    task->load[0] = (layer_load){unset, unset, unset, unset, unset};
+    wt_status status = WT_OK;
+    for (size_t i = 0; status == WT_OK && i < job->n_loads; i++)
+        status = layer_load_parse(job, i, &task->load[i], err);
+    return status;
+}
+
+/* The slowest and the fastest, for the materials of the replicates. */
+static void take_range(bands_task *task, const wt_sliding *sliding)
+{
+    const double own = flow_layer_velocity(sliding, &task->draws.stated);
+    double *const v = task->velocity;
+    v[0] = v[1] = own;
+    for (size_t i = 0; i < task->n; i++)
+        if (!isnan(task->load[i].velocity)) {
+            v[0] = fmin(v[0], task->load[i].velocity);
+            v[1] = fmax(v[1], task->load[i].velocity);
+        }
+    task->range = *sliding;
+    task->range.velocity = v;
+    task->range.n_velocity = 2;
+    task->range.reference_velocity = own;
+    task->draws.replicates.sliding = &task->range;
+}
+
+/* ---- times ----------------------------------------------------------------------------------- */
+
+/* In equal ratios from a part of the length to all of it. */
+static void add_times(bands_task *task, double begin, double length, double to)
+{
+    const double from = first_part * length;
+    for (size_t k = 0; k < TIMES_OF_LOAD; k++)
+        task->time[task->n_times++] =
+            begin + from * pow(to / from, (double)k / (double)(TIMES_OF_LOAD - 1));
+}
+
+/* Those of the job, else of every load its own and of the last as long as it changes anything: also
+ * where it begins, for there the layer is that of the load before. */
+static wt_status take_times(bands_task *task, wt_error *err)
+{
+    const wt_layer_stage *last = &task->centre.stage[task->n - 1];
+    const wt_layer_job *job = &task->draws.calibrated;
+    wt_layer_balance balance;
+    double *of_last = NULL, begin = 0;
+    size_t n = 0;
+    wt_status status = wt_layer_balance_compute(last->source, &last->parameters, &balance, err);
+    if (status == WT_OK)
+        status = layer_times_choose(job, &balance, &of_last, &n, err);
+    if (status != WT_OK)
+        return status;
+    const bool chosen = job->time == NULL;
+    task->time = malloc((n + (task->n + 1) * (TIMES_OF_LOAD + 1)) * sizeof *task->time);
+    if (task->time == NULL)
+        status = wt_fail(err, WT_E_MEMORY, "out of memory");
+    for (size_t i = 0; status == WT_OK && chosen && i + 1 < task->n; i++) {
+        const double length = task->centre.stage[i].duration;
+        if (length > 0)
+            add_times(task, begin, length, length);
+        begin += length;
+    }
+    /* what is chosen for the last load begins where it alone would change something */
+    if (status == WT_OK && begin > 0 && of_last[0] > first_part * begin)
+        add_times(task, begin, begin, of_last[0]);
+    for (size_t i = 0; status == WT_OK && i < n; i++)
+        task->time[task->n_times++] = begin + of_last[i];
+    free(of_last);
+    return status;
+}
+
+/* ---- what happens ---------------------------------------------------------------------------- */
+
+static void say_event(const wt_layer_event *e, char *text, size_t size)
+{
+    static const char *const words[] = {"a band opens below the surface", "the surface is modified",
+                                        "a band reaches the surface", "two bands merge",
+                                        "a band is worn off"};
+    const size_t used = strlen(text);
+    const bool deep = e->depth > 0;
+    clocale_print(text + used, size - used, "%s%s at %.4g s", used > 0 ? "; " : "", words[e->kind],
+                  e->time);
+    if (deep)
+        clocale_print(text + strlen(text), size - strlen(text), ", %.4g um deep", 1e6 * e->depth);
+}
+
+static wt_status find_events(bands_task *task, wt_error *err)
+{
+    wt_layer_event events[MOST_EVENTS];
+    size_t n = 0;
+    const wt_status status =
+        wt_layer_stage_events(task->centre.stage, task->n, events, MOST_EVENTS, &n, err);
+    for (size_t i = 0; status == WT_OK && i < n && i < MOST_EVENTS; i++)
+        say_event(&events[i], task->events, sizeof task->events);
+    task->first = n > 0 ? events[0].time : (double)NAN;
+    const size_t used = strlen(task->events);
+    if (status == WT_OK && n > MOST_EVENTS)
+        snprintf(task->events + used, sizeof task->events - used, "; and %zu more",
+                 n - MOST_EVENTS);
+    if (status == WT_OK && n == 0)
+        snprintf(task->events, sizeof task->events, "nothing is ever modified");
+    return status;
+}
+
+static wt_status find_sections(bands_task *task, wt_error *err)
+{
+    task->section = malloc((task->n_times + 1) * sizeof *task->section);
+    for (size_t i = 0; i < task->n_times; i++)
+        task->latest = fmax(task->latest, task->time[i]);
+    return task->section != NULL ? wt_layer_sections(task->centre.stage, task->n, task->time,
+                                                     task->n_times, task->section, err)
+                                 : wt_fail(err, WT_E_MEMORY, "out of memory");
+}
+
+/* ---- replicates ------------------------------------------------------------------------------ */
+
+/* Numbers of a replicate; those of a time follow: how many bands, and their edges, NaN where the
+ * replicate has more or fewer than the values themselves. */
+enum { SOLVED, FIRST, LN_FIRST, THICKNESS, N_NUMBERS };
+enum { AT_BANDS, AT_EDGES, N_AT = AT_EDGES + 2 * WT_LAYER_BANDS };
+
+/* Depth of the modified rubber at the latest time. */
+static wt_estimate last_depth(const wt_layer_section *section, size_t n)
+{
+    wt_estimate depth = {(double)NAN, (double)NAN, (double)NAN, "m"};
+    double latest = -1;
+    for (size_t i = 0; i < n; i++) {
+        const wt_layer_section *s = &section[i];
+        if (!(s->time > latest))
+            continue;
+        latest = s->time;
+        depth = s->n > 0 ? s->band[0].lower : (wt_estimate){.unit = "m"};
+    }
+    return depth;
+}
+
+static void put_section(const wt_layer_section *s, const wt_layer_section *centre, double *out)
+{
+    const size_t n = s->n == centre->n && s->n <= WT_LAYER_BANDS ? s->n : 0;
+    out[AT_BANDS] = (double)s->n;
+    for (size_t i = 0; i < WT_LAYER_BANDS; i++) {
+        out[AT_EDGES + 2 * i] = i < n ? s->band[i].upper.value : (double)NAN;
+        out[AT_EDGES + 2 * i + 1] = i < n ? s->band[i].lower.value : (double)NAN;
+    }
+}
+
+static wt_status one_replicate(const void *user, size_t k, double *out, wt_error *err)
+{
+    const bands_task *task = user;
+    wt_layer_job job;
+    layer_scene scene;
+    loads l = {0};
+    wt_layer_event first = {.time = (double)NAN};
+    const size_t rows = k < LAYER_ROW_REPLICATES ? task->n_times : 0;
+    wt_layer_section *section = malloc((task->n_times + 1) * sizeof *section);
+    wt_status status = section != NULL ? layer_draws_scene(&task->draws, k, &job, &scene, err)
+                                       : wt_fail(err, WT_E_MEMORY, "out of memory");
+    if (status == WT_OK)
+        status = loads_make(task, &scene, &l, err);
+    if (status == WT_OK)
+        status = wt_layer_first_event(l.stage, l.n, &first, err);
+    if (status == WT_OK)
+        status = rows > 0 ? wt_layer_sections(l.stage, l.n, task->time, rows, section, err)
+                 : task->n_times > 0
+                     ? wt_layer_sections(l.stage, l.n, &task->latest, 1, section, err)
+                     : WT_OK;
+    if (status == WT_OK) {
+        out[SOLVED] = 1;
+        out[FIRST] = first.time;
+        out[LN_FIRST] = log(first.time);
+        out[THICKNESS] = last_depth(section, rows > 0 || task->n_times == 0 ? rows : 1).value;
+        for (size_t i = 0; i < N_AT * task->n_times; i++)
+            out[N_NUMBERS + i] = (double)NAN;
+        for (size_t i = 0; i < rows; i++)
+            put_section(&section[i], &task->section[i], out + N_NUMBERS + N_AT * i);
+    }
+    loads_clear(&l);
+    free(section);
+    return status;
+}
+
+/* Replicates, as a share, with so many bands at a time; NaN without any. */
+static double share_of(const replicates *r, size_t bands, size_t time)
+{
+    size_t solved = 0, same = 0;
+    for (size_t i = 0; i < r->n && i < LAYER_ROW_REPLICATES; i++) {
+        const double *const out = r->value + i * r->stride;
+        solved += out[SOLVED] > 0;
+        same += out[N_NUMBERS + N_AT * time + AT_BANDS] == (double)bands;
+    }
+    return solved > 0 ? (double)same / (double)solved : (double)NAN;
+}
+
+/* ---- the table ------------------------------------------------------------------------------- */
+
+static double load_at(const bands_task *task, double time)
+{
+    size_t i = 0;
+    for (double end = 0; i + 1 < task->n; i++) {
+        end += task->centre.stage[i].duration;
+        if (time < end)
+            break;
+    }
+    return (double)(i + 1);
+}
+
+static wt_estimate edge_of(wt_estimate edge, double error)
+{
+    edge.standard_error = error;
+    return edge;
+}
+
+static void add_section(const bands_task *task, size_t at, table_writer *t)
+{
+    const wt_layer_section *s = &task->section[at];
+    const wt_estimate none = {(double)NAN, (double)NAN, (double)NAN, NULL};
+    const double load = load_at(task, s->time), share = share_of(&task->draws.replicates, s->n, at);
+    const double *const e = task->draws.replicates.error + N_NUMBERS + N_AT * at + AT_EDGES;
+    if (s->n == 0)
+        TABLE_ADD(layer_bands, t, s->time, load, s->worn, 0, none, none, share);
+    for (size_t i = 0; i < s->n && i < WT_LAYER_BANDS; i++)
+        TABLE_ADD(layer_bands, t, s->time, load, s->worn, (double)(i + 1),
+                  edge_of(s->band[i].upper, e[2 * i]), edge_of(s->band[i].lower, e[2 * i + 1]),
+                  share);
+}
+
+static wt_status make_table(bands_task *task, wt_table **table, wt_error *err)
+{
+    const double *const e = task->draws.replicates.error;
+    const wt_interval first = layer_interval(&task->draws, LN_FIRST, task->first);
+    wt_estimate thickness = last_depth(task->section, task->n_times);
+    thickness.standard_error = e[THICKNESS];
+    layer_draws_say(&task->draws, task->errors, sizeof task->errors);
+    layer_say_known(&task->draws, LN_FIRST, task->first, "nothing is ever modified",
+                    "something is modified", task->known, sizeof task->known);
+    table_writer t = table_begin(&layer_bands_schema, err);
+    for (size_t i = 0; i < task->n_times; i++)
+        add_section(task, i, &t);
+    TABLE_SET(
+        layer_bands, &t, task->words, task->events,
+        "exact transport of damage (derived); an observed layer at the start is worn from "
+        "the top",
+        (wt_estimate){task->first, isnan(first.low) ? (double)NAN : e[FIRST], (double)NAN, NULL},
+        thickness, first.low, first.high, task->known, task->errors);
+    return table_end(&t, table);
+}
+
+/* ---- the job --------------------------------------------------------------------------------- */
+
+static wt_status make_centre(bands_task *task, wt_error *err)
+{
+    wt_status status = loads_make(task, &task->draws.values, &task->centre, err);
+    for (size_t i = 0; status == WT_OK && i < task->n; i++)
+        say_load(task, i);
+    if (status == WT_OK)
+        status = take_times(task, err);
+    if (status == WT_OK)
+        status = find_events(task, err);
+    return status == WT_OK ? find_sections(task, err) : status;
+}
+
+wt_status wt_layer_bands_make(const wt_sliding *sliding, const wt_layer_job *job,
+                              const wt_job *work, wt_table **table, wt_error *err)
+{
+    if (job == NULL || work == NULL || table == NULL)
+        return wt_fail(err, WT_E_ARG, "no bands of a layer to make");
+    bands_task task = {.n = 0};
+    wt_status status = layer_draws_open(&task.draws, sliding, job, NULL, work, "bands", false, err);
+    if (status == WT_OK)
+        status = parse_loads(&task, job, err);
+    if (status == WT_OK)
+        status = make_centre(&task, err);
+    if (status == WT_OK) {
+        take_range(&task, sliding);
+        status = replicates_draw(&task.draws.replicates, N_NUMBERS + N_AT * task.n_times,
+                                 one_replicate, &task, err);
+    }
+    if (status == WT_OK)
+        status = make_table(&task, table, err);
+    cost_say(work, (cost_summary){.items = (double)(task.n_times * (1 + task.draws.replicates.n)),
+                                  .tolerance_asked = work->tolerance});
+    layer_draws_clear(&task.draws);
+    loads_clear(&task.centre);
+    free(task.load);
+    free(task.words);
+    free(task.time);
+    free(task.section);
+    return status;
+}

@@ -1,0 +1,379 @@
+/* The table of the balances of a layer that acts back on the energy that makes it, with what its
+ * inputs leave open by replicates.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#include "layer/feedback.h"
+#include "job/cost.h"
+#include "job/random_draws.h"
+
+#include "core/table/table_rows.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+/* Thicknesses at which balances are looked for: a step is 9 % of the thickness over six decades. */
+enum { GRID = 160 };
+/* The same for a replicate: 35 %, far closer than balances that are not about to meet. */
+enum { REPLICATE_GRID = 48 };
+/* From a layer that the shortest wave hardly feels to one that holds the longest. */
+static const double thinnest = 1e-2; /* 1/q1 */
+static const double thickest = 4;    /* 1/q0 */
+
+TABLE_ROW(layer_balances, LAYER_BALANCES, const char *kind, *stable;
+          wt_estimate thickness, map_slope, eigenvalue, wear_rate, hysteresis, area_ratio,
+          friction;)
+TABLE_KEYS(layer_balances, LAYER_BALANCES, wt_estimate one_way, ratio, modulus_ratio;
+           double low, high; const char *words, *agreement, *errors, *moduli;)
+
+wt_status acts_back_energy(double thickness, void *user, wt_energy_source *source,
+                           wt_layer_parameters *parameters, wt_error *err)
+{
+    const layer_scene *scene = user;
+    layer_energy energy = {.source = {.n = 0}};
+    const wt_status status =
+        layer_at(scene, layer_under(scene, thickness), &energy, parameters, err);
+    *source = energy.source;
+    return status;
+}
+
+wt_status acts_back_find(layer_scene *scene, wt_layer_loop *loop, wt_error *err)
+{
+    wt_energy_source source = {0};
+    wt_layer_parameters p;
+    double low = 0, high = 0;
+    wt_status status = acts_back_energy(0, scene, &source, &p, err);
+    for (size_t i = 0; status == WT_OK && i < source.n; i++) {
+        low = i == 0 ? source.wavenumber[0] : fmin(low, source.wavenumber[i]);
+        high = fmax(high, source.wavenumber[i]);
+    }
+    if (status == WT_OK)
+        status = wt_layer_loop_find(acts_back_energy, scene, thinnest / high, thickest / low,
+                                    scene->replicate == WT_NO_REPLICATE ? GRID : REPLICATE_GRID,
+                                    loop, err);
+    wt_energy_source_clear(&source);
+    return status;
+}
+
+/* ---- by one set of values ------------------------------------------------------------------- */
+
+/* A balance, or a fold, with the friction there. */
+enum { AT_THICKNESS, AT_SLOPE, AT_EIGENVALUE, AT_WEAR, AT_HYSTERESIS, AT_AREA, AT_FRICTION, N_AT };
+typedef struct place {
+    double value[N_AT], numerical[N_AT];
+} place;
+
+typedef struct balances {
+    layer_scene *scene;
+    wt_layer_loop loop;
+    wt_layer_balance one_way;
+    place root[WT_LAYER_ROOTS], fold[WT_LAYER_ROOTS];
+} balances;
+
+static wt_status add_friction(const balances *b, place *at, wt_error *err)
+{
+    layer_friction f;
+    const wt_status status =
+        layer_friction_at(b->scene, layer_under(b->scene, at->value[AT_THICKNESS]), &f, err);
+    if (status != WT_OK)
+        return status;
+    at->value[AT_HYSTERESIS] = f.hysteresis;
+    at->value[AT_AREA] = f.area_ratio;
+    at->value[AT_FRICTION] = f.total;
+    at->numerical[AT_HYSTERESIS] = f.hysteresis_error;
+    at->numerical[AT_AREA] = f.area_error;
+    at->numerical[AT_FRICTION] = f.total_error;
+    return WT_OK;
+}
+
+/* An error of formation over wear moves a root by that over the slope of ln(Qf / Qw). */
+static wt_status add_root_error(const balances *b, place *at, wt_error *err)
+{
+    wt_energy_source source = {0};
+    wt_layer_parameters p;
+    wt_layer_balance here;
+    wt_status status = acts_back_energy(at->value[AT_THICKNESS], b->scene, &source, &p, err);
+    if (status == WT_OK)
+        status = wt_layer_balance_compute(&source, &p, &here, err);
+    if (status == WT_OK)
+        at->numerical[AT_THICKNESS] =
+            here.ratio_error * here.wear_rate / fabs(at->value[AT_EIGENVALUE]);
+    wt_energy_source_clear(&source);
+    return status;
+}
+
+static wt_status find_places(balances *b, wt_error *err)
+{
+    const double wear = b->scene->job->specific_wear_rate.value;
+    const bool with_errors = b->scene->replicate == WT_NO_REPLICATE;
+    const place unknown = {.numerical = {(double)NAN, (double)NAN, (double)NAN, (double)NAN,
+                                         (double)NAN, (double)NAN, (double)NAN}};
+    wt_status status = WT_OK;
+    for (size_t i = 0; status == WT_OK && i < b->loop.n_roots; i++) {
+        const wt_layer_root *r = &b->loop.root[i];
+        b->root[i] = unknown;
+        b->root[i].value[AT_THICKNESS] = r->thickness;
+        b->root[i].value[AT_SLOPE] = r->map_slope;
+        b->root[i].value[AT_EIGENVALUE] = r->eigenvalue;
+        b->root[i].value[AT_WEAR] = wear;
+        status = add_friction(b, &b->root[i], err);
+        if (status == WT_OK && with_errors)
+            status = add_root_error(b, &b->root[i], err);
+    }
+    for (size_t i = 0; status == WT_OK && i < b->loop.n_folds; i++) {
+        const wt_layer_fold *f = &b->loop.fold[i];
+        b->fold[i] = unknown;
+        b->fold[i].value[AT_THICKNESS] = f->thickness;
+        b->fold[i].value[AT_SLOPE] = b->fold[i].value[AT_EIGENVALUE] = (double)NAN;
+        b->fold[i].value[AT_WEAR] = f->specific_wear_rate;
+        status = add_friction(b, &b->fold[i], err);
+    }
+    return status;
+}
+
+static wt_status find_balances(balances *b, wt_error *err)
+{
+    wt_energy_source source = {0};
+    wt_layer_parameters p;
+    wt_status status = acts_back_find(b->scene, &b->loop, err);
+    if (status == WT_OK)
+        status = acts_back_energy(0, b->scene, &source, &p, err);
+    if (status == WT_OK)
+        status = wt_layer_balance_compute(&source, &p, &b->one_way, err);
+    wt_energy_source_clear(&source);
+    return status == WT_OK ? find_places(b, err) : status;
+}
+
+/* ---- replicates ------------------------------------------------------------------------------ */
+
+/* Numbers of a replicate; those of the balances and folds follow, NaN where it has others. */
+enum { RATIO, ONE_WAY, BALANCES, SAME_BALANCES, SAME_FOLDS, N_NUMBERS };
+
+typedef struct balances_task {
+    layer_draws draws;
+    balances centre;
+    size_t solved, same_balances, same_folds; /* replicates: all, and those as the values have it */
+    char agreement[320], errors[760];
+} balances_task;
+
+static size_t count_stable(const wt_layer_loop *loop)
+{
+    size_t n = 0;
+    for (size_t i = 0; i < loop->n_roots; i++)
+        n += loop->root[i].stable;
+    return n;
+}
+
+static bool same_balances(const wt_layer_loop *a, const wt_layer_loop *b)
+{
+    if (a->n_roots != b->n_roots)
+        return false;
+    for (size_t i = 0; i < a->n_roots; i++)
+        if (a->root[i].stable != b->root[i].stable ||
+            (a->root[i].thickness > 0) != (b->root[i].thickness > 0))
+            return false;
+    return true;
+}
+
+static bool same_folds(const wt_layer_loop *a, const wt_layer_loop *b)
+{
+    if (a->n_folds != b->n_folds)
+        return false;
+    for (size_t i = 0; i < a->n_folds; i++)
+        if (a->fold[i].maximum != b->fold[i].maximum)
+            return false;
+    return true;
+}
+
+static void put_places(const place *places, size_t n, bool same, double *out)
+{
+    for (size_t i = 0; i < n; i++)
+        for (size_t k = 0; k < N_AT; k++)
+            out[N_AT * i + k] = same ? places[i].value[k] : (double)NAN;
+}
+
+static wt_status one_replicate(const void *user, size_t i, double *out, wt_error *err)
+{
+    const balances_task *task = user;
+    const wt_layer_loop *centre = &task->centre.loop;
+    wt_layer_job job;
+    layer_scene scene;
+    balances b = {.scene = &scene};
+    wt_status status = layer_draws_scene(&task->draws, i, &job, &scene, err);
+    if (status == WT_OK) {
+        job.specific_wear_rate = (wt_estimate){
+            flow_draw_positive(job.specific_wear_rate, scene.work->seed, i, FLOW_DRAW_WEAR), 0, 0,
+            "m^2/N"};
+        status = find_balances(&b, err);
+    }
+    if (status != WT_OK)
+        return status;
+    out[RATIO] = b.loop.ratio;
+    out[ONE_WAY] = b.one_way.thickness.value;
+    out[BALANCES] = (double)b.loop.n_roots;
+    out[SAME_BALANCES] = same_balances(&b.loop, centre);
+    out[SAME_FOLDS] = same_folds(&b.loop, centre);
+    double *const roots = out + N_NUMBERS, *const folds = roots + N_AT * centre->n_roots;
+    put_places(b.root, centre->n_roots, out[SAME_BALANCES] > 0, roots);
+    put_places(b.fold, centre->n_folds, out[SAME_FOLDS] > 0, folds);
+    for (size_t k = 0; k < centre->n_roots; k++)
+        roots[N_AT * k + AT_WEAR] = job.specific_wear_rate.value; /* is given, whatever it makes */
+    return WT_OK;
+}
+
+/* ---- the table ------------------------------------------------------------------------------- */
+
+/* Replicates that must have the same balances, that their number counts as known, and errors of
+ * them: those that have others are not left out by chance, and the rest scatter too little. */
+static const double sure = 0.95;
+
+static bool is_sure(const balances_task *task, size_t same)
+{
+    return (double)same >= sure * (double)task->solved;
+}
+
+/* Whether the replicates have as many balances, each as stable. */
+static void say_agreement(balances_task *task)
+{
+    const replicates *r = &task->draws.replicates;
+    size_t fewest = WT_LAYER_ROOTS, most = 0;
+    for (size_t i = 0; i < r->n; i++) {
+        const double *const out = r->value + i * r->stride;
+        if (isnan(out[RATIO]))
+            continue;
+        const size_t n = (size_t)out[BALANCES];
+        task->solved++;
+        task->same_balances += out[SAME_BALANCES] > 0;
+        task->same_folds += out[SAME_FOLDS] > 0;
+        fewest = n < fewest ? n : fewest;
+        most = n > most ? n : most;
+    }
+    const size_t solved = task->solved, same = task->same_balances;
+    const bool known = is_sure(task, same);
+    char *const text = task->agreement;
+    const size_t size = sizeof task->agreement;
+    if (solved == 0)
+        snprintf(text, size, "not tested: %s", replicates_include(r));
+    else if (known)
+        snprintf(text, size, "yes: %zu of %zu replicates have as many balances, equally stable",
+                 same, solved);
+    else
+        snprintf(text, size,
+                 "cannot say: %zu of %zu replicates have as many balances, equally stable, and all "
+                 "of them %zu to %zu; smaller errors of what is drawn would settle it",
+                 same, solved, fewest, most);
+    if (solved > 0 && !known)
+        wt_parselog_add(task->draws.values.work->log, WT_WARNING, NULL, NULL,
+                        "within the stated errors the number of balances of the layer, or their "
+                        "stability, may be another: so it is in %zu of %zu replicates",
+                        solved - same, solved);
+}
+
+/* Of n balances or folds that only so many replicates have. */
+static void forget_errors(balances_task *task, size_t same, size_t first, size_t n, bool given_wear,
+                          const char *what)
+{
+    char *const text = task->errors;
+    const size_t used = strlen(text);
+    if (n == 0 || is_sure(task, same))
+        return;
+    for (size_t k = 0; k < N_AT * n; k++)
+        if (!given_wear || k % N_AT != AT_WEAR)
+            task->draws.replicates.error[first + k] = (double)NAN;
+    snprintf(text + used, sizeof task->errors - used,
+             "; not known of the %s, which only %zu of %zu replicates have", what, same,
+             task->solved);
+}
+
+/* What is in the errors, and of which places there are none. */
+static void say_errors(balances_task *task)
+{
+    const wt_layer_loop *const loop = &task->centre.loop;
+    const size_t folds = N_NUMBERS + N_AT * loop->n_roots;
+    layer_draws_say(&task->draws, task->errors, sizeof task->errors);
+    forget_errors(task, task->same_balances, N_NUMBERS, loop->n_roots, true, "balances");
+    forget_errors(task, task->same_folds, folds, loop->n_folds, false, "folds");
+}
+
+static wt_estimate estimate_of(const place *at, const double *error, size_t k)
+{
+    return (wt_estimate){at->value[k], error[k], at->numerical[k], NULL};
+}
+
+static void add_place(const place *at, const double *e, const char *kind, const char *stable,
+                      table_writer *t)
+{
+    TABLE_ADD(layer_balances, t, kind, stable, estimate_of(at, e, AT_THICKNESS),
+              estimate_of(at, e, AT_SLOPE), estimate_of(at, e, AT_EIGENVALUE),
+              estimate_of(at, e, AT_WEAR), estimate_of(at, e, AT_HYSTERESIS),
+              estimate_of(at, e, AT_AREA), estimate_of(at, e, AT_FRICTION));
+}
+
+static void add_rows(const balances_task *task, table_writer *t)
+{
+    const wt_layer_loop *loop = &task->centre.loop;
+    const double *e = task->draws.replicates.error + N_NUMBERS;
+    for (size_t i = 0; i < loop->n_roots; i++, e += N_AT)
+        add_place(&task->centre.root[i], e, "balance", loop->root[i].stable ? "stable" : "unstable",
+                  t);
+    for (size_t i = 0; i < loop->n_folds; i++, e += N_AT)
+        add_place(&task->centre.fold[i], e, "fold", loop->fold[i].maximum ? "above" : "below", t);
+}
+
+static const char *say_loop(const wt_layer_loop *loop)
+{
+    const size_t stable = count_stable(loop);
+    if (loop->n_roots == 0)
+        return "no balance between the thicknesses looked at (reconstructed)";
+    if (stable > 1)
+        return loop->ratio > 1 ? "several stable balances: which one a layer comes to depends on "
+                                 "what was before; from a bare surface it is the thinnest "
+                                 "(reconstructed)"
+                               : "a bare surface stays bare, and a layer that is thick enough "
+                                 "stays, too (reconstructed)";
+    return loop->ratio > 1 ? "one stable balance (reconstructed)"
+                           : "a bare surface stays bare (reconstructed)";
+}
+
+static wt_status make_table(balances_task *task, wt_table **table, wt_error *err)
+{
+    const balances *b = &task->centre;
+    const double *const e = task->draws.replicates.error;
+    wt_estimate one_way = b->one_way.thickness;
+    one_way.standard_error = e[ONE_WAY];
+    const wt_estimate ratio = {b->loop.ratio, e[RATIO], b->loop.ratio * b->one_way.ratio_error,
+                               NULL};
+    say_agreement(task);
+    say_errors(task);
+    table_writer t = table_begin(&layer_balances_schema, err);
+    add_rows(task, &t);
+    TABLE_SET(layer_balances, &t, one_way, ratio, layer_draws_ratio(&task->draws), b->loop.low,
+              b->loop.high, say_loop(&b->loop), task->agreement, task->errors, task->draws.moduli);
+    return table_end(&t, table);
+}
+
+wt_status wt_layer_balances_make(const wt_sliding *sliding, const wt_layer_job *job,
+                                 const wt_layer_known *known, const wt_job *work, wt_table **table,
+                                 wt_error *err)
+{
+    if (job == NULL || known == NULL || work == NULL || table == NULL)
+        return wt_fail(err, WT_E_ARG, "no balances of a layer to make");
+    balances_task task = {.centre = {.scene = &task.draws.values}};
+    wt_status status =
+        layer_draws_open(&task.draws, sliding, job, known, work, "layer that acts back", true, err);
+    if (status == WT_OK)
+        status = find_balances(&task.centre, err);
+    if (status == WT_OK) {
+        const wt_layer_loop *loop = &task.centre.loop;
+        task.draws.replicates.velocity = flow_layer_velocity(sliding, job);
+        status = replicates_draw(&task.draws.replicates,
+                                 N_NUMBERS + N_AT * (loop->n_roots + loop->n_folds), one_replicate,
+                                 &task, err);
+    }
+    if (status == WT_OK)
+        status = make_table(&task, table, err);
+    cost_say(work,
+             (cost_summary){.items = GRID + (double)(REPLICATE_GRID * task.draws.replicates.n),
+                            .tolerance_asked = work->tolerance});
+    layer_draws_clear(&task.draws);
+    return status;
+}

@@ -1,0 +1,202 @@
+/* Figures of where a layer exists: thickness against the power that makes it, and maps over
+ * velocity and pressure with the line beyond which there is none.
+ *
+ * SPDX-License-Identifier: GPL-3.0-or-later
+ */
+#include "report/drawing.h"
+
+#include "core/base/array.h"
+#include "core/math/normal_quantile.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* Room for the scale of colour beside the picture, as described figures have it. */
+static const double with_scale = 1.15;
+
+static void caption_existence(figure_drawing *d)
+{
+    const wt_estimate from = existence_value(d->table, EXISTENCE_KEY_FROM_VELOCITY),
+                      to = existence_value(d->table, EXISTENCE_KEY_TO_VELOCITY);
+    const char *const known = existence_words(d->table, EXISTENCE_KEY_KNOWN);
+    text_say(&d->caption, " At %s there is a layer %s.",
+             VALUE(d->language, WT_Q_PRESSURE, NULL,
+                   existence_value(d->table, EXISTENCE_KEY_PRESSURE).value),
+             existence_words(d->table, EXISTENCE_KEY_WORDS));
+    if (isfinite(from.value))
+        text_say(&d->caption, " It begins at %s.", ESTIMATE(d->language, &from));
+    if (isfinite(to.value))
+        text_say(&d->caption, " It ends at %s.", ESTIMATE(d->language, &to));
+    if (known != NULL && strncmp(known, "cannot say", strlen("cannot say")) == 0)
+        text_say(&d->caption, " Of the edges one %s.", known);
+}
+
+/* ln R, by so many standard errors of it more. */
+static double log_ratio(const table_view *t, size_t row, double errors)
+{
+    const double ratio = existence_get(t, row, EXISTENCE_RATIO),
+                 error = existence_get(t, row, EXISTENCE_RATIO_STANDARD_ERROR);
+    return log(ratio) + (errors == 0 ? 0 : errors * error / ratio);
+}
+
+/* Where R = 1 between two velocities, straight in the logarithms; NaN if not between them. */
+static double edge_between(const table_view *t, size_t row, double errors)
+{
+    const double from = log_ratio(t, row, errors), to = log_ratio(t, row + 1, errors);
+    const double a = log(existence_get(t, row, EXISTENCE_VELOCITY)),
+                 b = log(existence_get(t, row + 1, EXISTENCE_VELOCITY));
+    if (isnan(from) || isnan(to) || (from > 0) == (to > 0) ||
+        wt_table_block(t->table, row) != wt_table_block(t->table, row + 1))
+        return (double)NAN;
+    return isfinite(from) && isfinite(to) ? exp(a + (b - a) * from / (from - to)) : exp(a);
+}
+
+/* Velocity and pressure of the line, of an R higher or lower by so many standard errors; no section
+ * without any. */
+static int edge_section(figure_drawing *d, const char *title, double errors)
+{
+    static const char *const names[] = {"velocity", "pressure", NULL};
+    static const char *const units[] = {"m/s", "Pa"};
+    const table_view *t = d->table;
+    double *values = calloc(2 * t->n_rows, sizeof *values);
+    size_t n = 0;
+    if (values == NULL) {
+        d->status = wt_fail(d->err, WT_E_MEMORY, "out of memory");
+        return NO_SECTION;
+    }
+    for (size_t row = 0; row + 1 < t->n_rows; row++) {
+        const double velocity = edge_between(t, row, errors);
+        if (isnan(velocity))
+            continue;
+        values[2 * n] = velocity;
+        values[2 * n++ + 1] = existence_get(t, row, EXISTENCE_PRESSURE);
+    }
+    const int section = n > 0 ? drawing_numbers(d, title, names, units, values, n) : NO_SECTION;
+    free(values);
+    return section;
+}
+
+/* Half of the smallest step of a column, as a factor: what a box of the map is wide on each side.
+ */
+static double half_step(figure_drawing *d, existence_column column)
+{
+    const size_t n = d->table->n_rows;
+    double *values = malloc(n * sizeof *values), least = (double)INFINITY;
+    if (values == NULL) {
+        d->status = wt_fail(d->err, WT_E_MEMORY, "out of memory");
+        return 1;
+    }
+    for (size_t row = 0; row < n; row++)
+        values[row] = existence_get(d->table, row, column);
+    numbers_sort(values, n);
+    for (size_t i = 1; i < n; i++)
+        if (values[i - 1] > 0 && values[i] > values[i - 1] * (1 + 1e-6) &&
+            values[i] / values[i - 1] < least)
+            least = values[i] / values[i - 1];
+    free(values);
+    return isfinite(least) ? sqrt(least) : 1;
+}
+
+static void widen(value_span *span, double factor)
+{
+    span_add(span, span->low / factor, true);
+    span_add(span, span->high * factor, true);
+}
+
+/* Boxes coloured by a column, crosses where there is no layer, and the line between. */
+static void draw_map(figure_drawing *d, existence_column shown, const char *label)
+{
+    const unsigned columns[] = {EXISTENCE_VELOCITY, EXISTENCE_PRESSURE, (unsigned)shown,
+                                EXISTENCE_RATIO};
+    const schema_field *field = d->table->schema->columns;
+    value_span x = SPAN_EMPTY, y = SPAN_EMPTY, colour = SPAN_EMPTY;
+    span_add_column(&y, d->table, EXISTENCE_PRESSURE, true);
+    if (!(y.high > y.low))
+        return; /* one pressure is no map */
+    const int section =
+        drawing_section(d, d->table, "places", NULL, columns, COUNT_OF(columns), COUNT_OF(columns));
+    if (section < 0)
+        return;
+    span_add_section(&x, d, section, 0, true);
+    span_add_section(&colour, d, section, 2, false);
+    const double half_x = half_step(d, EXISTENCE_VELOCITY),
+                 half_y = half_step(d, EXISTENCE_PRESSURE);
+    if (d->status != WT_OK || span_empty(&x))
+        return;
+    widen(&x, half_x);
+    widen(&y, half_y);
+    axis_log(d, "x", "Sliding velocity", &field[EXISTENCE_VELOCITY], x);
+    axis_log(d, "y", "Nominal pressure", &field[EXISTENCE_PRESSURE], y);
+    axis_linear(d, "cb", label, &field[shown], colour);
+    d->width = with_scale;
+    const int edge = edge_section(d, "no layer", 0),
+              low = edge_section(d, "no layer, R lower", -NORMAL_95),
+              high = edge_section(d, "no layer, R higher", NORMAL_95);
+    text_format(&d->script,
+                "half_x = %s; half_y = %s  # of a box, as factors\nset cblabel offset 1.5,0\n"
+                "set border 15\nset key above\n",
+                LITERAL(half_x), LITERAL(half_y));
+    plot_item(d, section,
+              "($1*x_unit):($4 > 1 ? $2*y_unit : NaN):($1/half_x*x_unit):($1*half_x*x_unit):"
+              "($2/half_y*y_unit):($2*half_y*y_unit):($3*cb_unit) with boxxyerror fc palette "
+              "notitle");
+    plot_item(d, section,
+              "($1*x_unit):($4 > 1 ? NaN : $2*y_unit) with points pt 2 ps 0.6 lc rgb 'black' title "
+              "'%s'",
+              say(d->language, "no layer"));
+    if (edge >= 0)
+        plot_item(d, edge, "($1*x_unit):($2*y_unit) with lines lw 2 lc rgb 'black' title 'R = 1'");
+    const int ends[] = {low, high};
+    bool titled = false;
+    for (size_t i = 0; i < COUNT_OF(ends); i++) {
+        if (ends[i] < 0)
+            continue;
+        plot_item(d, ends[i], "($1*x_unit):($2*y_unit) with lines dt 2 lc rgb 'black'");
+        plot_key(d, titled ? NULL : "95 % interval");
+        titled = true;
+    }
+    plot_end(d);
+}
+
+static void draw_thickness_map(figure_drawing *d)
+{
+    draw_map(d, EXISTENCE_THICKNESS, "Layer thickness");
+}
+
+static void draw_friction_map(figure_drawing *d)
+{
+    draw_map(d, EXISTENCE_CHANGE, "Relative change of friction");
+}
+
+const figure_description figures_existence[] = {
+    {.name = "existence",
+     .title = "Where a layer exists",
+     .table = &existence_schema,
+     .data_title = "existence",
+     .x = {EXISTENCE_POWER, AXIS_LOG, "Power that modifies the rubber"},
+     .y = {{EXISTENCE_THICKNESS, AXIS_LOG, "Layer thickness at balance"}},
+     .colour = {EXISTENCE_PRESSURE, AXIS_LOG, "Nominal pressure"},
+     .curves = {CURVE(EXISTENCE_THICKNESS, LINE, .style = 21, .above_zero = true)},
+     .of_several = true,
+     .nothing = "there is no layer at any velocity",
+     .words = "Thickness at balance against the power per area that modifies the rubber, as the "
+              "velocity grows along each line: where a line ends wear takes the layer away "
+              "as fast as it forms, the conclusion of the source.",
+     .caption = caption_existence},
+    {.name = "existence_thickness",
+     .title = "Layer thickness over velocity and pressure",
+     .table = &existence_schema,
+     .words = "Thickness of the layer at balance; crosses: no layer; the line is where formation "
+              "equals wear on a bare surface, R = 1.",
+     .draw = draw_thickness_map,
+     .caption = caption_existence},
+    {.name = "existence_friction",
+     .title = "Change of friction by the layer over velocity and pressure",
+     .table = &existence_schema,
+     .words = "Relative change of the friction coefficient by the layer at balance; crosses: no "
+              "layer; the line is where R = 1.",
+     .draw = draw_friction_map,
+     .caption = caption_existence},
+    {.name = NULL},
+};

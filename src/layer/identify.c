@@ -1,0 +1,461 @@
+/* The identification job: critical energy U_c and specific wear rate k of a layer from its
+ * thickness with a wear rate or a running-in time, jointly. SPDX-License-Identifier:
+ * GPL-3.0-or-later */
+#include "core/base/shared_params.h"
+#include "friction/replicates.h"
+#include "friction/sliding_contact.h"
+#include "job/cost.h"
+#include "job/random_draws.h"
+#include "layer/numerics/correlated_pair.h"
+
+#include "core/base/clocale.h"
+#include "core/base/range_text.h"
+#include "core/math/normal_quantile.h"
+#include "core/table/table_rows.h"
+
+#include <math.h>
+#include <string.h>
+
+/* ---- parameters ------------------------------------------------------------------------------ */
+
+/* Orders of magnitude: k of tread rubber by Karger-Kocsis and others, which DIN abrasion bounds
+ * from above; U_c by what makes layers of micrometres at such k. */
+static const double wear_low = 1e-13, wear_high = 1e-11;  /* [m^2/N] */
+static const double energy_low = 1e9, energy_high = 1e12; /* [J/m^3] */
+/* Where an instrument sees no more change of friction. */
+static const double settled = 0.95;
+
+wt_identify_job wt_identify_job_defaults(void)
+{
+    return (wt_identify_job){.observed_thickness = {(double)NAN, 0, 0, "m"},
+                             .specific_wear_rate = {(double)NAN, 0, 0, "m^2/N"},
+                             .running_in_time = {(double)NAN, 0, 0, "s"},
+                             .running_in_share = settled,
+                             .damage = wt_layer_defaults().damage,
+                             .duty = wt_layer_defaults().duty,
+                             .profile = WT_PROFILE_PERSSON,
+                             .wear_low = wear_low,
+                             .wear_high = wear_high,
+                             .energy_low = energy_low,
+                             .energy_high = energy_high};
+}
+
+static const wt_param rows[] = {
+    {PARAM("observed-thickness", wt_identify_job, observed_thickness, WT_Q_LENGTH, ABOVE(0)),
+     .value = "D", .flags = PARAM_REQUIRED,
+     .help = "of the layer at its balance, such as \"1.6um +- 20%\""},
+    {PARAM("specific-wear-rate", wt_identify_job, specific_wear_rate, WT_Q_WEAR_RATE, ABOVE(0)),
+     .value = "K", .unset = "", .help = "k as measured, such as \"1e-3mm^3/(N m) +- 15%\""},
+    {PARAM("running-in-time", wt_identify_job, running_in_time, WT_Q_TIME, ABOVE(0)), .value = "T",
+     .unset = "", .help = "that the layer took from bare rubber, such as \"900s +- 15%\""},
+    {PARAM("running-in-share", wt_identify_job, running_in_share, WT_Q_NONE, FROM_TO(0.05, 0.999)),
+     .value = "X", .help = "of its thickness that it had then"},
+    {PARAM("damage", wt_identify_job, damage, WT_Q_NONE, ABOVE(0)), .value = "L",
+     .help = "Lambda, at which the rubber counts as modified"},
+    {PARAM("duty", wt_identify_job, duty, WT_Q_NONE, ABOVE_TO(0, 1)), .value = "X",
+     .help = "share of the time in contact; with 1, times are contact times"},
+    ENERGY_PROFILE(wt_identify_job),
+    ENERGY_LOCAL_FRICTION(wt_identify_job),
+    {PARAM("prior-wear-from", wt_identify_job, wear_low, WT_Q_WEAR_RATE, ABOVE(0)), .value = "K",
+     .help = "where the thickness is all that is known: k is taken to be within this and the next "
+             "(literature, order of magnitude)"},
+    {PARAM("prior-wear-to", wt_identify_job, wear_high, WT_Q_WEAR_RATE, ABOVE(0)), .value = "K",
+     .help = "the other end"},
+    {PARAM("prior-energy-from", wt_identify_job, energy_low, WT_Q_ENERGY_DENSITY, ABOVE(0)),
+     .value = "U", .help = "likewise of U_c"},
+    {PARAM("prior-energy-to", wt_identify_job, energy_high, WT_Q_ENERGY_DENSITY, ABOVE(0)),
+     .value = "U", .help = "the other end"},
+};
+PARAM_TABLE(wt_identify_job_params, wt_identify_job, rows, wt_identify_job_defaults, NO_PARTS)
+
+/* ---- one set of values ----------------------------------------------------------------------- */
+
+typedef enum way { BY_WEAR, BY_RATES, BY_TRANSPORT, WAYS } way;
+
+static const char *const way_words[WAYS] = {
+    [BY_WEAR] = "thickness and wear rate",
+    [BY_RATES] = "thickness and running-in, by the balance of rates",
+    [BY_TRANSPORT] = "thickness and running-in, by the transport of damage"};
+
+/* Logarithms: those that do not apply are NaN. */
+enum {
+    LN_PRODUCT, /* of k U_c: not NaN */
+    LN_RATIO,
+    LN_ENERGY,
+    LN_WEAR = LN_ENERGY + WAYS,
+    LN_APART = LN_WEAR + WAYS, /* k of a way over that of the first */
+    NUMBERS = LN_APART + WAYS
+};
+
+typedef struct identify_task {
+    const wt_sliding *sliding;
+    const wt_identify_job *job;
+    const wt_job *work;
+    double velocity;
+    replicates replicates;
+} identify_task;
+
+static wt_status find_way(const identify_task *task, way by, const wt_energy_source *source,
+                          wt_layer_parameters p, size_t replicate, double *out, wt_error *err)
+{
+    const wt_identify_job *const job = task->job;
+    const uint64_t seed = task->work->seed;
+    const double thickness = flow_draw_positive(job->observed_thickness, seed, replicate,
+                                                FLOW_DRAW_OBSERVED),
+                 wear =
+                     flow_draw_positive(job->specific_wear_rate, seed, replicate, FLOW_DRAW_WEAR),
+                 /* a critical energy is not given here, so that its number is free */
+        time = flow_draw_positive(job->running_in_time, seed, replicate, FLOW_DRAW_CRITICAL_ENERGY);
+    wt_layer_identified found = {0};
+    p.incubation = by == BY_TRANSPORT;
+    out[LN_ENERGY + by] = out[LN_WEAR + by] = out[LN_APART + by] = (double)NAN;
+    if (isnan(by == BY_WEAR ? wear : time))
+        return WT_OK;
+    const wt_status status = by == BY_WEAR
+                                 ? wt_layer_identify_wear(source, &p, thickness, wear, &found, err)
+                                 : wt_layer_identify_time(source, &p, thickness, time,
+                                                          job->running_in_share, &found, err);
+    if (status == WT_OK) {
+        out[LN_ENERGY + by] = log(found.critical_energy);
+        out[LN_WEAR + by] = log(found.specific_wear_rate);
+        out[LN_APART + by] = out[LN_WEAR + by] - log(wear);
+    }
+    return status;
+}
+
+static wt_status find_all(const identify_task *task, size_t replicate, double *out, wt_error *err)
+{
+    const wt_layer_state none = {.modulus_ratio = 1};
+    const wt_identify_job *const job = task->job;
+    wt_energy_source source = {.n = 0};
+    sliding_contact c = {0};
+    wt_layer_identified found = {0};
+    wt_status status = sliding_contact_make(task->sliding, task->work, replicate,
+                                            task->replicates.drawn, none, &c, err);
+    if (status == WT_OK)
+        status = wt_energy_source_friction(c.workspace, c.pressure, task->velocity, &source, err);
+    wt_layer_parameters p = wt_layer_defaults();
+    p.damage = job->damage;
+    p.duty = job->duty;
+    p.pressure = c.pressure;
+    p.velocity = task->velocity;
+    source.profile = job->profile;
+    source.local_friction = job->local_friction;
+    if (status == WT_OK) /* with k = 1 the critical energy is the product */
+        status =
+            wt_layer_identify_wear(&source, &p,
+                                   flow_draw_positive(job->observed_thickness, task->work->seed,
+                                                      replicate, FLOW_DRAW_OBSERVED),
+                                   1, &found, err);
+    out[LN_PRODUCT] = log(found.critical_energy);
+    out[LN_RATIO] = log(found.ratio);
+    for (way by = 0; status == WT_OK && by < WAYS; by++)
+        status = find_way(task, by, &source, p, replicate, out, err);
+    wt_energy_source_clear(&source);
+    sliding_contact_clear(&c);
+    return status;
+}
+
+static wt_status one_replicate(const void *user, size_t i, double *out, wt_error *err)
+{
+    return find_all(user, i, out, err);
+}
+
+/* ---- what the draws say ---------------------------------------------------------------------- */
+
+/* Numbers at the values themselves, what the draws scatter with the thickness and without it, and
+ * the numbers at either end of the interval of the thickness. */
+typedef struct identified {
+    double value[NUMBERS], at_end[2][NUMBERS];
+    double error[NUMBERS], rest[NUMBERS];
+    double inputs[NUMBERS]; /* by material, surface and conditions alone */
+} identified;
+
+/* exp of number k with its interval of 95 %. A thickness goes into an exponent, so that what its
+ * error does is not the same to both sides: its own ends are taken, and joined in squares with what
+ * all else scatters. */
+static wt_interval interval_of(const identified *found, size_t k)
+{
+    const double value = found->value[k], rest = NORMAL_95 * found->rest[k],
+                 one = found->at_end[0][k] - value, other = found->at_end[1][k] - value,
+                 up = fmax(fmax(one, other), 0), down = fmin(fmin(one, other), 0);
+    return (wt_interval){exp(value), exp(value) * found->error[k], exp(value - hypot(down, rest)),
+                         exp(value + hypot(up, rest))};
+}
+
+/* ---- the table ------------------------------------------------------------------------------- */
+
+TABLE_ROW(identification, IDENTIFICATION, const char *by; wt_interval energy, wear;
+          constant_axes axes; char note[256];
+          double energy_inputs, wear_inputs, correlation_inputs;)
+
+static const wt_interval not_known = {(double)NAN, (double)NAN, (double)NAN, (double)NAN};
+
+/* Why an interval of a way is none; NULL if it is one. */
+static const char *no_interval(const identify_task *task, bool wear, bool time)
+{
+    const wt_identify_job *const job = task->job;
+    if (!(job->observed_thickness.standard_error > 0))
+        return "no interval: no error is stated of the thickness";
+    if (wear && !(job->specific_wear_rate.standard_error > 0))
+        return "no interval: no error is stated of the wear rate";
+    if (time && !(job->running_in_time.standard_error > 0))
+        return "no interval: no error is stated of the running-in time";
+    return task->work->replicates == 0 ? "no interval: no replicates are drawn" : NULL;
+}
+
+static constant_axes axes_of(const double error[NUMBERS], way by)
+{
+    const double energy = error[LN_ENERGY + by], wear = error[LN_WEAR + by],
+                 both = error[LN_PRODUCT];
+    return constant_axes_of((pair_covariance){energy * energy, wear * wear,
+                                              0.5 * (both * both - energy * energy - wear * wear)});
+}
+
+static void add_way(const identify_task *task, way by, const identified *found, table_writer *t)
+{
+    const char *const none = no_interval(task, by == BY_WEAR, by != BY_WEAR);
+    const double unknown = (double)NAN;
+    identification_row row = {.by = way_words[by],
+                              .axes =
+                                  constant_axes_of((pair_covariance){unknown, unknown, unknown}),
+                              .energy_inputs = unknown,
+                              .wear_inputs = unknown,
+                              .correlation_inputs = unknown};
+    if (isnan(found->value[LN_ENERGY + by]))
+        return;
+    row.energy = interval_of(found, LN_ENERGY + by);
+    row.wear = interval_of(found, LN_WEAR + by);
+    if (none != NULL) {
+        const double energy = row.energy.value, wear = row.wear.value;
+        row.energy = row.wear = not_known;
+        row.energy.value = energy;
+        row.wear.value = wear;
+        snprintf(row.note, sizeof row.note, "%s", none);
+    } else {
+        row.axes = axes_of(found->error, by);
+        row.energy_inputs = found->inputs[LN_ENERGY + by];
+        row.wear_inputs = found->inputs[LN_WEAR + by];
+        row.correlation_inputs = axes_of(found->inputs, by).correlation;
+    }
+    identification_add_row(t, &row);
+}
+
+/* By the first way with an interval; a number without one is no headline. */
+static void set_headline(const identify_task *task, const identified *found, table_writer *t)
+{
+    way by = BY_WEAR;
+    while (by < WAYS && (isnan(found->value[LN_ENERGY + by]) ||
+                         no_interval(task, by == BY_WEAR, by != BY_WEAR) != NULL))
+        by++;
+    if (by == WAYS)
+        return;
+    const wt_interval energy = interval_of(found, LN_ENERGY + by),
+                      wear = interval_of(found, LN_WEAR + by);
+    identification_set_value(t, IDENTIFICATION_KEY_ENERGY, energy.value, energy.standard_error,
+                             (double)NAN);
+    identification_set_value(t, IDENTIFICATION_KEY_WEAR, wear.value, wear.standard_error,
+                             (double)NAN);
+}
+
+/* Of the thickness alone: what the ranges of the literature leave of each. */
+static void add_thickness_alone(const identify_task *task, wt_interval product, table_writer *t)
+{
+    const wt_identify_job *const job = task->job;
+    identification_row row = {
+        .by = "thickness alone",
+        .energy = not_known,
+        .wear = not_known,
+        .axes = {.correlation = (double)NAN,
+                 .loose = "U_c k^-1.00",
+                 .loose_error = HUGE_VAL,
+                 .tight_error = product.standard_error / product.value * M_SQRT1_2},
+        .energy_inputs = (double)NAN,
+        .wear_inputs = (double)NAN,
+        .correlation_inputs = (double)NAN};
+    const double low = isnan(product.low) ? product.value : product.low,
+                 high = isnan(product.high) ? product.value : product.high;
+    row.energy.low = fmax(job->energy_low, low / job->wear_high);
+    row.energy.high = fmin(job->energy_high, high / job->wear_low);
+    row.wear.low = fmax(job->wear_low, low / job->energy_high);
+    row.wear.high = fmin(job->wear_high, high / job->energy_low);
+    if (!(row.energy.low <= row.energy.high)) {
+        row.energy = row.wear = not_known;
+        snprintf(row.note, sizeof row.note,
+                 "the product contradicts the ranges of the literature for k and U_c");
+    } else {
+        snprintf(row.note, sizeof row.note,
+                 "no estimate: the ends are those of the literature's ranges for k and U_c (order "
+                 "of magnitude), as far as the product leaves them");
+    }
+    identification_add_row(t, &row);
+}
+
+/* Two ways that both hold ask for one k. An interval that lacks the error of one of the three would
+ * contradict what agrees. */
+static void say_agreement(const identify_task *task, const identified *found, table_writer *t)
+{
+    const char *const none = no_interval(task, true, true);
+    char text[400] = "";
+    for (way by = BY_RATES; by < WAYS; by++) {
+        const size_t used = strlen(text);
+        if (isnan(found->value[LN_APART + by]))
+            return;
+        const wt_interval apart = interval_of(found, LN_APART + by);
+        const bool known = none == NULL && apart.high > apart.low;
+        char range[64] = "";
+        if (known)
+            clocale_print(range, sizeof range, " (95 %%: %s)",
+                          ends_of(apart.low, apart.high, 3).text);
+        clocale_print(text + used, sizeof text - used,
+                      "%s%s the running-in asks for %.3g times the wear rate that was measured%s, "
+                      "%s",
+                      used > 0 ? "; " : "",
+                      by == BY_RATES ? "by the balance of rates" : "by the transport of damage",
+                      apart.value, range,
+                      !known                              ? "which cannot be judged"
+                      : apart.low <= 1 && apart.high >= 1 ? "which agrees"
+                                                          : "which contradicts it");
+    }
+    if (none != NULL)
+        clocale_print(text + strlen(text), sizeof text - strlen(text), " (%s)", none);
+    identification_set_text(t, IDENTIFICATION_KEY_AGREES, text);
+}
+
+static wt_status make_table(const identify_task *task, const identified *found, wt_table **table,
+                            wt_error *err)
+{
+    const replicates *const r = &task->replicates;
+    table_writer t = table_begin(&identification_schema, err);
+    const wt_interval product = interval_of(found, LN_PRODUCT);
+    const double ratio = exp(found->value[LN_RATIO]);
+    add_thickness_alone(task, product, &t);
+    for (way by = 0; by < WAYS; by++)
+        add_way(task, by, found, &t);
+    set_headline(task, found, &t);
+    identification_set_value(&t, IDENTIFICATION_KEY_PRODUCT, product.value, product.standard_error,
+                             (double)NAN);
+    identification_set_value(&t, IDENTIFICATION_KEY_RATIO, ratio, ratio * found->error[LN_RATIO],
+                             (double)NAN);
+    say_agreement(task, found, &t);
+    identification_set_value(&t, IDENTIFICATION_KEY_VELOCITY, task->velocity, 0, 0);
+    identification_set(&t, IDENTIFICATION_KEY_PRESSURE, flow_as_stated(task->sliding->pressure));
+    identification_set(&t, IDENTIFICATION_KEY_THICKNESS,
+                       flow_as_stated(task->job->observed_thickness));
+    identification_set_text(&t, IDENTIFICATION_KEY_INCLUDES, replicates_include(r));
+    if (r->lacks[0] != '\0')
+        identification_set_text(&t, IDENTIFICATION_KEY_LACKS, r->lacks);
+    return table_end(&t, table);
+}
+
+/* ---- the job --------------------------------------------------------------------------------- */
+
+/* With or without what the thickness scatters. */
+static identify_task task_of(const wt_sliding *sliding, const wt_identify_job *job,
+                             const wt_job *work)
+{
+    identify_task task = {.sliding = sliding,
+                          .job = job,
+                          .work = work,
+                          .velocity = flow_reference_velocity(sliding),
+                          .replicates = replicates_of(sliding, work, "identification")};
+    task.replicates.velocity = task.velocity;
+    replicates_add(&task.replicates, job->observed_thickness.standard_error, FLOW_DRAW_OBSERVED,
+                   "observed thickness");
+    if (!isnan(job->specific_wear_rate.value))
+        replicates_add(&task.replicates, job->specific_wear_rate.standard_error, FLOW_DRAW_WEAR,
+                       "specific wear rate");
+    if (!isnan(job->running_in_time.value))
+        replicates_add(&task.replicates, job->running_in_time.standard_error,
+                       FLOW_DRAW_CRITICAL_ENERGY, "running-in time");
+    return task;
+}
+
+static wt_status draw_errors(identify_task *task, double error[NUMBERS], wt_error *err)
+{
+    const wt_status status = replicates_draw(&task->replicates, NUMBERS, one_replicate, task, err);
+    for (size_t k = 0; status == WT_OK && k < NUMBERS; k++)
+        error[k] = task->replicates.error[k];
+    return status;
+}
+
+/* The scatter of what is left to be drawn. Nothing else scatters, or it is not asked what does. */
+static wt_status draw_held(const identify_task *task, const wt_identify_job *job,
+                           double error[NUMBERS], wt_error *err)
+{
+    identify_task held = task_of(task->sliding, job, task->work);
+    const wt_status status = draw_errors(&held, error, err);
+    replicates_clear(&held.replicates);
+    for (size_t k = 0; k < NUMBERS && held.replicates.n == 0; k++)
+        error[k] = task->work->replicates > 0 ? 0 : (double)NAN;
+    return status;
+}
+
+/* The same with the thickness held: at its value, then at the ends of its interval; and with all
+ * that was measured of the layer. */
+static wt_status hold_thickness(const identify_task *task, identified *found, wt_error *err)
+{
+    wt_identify_job job = *task->job;
+    const wt_estimate thickness = job.observed_thickness;
+    const double factor = exp(NORMAL_95 * thickness.standard_error / thickness.value);
+    job.observed_thickness.standard_error = 0;
+    wt_status status = draw_held(task, &job, found->rest, err);
+    identify_task held = task_of(task->sliding, &job, task->work);
+    for (int end = 0; status == WT_OK && end < 2; end++) {
+        job.observed_thickness.value =
+            end == 0 ? thickness.value / factor : thickness.value * factor;
+        status = find_all(&held, WT_NO_REPLICATE, found->at_end[end], err);
+    }
+    job.observed_thickness.value = thickness.value;
+    job.specific_wear_rate.standard_error = job.running_in_time.standard_error = 0;
+    return status == WT_OK ? draw_held(task, &job, found->inputs, err) : status;
+}
+
+static wt_status check_range(const char *first, const char *last, double low, double high,
+                             wt_error *err)
+{
+    if (low < high)
+        return WT_OK;
+    wt_fail(err, WT_E_RANGE, "a range of the literature has no room");
+    wt_error_place(err, "%s, %s", first, last);
+    wt_error_expected(err, "the first below the second");
+    wt_error_found(err, "%g and %g", low, high);
+    return WT_E_RANGE;
+}
+
+static wt_status check_job(const wt_identify_job *job, wt_error *err)
+{
+    wt_status status = param_check(wt_identify_job_params(), job, err);
+    if (status == WT_OK)
+        status =
+            check_range("prior-wear-from", "prior-wear-to", job->wear_low, job->wear_high, err);
+    return status == WT_OK ? check_range("prior-energy-from", "prior-energy-to", job->energy_low,
+                                         job->energy_high, err)
+                           : status;
+}
+
+wt_status wt_identify_make(const wt_sliding *sliding, const wt_identify_job *job,
+                           const wt_job *work, wt_table **table, wt_error *err)
+{
+    if (job == NULL || work == NULL || table == NULL)
+        return wt_fail(err, WT_E_ARG, "no identification job");
+    wt_status status = flow_sliding_check(sliding, work, err);
+    if (status == WT_OK)
+        status = check_job(job, err);
+    if (status != WT_OK)
+        return status;
+    identify_task task = task_of(sliding, job, work);
+    identified found;
+    status = find_all(&task, WT_NO_REPLICATE, found.value, err);
+    if (status == WT_OK)
+        status = draw_errors(&task, found.error, err);
+    if (status == WT_OK)
+        status = hold_thickness(&task, &found, err);
+    if (status == WT_OK)
+        status = make_table(&task, &found, table, err);
+    if (status == WT_OK)
+        cost_say(work, (cost_summary){.items = (double)wt_table_n_rows(*table),
+                                      .tolerance_asked = work->tolerance});
+    replicates_clear(&task.replicates);
+    return status;
+}

@@ -1,0 +1,320 @@
+/* The layer job: energy density with depth, formation against wear, thickness at balance and in
+ * time, with standard errors from replicates.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#include "core/base/shared_params.h"
+#include "dma/strain_softening.h"
+#include "friction/anisotropy.h"
+#include "job/cost.h"
+#include "job/random_draws.h"
+#include "layer/layer_text.h"
+#include "layer/monte_carlo.h"
+
+#include "core/base/clocale.h"
+#include "core/table/table_rows.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* The balance at one set of values. */
+typedef struct layer_run {
+    layer_energy energy;
+    wt_layer_parameters parameters;
+    wt_layer_balance balance;
+    wt_estimate critical_energy, time_to_90_percent;
+    wt_layer_point *points; /* [n of the task] */
+    char statement[512];
+} layer_run;
+
+/* Single numbers of a run with their keys; the thicknesses in time follow them. */
+#define NUMBERS(X)                                                                                 \
+    X(BALANCE_THICKNESS, run->balance.thickness)                                                   \
+    X(FORMATION_WEAR_RATIO, of_rates(run, run->balance.ratio))                                     \
+    X(INCUBATION_TIME, run->balance.incubation_time)                                               \
+    X(RELAXATION_TIME, run->balance.relaxation_time)                                               \
+    X(CRITICAL_WEAR_RATE, of_rates(run, run->balance.critical_specific_wear_rate))                 \
+    X(REMOVAL_TIME, run->balance.removal_time)                                                     \
+    X(CRITICAL_ENERGY, run->critical_energy)                                                       \
+    X(SURFACE_POWER, of_power(run, run->balance.surface_power))                                    \
+    X(TIME_TO_90_PERCENT, run->time_to_90_percent)
+#define NUMBER_ID(key, value) NUMBER_##key,
+enum { NUMBERS(NUMBER_ID) N_NUMBERS };
+
+typedef struct layer_task {
+    const wt_sliding *sliding;
+    const wt_layer_job *job;
+    const wt_job *work;
+    double velocity;
+    double *time; /* [n] */
+    size_t n;
+    replicates replicates;
+} layer_task;
+
+void wt_layer_tables_clear(wt_layer_tables *tables)
+{
+    if (tables == NULL)
+        return;
+    wt_table_free(tables->layer);
+    *tables = (wt_layer_tables){0};
+}
+
+/* What goes with the power of all wavenumbers has its relative numerical error. */
+static wt_estimate of_power(const layer_run *run, double value)
+{
+    return (wt_estimate){.value = value,
+                         .numerical_error = fabs(value) * run->energy.source.numerical_error};
+}
+
+/* What goes with formation and wear, which the closure and the severity make of the power. */
+static wt_estimate of_rates(const layer_run *run, double value)
+{
+    return (wt_estimate){.value = value, .numerical_error = fabs(value) * run->balance.ratio_error};
+}
+
+static void put_numbers(const layer_run *run, wt_estimate *out)
+{
+#define PUT_NUMBER(key, number) out[NUMBER_##key] = number;
+    NUMBERS(PUT_NUMBER)
+}
+
+/* ---- one run --------------------------------------------------------------------------------- */
+
+static wt_status find_balance(const layer_task *task, size_t replicate, layer_run *run,
+                              wt_error *err)
+{
+    const wt_layer_state none = {.modulus_ratio = 1};
+    const wt_layer_job *job = task->job;
+    const uint64_t seed = task->work->seed;
+    sliding_contact c = {0};
+    wt_job work = *task->work;
+    const bool with_times = (work.left_out & WT_EXTRA_TIMES) == 0;
+    work.left_out |= WT_EXTRA_SHARE;
+    wt_status status = sliding_contact_make(task->sliding, &work, replicate, task->replicates.drawn,
+                                            none, &c, err);
+    if (status == WT_OK)
+        status = layer_energy_make(task->sliding, job, &c, task->velocity, none, &run->energy, err);
+    if (status == WT_OK) {
+        memcpy(run->statement, c.statement, sizeof c.statement);
+        wt_layer_parameters *p = &run->parameters;
+        *p = layer_parameters_of(job, &c, task->velocity, &run->energy, seed, replicate);
+        p->balance_only = !with_times;
+        const bool calibrated = !isnan(job->observed_thickness.value);
+        if (calibrated)
+            p->critical_energy = wt_layer_calibrate(
+                &run->energy.source, p,
+                flow_draw_positive(job->observed_thickness, seed, replicate, FLOW_DRAW_OBSERVED));
+        status = wt_layer_balance_compute(&run->energy.source, p, &run->balance, err);
+        run->critical_energy = calibrated ? of_rates(run, p->critical_energy)
+                                          : (wt_estimate){.value = p->critical_energy};
+    }
+    wt_estimate most = run->balance.thickness;
+    most.value *= 0.9;
+    most.numerical_error *= 0.9;
+    run->time_to_90_percent = (wt_estimate){(double)NAN, (double)NAN, (double)NAN, "s"};
+    if (status == WT_OK && with_times)
+        status = wt_layer_time(&run->energy.source, &run->parameters, most,
+                               &run->time_to_90_percent, err);
+    sliding_contact_clear(&c);
+    return status;
+}
+
+static wt_status follow_thickness(const layer_task *task, layer_run *run, wt_error *err)
+{
+    run->points = malloc((task->n + 1) * sizeof *run->points);
+    if (run->points == NULL)
+        return wt_fail(err, WT_E_MEMORY, "out of memory");
+    return wt_layer_history(&run->energy.source, &run->parameters, task->time, task->n, run->points,
+                            err);
+}
+
+static void run_clear(layer_run *run)
+{
+    layer_energy_clear(&run->energy);
+    free(run->points);
+}
+
+static wt_status one_replicate(const void *user, size_t i, double *out, wt_error *err)
+{
+    const layer_task *task = user;
+    layer_run run = {.points = NULL};
+    wt_status status = find_balance(task, i, &run, err);
+    if (status == WT_OK)
+        status = follow_thickness(task, &run, err);
+    if (status == WT_OK) {
+        wt_estimate number[N_NUMBERS];
+        put_numbers(&run, number);
+        for (size_t k = 0; k < N_NUMBERS; k++)
+            out[k] = number[k].value;
+        for (size_t k = 0; k < task->n; k++)
+            out[N_NUMBERS + k] = run.points[k].thickness.value;
+    }
+    run_clear(&run);
+    return status;
+}
+
+/* ---- replicates ------------------------------------------------------------------------------ */
+
+static wt_status draw_replicates(layer_task *task, wt_error *err)
+{
+    const wt_layer_job *job = task->job;
+    replicates *r = &task->replicates;
+    const bool calibrated = !isnan(job->observed_thickness.value);
+    const double given = layer_replicates_add(r, task->sliding, job);
+    wt_status status = replicates_draw(r, N_NUMBERS + task->n, one_replicate, task, err);
+    if (status == WT_OK && !(given > 0)) /* what is given does not scatter */
+        r->error[calibrated ? NUMBER_BALANCE_THICKNESS : NUMBER_CRITICAL_ENERGY] = (double)NAN;
+    size_t without = 0, solved = 0;
+    for (size_t i = 0; status == WT_OK && i < r->n; i++) {
+        const double thickness = r->value[i * r->stride + NUMBER_BALANCE_THICKNESS];
+        solved += isnan(thickness) == 0;
+        without += thickness <= 0;
+    }
+    if (without > 0 && without < solved)
+        wt_parselog_add(task->work->log, WT_WARNING, NULL, NULL,
+                        "within the stated errors the layer may be there or not: %zu of %zu "
+                        "replicates have none",
+                        without, solved);
+    return status;
+}
+
+/* ---- tables ---------------------------------------------------------------------------------- */
+
+static const char *regime_name(wt_layer_regime regime)
+{
+    static const char *const names[] = {"none", "thin", "thick"};
+    return names[regime];
+}
+
+static void set_numbers(const layer_task *task, const layer_run *run, table_writer *t)
+{
+#define NUMBER_KEY(key, value) LAYER_KEY_##key,
+    static const layer_key keys[] = {NUMBERS(NUMBER_KEY)};
+    const wt_layer_balance *b = &run->balance;
+    wt_estimate number[N_NUMBERS];
+    put_numbers(run, number);
+    for (size_t i = 0; i < N_NUMBERS; i++) {
+        if (keys[i] == LAYER_KEY_REMOVAL_TIME && isnan(number[i].value))
+            continue; /* nothing is removed */
+        layer_set_value(t, keys[i], number[i].value, task->replicates.error[i],
+                        number[i].numerical_error);
+        /* d ln thickness / d ln k = -Qw / (thickness |dQf/dz|): the balance is where Qf(z) = Qw */
+        const double sensitivity = -b->wear_rate * b->relaxation_time.value / b->thickness.value;
+        if (keys[i] == LAYER_KEY_BALANCE_THICKNESS && isfinite(sensitivity))
+            layer_set_value(t, LAYER_KEY_WEAR_SENSITIVITY, sensitivity, (double)NAN, 0);
+    }
+}
+
+TABLE_ROW_OF(layer, LAYER, wt_layer_point)
+
+TABLE_KEYS(layer, LAYER, const char *regime, *critical_energy_from, *includes, *lacks, *statement;
+           double velocity, damage, duty; wt_estimate pressure, wear_rate, observed;
+           char softening[256], anisotropy[192], numerical[512]; layer_saying said;
+           wt_estimate hysteresis_power, shear_power, unloaded_rate, shelf_life, severe;)
+
+static void set_keys(const layer_task *task, const layer_run *run, table_writer *t)
+{
+    const wt_layer_job *job = task->job;
+    const bool calibrated = !isnan(job->observed_thickness.value);
+    layer_keys keys = {.regime = regime_name(run->balance.regime),
+                       .critical_energy_from =
+                           calibrated ? "calibrated: makes the observed thickness the balance"
+                           : job->closure == WT_CLOSURE_ACTIVATED ? "none: the closure is activated"
+                                                                  : "given",
+                       .includes = replicates_include(&task->replicates),
+                       .lacks = task->replicates.lacks,
+                       .statement = run->statement,
+                       .velocity = task->velocity,
+                       .damage = job->damage,
+                       .duty = job->duty,
+                       .pressure = flow_as_stated(task->sliding->pressure),
+                       .wear_rate = flow_as_stated(job->specific_wear_rate),
+                       .observed = flow_as_stated(job->observed_thickness)};
+    if (!calibrated)
+        keys.observed.value = (double)NAN;
+    keys.hysteresis_power = keys.shear_power = keys.unloaded_rate = keys.shelf_life = keys.severe =
+        (wt_estimate){(double)NAN, (double)NAN, (double)NAN, NULL};
+    layer_say(job, &run->energy, &run->parameters, &keys.said);
+    if (job->energy != WT_LAYER_HYSTERESIS) {
+        keys.hysteresis_power.value = run->energy.hysteresis_power;
+        keys.shear_power.value = run->energy.shear_power;
+    }
+    if (job->closure == WT_CLOSURE_ACTIVATED) {
+        keys.unloaded_rate.value = wt_activation_background(&run->parameters.activation);
+        keys.shelf_life.value = job->damage / keys.unloaded_rate.value;
+    }
+    if (job->severity_power > 0)
+        keys.severe.value = run->balance.wear_rate /
+                            (job->duty * run->parameters.pressure * run->parameters.velocity);
+    if (task->sliding->softness != NULL)
+        softness_describe(task->sliding->softness, keys.softening, sizeof keys.softening);
+    anisotropy_describe(&task->sliding->anisotropy, keys.anisotropy, sizeof keys.anisotropy);
+    if (run->energy.source.numerical_error > task->work->tolerance)
+        clocale_print(keys.numerical, sizeof keys.numerical, TOLERANCE_STATEMENT,
+                      task->work->tolerance, run->energy.source.numerical_error);
+    set_numbers(task, run, t);
+    layer_set_keys(t, &keys);
+}
+
+static wt_status layer_table(const layer_task *task, const layer_run *run, wt_table **out,
+                             wt_error *err)
+{
+    table_writer t = table_begin(&layer_schema, err);
+    for (size_t i = 0; i < task->n; i++) {
+        layer_row row = run->points[i];
+        row.thickness.standard_error = task->replicates.error[N_NUMBERS + i];
+        layer_add_row(&t, &row);
+    }
+    set_keys(task, run, &t);
+    return table_end(&t, out);
+}
+
+/* ---- the job --------------------------------------------------------------------------------- */
+
+wt_status wt_layer_make(const wt_sliding *sliding, const wt_layer_job *job, const wt_job *work,
+                        wt_layer_tables *tables, wt_error *err)
+{
+    if (job == NULL || work == NULL || tables == NULL)
+        return wt_fail(err, WT_E_ARG, "no layer job");
+    wt_status status = flow_sliding_check(sliding, work, err);
+    if (status == WT_OK)
+        status = wt_layer_job_check(job, err);
+    if (status != WT_OK)
+        return status;
+    layer_task task = {.sliding = sliding,
+                       .job = job,
+                       .work = work,
+                       .velocity = flow_layer_velocity(sliding, job),
+                       .replicates = replicates_of(sliding, work, "layer")};
+    task.replicates.velocity = task.velocity;
+    layer_run centre = {.points = NULL};
+    wt_layer_tables t = {0};
+    status = find_balance(&task, WT_NO_REPLICATE, &centre, err);
+    if (status == WT_OK)
+        layer_warn(job, &centre.parameters, work->log);
+    if (status == WT_OK)
+        status = layer_times_choose(job, &centre.balance, &task.time, &task.n, err);
+    if (status == WT_OK)
+        status = follow_thickness(&task, &centre, err);
+    if (status == WT_OK)
+        status = draw_replicates(&task, err);
+    if (status == WT_OK)
+        status = layer_table(&task, &centre, &t.layer, err);
+    if (status == WT_OK) {
+        t.balance = centre.balance;
+        t.thickness = centre.balance.thickness;
+        t.thickness.standard_error = task.replicates.error[NUMBER_BALANCE_THICKNESS];
+        t.balance.thickness = t.thickness;
+        const double thickness = t.thickness.value > 0 ? t.thickness.value : (double)NAN;
+        cost_say(work, (cost_summary){.items = (double)(task.n * (1 + task.replicates.n)),
+                                      .tolerance_asked = work->tolerance,
+                                      .error_estimated = t.thickness.numerical_error / thickness,
+                                      .number = t.thickness});
+        *tables = t;
+        t = (wt_layer_tables){0};
+    }
+    run_clear(&centre);
+    wt_layer_tables_clear(&t);
+    free(task.time);
+    replicates_clear(&task.replicates);
+    return status;
+}

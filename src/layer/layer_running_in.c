@@ -1,0 +1,332 @@
+/* The table of the friction in running-in: the layer grows, and friction with it, by the values
+ * themselves and, for the standard errors, by replicates. SPDX-License-Identifier: GPL-3.0-or-later
+ */
+#include "job/cost.h"
+#include "layer/feedback.h"
+#include "layer/layer_friction.h"
+
+#include "core/base/array.h"
+#include "core/table/table_rows.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+/* Running-in is over when so much of the change of friction is left. */
+static const double settled_share = 0.05;
+/* Halves of a step of the time, to 1e-12 of it. */
+enum { HALVES = 40 };
+
+/* One run through the times of the task. */
+typedef struct running {
+    layer_scene *scene;
+    const double *time; /* [n] borrowed */
+    size_t n;
+    friction_of_layer friction_of;
+    wt_energy_source source; /* of bare rubber, and its parameters; none with acting back */
+    wt_layer_parameters parameters;
+    wt_layer_point *points;   /* [n] */
+    layer_friction *friction; /* [n] */
+    wt_estimate thickness;    /* at balance; NaN or infinite: there is none */
+    layer_friction bare, balance;
+    double settled; /* NaN where the times do not hold it */
+} running;
+
+typedef struct running_task {
+    layer_draws draws;
+    double *time;
+    size_t n;
+    running centre;
+    char shear[256], known[200], errors[560];
+} running_task;
+
+TABLE_ROW(running_in, RUNNING_IN, double time;
+          wt_estimate thickness, hysteresis, area_ratio, shear_stress, friction;)
+TABLE_KEYS(running_in, RUNNING_IN, double velocity; wt_estimate modulus_ratio;
+           wt_estimate bare, balance, thickness, settled; double settled_low, settled_high;
+           const char *known, *shear, *back, *errors, *moduli;)
+
+/* ---- thickness ------------------------------------------------------------------------------- */
+
+/* The balance that a bare surface comes to, and the thickness in time. */
+static wt_status grow_back(running *r, wt_error *err)
+{
+    wt_layer_loop loop;
+    wt_status status = acts_back_find(r->scene, &loop, err);
+    if (status != WT_OK)
+        return status;
+    r->thickness = layer_alone(loop.ratio > 1 ? (double)NAN : 0);
+    for (size_t i = loop.n_roots; i-- > 0;)
+        if (loop.root[i].stable)
+            r->thickness.value = loop.root[i].thickness;
+    return wt_layer_loop_history(acts_back_energy, r->scene, &loop, r->time, r->n, r->points, err);
+}
+
+static wt_status grow(running *r, wt_error *err)
+{
+    wt_layer_balance balance;
+    wt_status status = WT_OK;
+    r->points = calloc(r->n + 1, sizeof *r->points);
+    r->friction = calloc(r->n + 1, sizeof *r->friction);
+    if (r->points == NULL || r->friction == NULL)
+        return wt_fail(err, WT_E_MEMORY, "out of memory");
+    if (r->scene->job->acts_back)
+        return grow_back(r, err);
+    status = acts_back_energy(0, r->scene, &r->source, &r->parameters, err);
+    if (status == WT_OK)
+        status = wt_layer_balance_compute(&r->source, &r->parameters, &balance, err);
+    if (status == WT_OK) {
+        r->thickness = balance.thickness;
+        status = wt_layer_history(&r->source, &r->parameters, r->time, r->n, r->points, err);
+    }
+    return status;
+}
+
+/* ---- friction -------------------------------------------------------------------------------- */
+
+/* The thickness at a time between two of the list; with acting back linear in the logarithm of the
+ * time. */
+static wt_status thickness_at(const running *r, size_t i, double time, double *thickness,
+                              wt_error *err)
+{
+    const double from = r->points[i].thickness.value, to = r->points[i + 1].thickness.value;
+    wt_layer_point point;
+    if (r->source.n == 0) {
+        const double part = log(time / r->time[i]) / log(r->time[i + 1] / r->time[i]);
+        *thickness = from + part * (to - from);
+        return WT_OK;
+    }
+    const wt_status status = wt_layer_history(&r->source, &r->parameters, &time, 1, &point, err);
+    *thickness = status == WT_OK ? point.thickness.value : (double)NAN;
+    return status;
+}
+
+static wt_status settle_between(running *r, size_t i, double limit, wt_error *err)
+{
+    double low = r->time[i], high = r->time[i + 1];
+    const double end = layer_friction_known(&r->balance);
+    for (int k = 0; k < HALVES; k++) {
+        const double middle = sqrt(low * high);
+        double thickness;
+        layer_friction f;
+        wt_status status = thickness_at(r, i, middle, &thickness, err);
+        if (status == WT_OK)
+            status = friction_of_layer_at(&r->friction_of, thickness, &f, err);
+        if (status != WT_OK)
+            return status;
+        if (fabs(layer_friction_known(&f) - end) > limit)
+            low = middle;
+        else
+            high = middle;
+    }
+    r->settled = high;
+    return WT_OK;
+}
+
+static wt_status find_settled(running *r, wt_error *err)
+{
+    const double end = layer_friction_known(&r->balance);
+    const double limit = settled_share * fabs(layer_friction_known(&r->bare) - end);
+    r->settled = (double)NAN;
+    for (size_t i = r->n; isfinite(limit) && i-- > 1;)
+        if (fabs(layer_friction_known(&r->friction[i - 1]) - end) > limit)
+            return fabs(layer_friction_known(&r->friction[i]) - end) <= limit && r->time[i - 1] > 0
+                       ? settle_between(r, i - 1, limit, err)
+                       : WT_OK;
+    return WT_OK;
+}
+
+/* nodes: as many as the friction is known at, between which it is interpolated; 0: it is computed
+ * at every thickness. */
+static wt_status run_through(running *r, size_t nodes, wt_error *err)
+{
+    double thinnest = HUGE_VAL, thickest = 0;
+    wt_status status = grow(r, err);
+    for (size_t i = 0; status == WT_OK && i <= r->n; i++) {
+        const double d = i < r->n ? r->points[i].thickness.value : r->thickness.value;
+        thinnest = d > 0 ? fmin(thinnest, d) : thinnest;
+        thickest = isfinite(d) ? fmax(thickest, d) : thickest;
+    }
+    if (status == WT_OK)
+        status = friction_of_layer_make(r->scene, thinnest, thickest, nodes, &r->friction_of, err);
+    if (status == WT_OK)
+        status = friction_of_layer_at(&r->friction_of, 0, &r->bare, err);
+    if (status == WT_OK)
+        status = friction_of_layer_at(&r->friction_of, r->thickness.value, &r->balance, err);
+    for (size_t i = 0; status == WT_OK && i < r->n; i++)
+        status = friction_of_layer_at(&r->friction_of, r->points[i].thickness.value,
+                                      &r->friction[i], err);
+    return status == WT_OK ? find_settled(r, err) : status;
+}
+
+static void running_clear(running *r)
+{
+    friction_of_layer_clear(&r->friction_of);
+    wt_energy_source_clear(&r->source);
+    free(r->points);
+    free(r->friction);
+}
+
+/* ---- replicates ------------------------------------------------------------------------------ */
+
+/* Numbers of a replicate; those of a time follow. */
+enum { BARE, BALANCE, THICKNESS, SETTLED, LN_SETTLED, N_NUMBERS };
+enum { AT_THICKNESS, AT_HYSTERESIS, AT_AREA, AT_SHEAR, AT_FRICTION, N_AT };
+/* A curve through so many nodes is off by far less than the replicates scatter. */
+enum { NODES = 24 };
+
+static void put_numbers(const running *r, double *out)
+{
+    out[BARE] = layer_friction_known(&r->bare);
+    out[BALANCE] = layer_friction_known(&r->balance);
+    out[THICKNESS] = r->thickness.value;
+    out[SETTLED] = r->settled;
+    out[LN_SETTLED] = log(r->settled);
+    for (size_t i = 0; i < r->n; i++) {
+        double *const at = out + N_NUMBERS + N_AT * i;
+        at[AT_THICKNESS] = r->points[i].thickness.value;
+        at[AT_HYSTERESIS] = r->friction[i].hysteresis;
+        at[AT_AREA] = r->friction[i].area_ratio;
+        at[AT_SHEAR] = r->friction[i].shear_stress;
+        at[AT_FRICTION] = r->friction[i].total;
+    }
+}
+
+static wt_status one_replicate(const void *user, size_t i, double *out, wt_error *err)
+{
+    const running_task *task = user;
+    wt_layer_job job;
+    layer_scene scene;
+    running r = {.scene = &scene, .time = task->time, .n = task->n};
+    wt_status status = layer_draws_scene(&task->draws, i, &job, &scene, err);
+    if (status == WT_OK)
+        status = run_through(&r, NODES, err);
+    if (status == WT_OK)
+        put_numbers(&r, out);
+    running_clear(&r);
+    return status;
+}
+
+/* ---- the table ------------------------------------------------------------------------------- */
+
+static void say_shear(running_task *task)
+{
+    if (isnan(task->draws.values.sliding->shear_stress.value))
+        snprintf(task->shear, sizeof task->shear, "not known: hysteresis alone");
+    else
+        sliding_layer_shear_describe(&task->draws.calibrated.shear, task->shear,
+                                     sizeof task->shear);
+}
+
+static wt_estimate with_errors(double value, double standard, double numerical)
+{
+    return (wt_estimate){value, standard, numerical, NULL};
+}
+
+static void add_rows(const running_task *task, table_writer *t)
+{
+    for (size_t i = 0; i < task->n; i++) {
+        const layer_friction *f = &task->centre.friction[i];
+        const wt_estimate d = task->centre.points[i].thickness;
+        const double *const e = task->draws.replicates.error + N_NUMBERS + N_AT * i;
+        TABLE_ADD(running_in, t, task->time[i],
+                  with_errors(d.value, e[AT_THICKNESS], d.numerical_error),
+                  with_errors(f->hysteresis, e[AT_HYSTERESIS], f->hysteresis_error),
+                  with_errors(f->area_ratio, e[AT_AREA], f->area_error),
+                  with_errors(f->shear_stress, e[AT_SHEAR], (double)NAN),
+                  with_errors(f->total, e[AT_FRICTION], f->total_error));
+    }
+}
+
+static double known_error(const layer_friction *f)
+{
+    return isnan(f->total) ? f->hysteresis_error : f->total_error;
+}
+
+static const char *say_back(const wt_layer_job *job)
+{
+    if (job->acts_back)
+        return "the layer acts back on the energy that makes it; by the rate balance "
+               "(reconstructed)";
+    return job->closure == WT_CLOSURE_ACTIVATED && job->activation.ageing
+               ? "the energy is that of the bulk, friction that with the layer (reconstructed); "
+                 "not known (nan) once age has modified rubber of every depth"
+               : "the energy is that of the bulk, friction that with the layer (reconstructed)";
+}
+
+static wt_status make_table(running_task *task, wt_table **table, wt_error *err)
+{
+    const running *r = &task->centre;
+    const layer_scene *values = &task->draws.values;
+    const double *const e = task->draws.replicates.error;
+    const wt_interval settled = layer_interval(&task->draws, LN_SETTLED, r->settled);
+    layer_say_known(&task->draws, LN_SETTLED, r->settled, "friction does not settle at these times",
+                    "friction settles at these times", task->known, sizeof task->known);
+    table_writer t = table_begin(&running_in_schema, err);
+    add_rows(task, &t);
+    say_shear(task);
+    layer_draws_say(&task->draws, task->errors, sizeof task->errors);
+    TABLE_SET(running_in, &t, flow_layer_velocity(values->sliding, values->job),
+              layer_draws_ratio(&task->draws),
+              with_errors(layer_friction_known(&r->bare), e[BARE], known_error(&r->bare)),
+              with_errors(layer_friction_known(&r->balance), e[BALANCE], known_error(&r->balance)),
+              with_errors(r->thickness.value, e[THICKNESS], r->thickness.numerical_error),
+              with_errors(r->settled, isnan(settled.low) ? (double)NAN : e[SETTLED], (double)NAN),
+              settled.low, settled.high, task->known, task->shear, say_back(values->job),
+              task->errors, task->draws.moduli);
+    return table_end(&t, table);
+}
+
+/* ---- the job --------------------------------------------------------------------------------- */
+
+/* Those of the balance without acting back, in order: what is left is looked for from the last on.
+ */
+static wt_status take_times(running_task *task, wt_error *err)
+{
+    wt_energy_source source = {0};
+    wt_layer_parameters p;
+    wt_layer_balance balance;
+    wt_status status = acts_back_energy(0, &task->draws.values, &source, &p, err);
+    if (status == WT_OK)
+        status = wt_layer_balance_compute(&source, &p, &balance, err);
+    if (status == WT_OK)
+        status = layer_times_choose(task->draws.values.job, &balance, &task->time, &task->n, err);
+    if (status == WT_OK)
+        numbers_sort(task->time, task->n);
+    wt_energy_source_clear(&source);
+    return status;
+}
+
+wt_status wt_running_in_make(const wt_sliding *sliding, const wt_layer_job *job,
+                             const wt_layer_known *known, const wt_job *work, wt_table **table,
+                             wt_error *err)
+{
+    if (job == NULL || known == NULL || work == NULL || table == NULL)
+        return wt_fail(err, WT_E_ARG, "no running-in of a layer to make");
+    if (job->acts_back && job->start_thickness > 0) {
+        wt_fail(err, WT_E_ARG, "a layer that acts back is followed from a bare surface alone");
+        wt_error_place(err, "start-thickness");
+        wt_error_found(err, "%g m", job->start_thickness);
+        wt_error_advice(err, "leave out start-thickness, or acts-back");
+        return WT_E_ARG;
+    }
+    running_task task = {.n = 0};
+    wt_status status =
+        layer_draws_open(&task.draws, sliding, job, known, work, "running-in", true, err);
+    if (status == WT_OK)
+        status = take_times(&task, err);
+    task.draws.replicates.velocity = status == WT_OK ? flow_layer_velocity(sliding, job) : 0;
+    task.centre = (running){.scene = &task.draws.values, .time = task.time, .n = task.n};
+    if (status == WT_OK)
+        status = run_through(&task.centre, 0, err);
+    if (status == WT_OK)
+        status = replicates_draw(&task.draws.replicates, N_NUMBERS + N_AT * task.n, one_replicate,
+                                 &task, err);
+    if (status == WT_OK)
+        status = make_table(&task, table, err);
+    cost_say(work, (cost_summary){.items = (double)(task.n * (1 + task.draws.replicates.n)),
+                                  .tolerance_asked = work->tolerance});
+    layer_draws_clear(&task.draws);
+    running_clear(&task.centre);
+    free(task.time);
+    return status;
+}

@@ -1,0 +1,39 @@
+/* The times at which a layer is looked at.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#include "layer/layer_energy.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* The times that are chosen: so many, as a figure shows well, from half the first scale to the span
+ * of the last, where all is over. A scale that is not there is so far from the other one. Which
+ * times are told changes none of their numbers. */
+#define TIMES 61
+#define TIME_SPAN 100
+#define SHORT_OF_LAST 1e-3
+#define PAST_FIRST 1e6
+
+/* From well before the first change to well after the last one. */
+wt_status layer_times_choose(const wt_layer_job *job, const wt_layer_balance *b, double **time,
+                             size_t *n, wt_error *err)
+{
+    *n = job->time != NULL ? job->n_time : TIMES;
+    *time = malloc((*n > 0 ? *n : 1) * sizeof **time);
+    if (*time == NULL)
+        return wt_fail(err, WT_E_MEMORY, "out of memory");
+    if (job->time != NULL) {
+        memcpy(*time, job->time, *n * sizeof **time);
+        return WT_OK;
+    }
+    double first = b->incubation_time.value, last = b->relaxation_time.value;
+    if (!(first > 0) || !isfinite(first))
+        first = isfinite(last) && last > 0 ? SHORT_OF_LAST * last : 1;
+    if (!(last > 0) || !isfinite(last))
+        last = PAST_FIRST * first;
+    first /= 2;
+    last = TIME_SPAN * fmax(last, first);
+    for (size_t i = 0; i < *n; i++)
+        (*time)[i] = first * pow(last / first, (double)i / (double)(*n - 1));
+    return WT_OK;
+}

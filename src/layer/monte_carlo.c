@@ -1,0 +1,158 @@
+/* Replicates of a layer: which of its errors are drawn, and the values of one replicate.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#include "layer/monte_carlo.h"
+#include "job/random_draws.h"
+#include "layer/replicate_intervals.h"
+
+#include "core/base/clocale.h"
+#include "core/math/normal_quantile.h"
+
+#include <math.h>
+#include <stdio.h>
+
+double layer_replicates_add(replicates *r, const wt_sliding *sliding, const wt_layer_job *job)
+{
+    replicates_add(r, job->specific_wear_rate.standard_error, FLOW_DRAW_WEAR, "specific wear rate");
+    const bool calibrated = !isnan(job->observed_thickness.value);
+    const bool activated = job->closure == WT_CLOSURE_ACTIVATED;
+    const double given = (activated    ? job->barrier
+                          : calibrated ? job->observed_thickness
+                                       : job->critical_energy)
+                             .standard_error;
+    replicates_add(r, given, calibrated ? FLOW_DRAW_OBSERVED : FLOW_DRAW_CRITICAL_ENERGY,
+                   activated    ? "barrier"
+                   : calibrated ? "observed thickness"
+                                : "critical energy");
+    if (job->energy != WT_LAYER_HYSTERESIS)
+        replicates_add(r, sliding->shear_stress.standard_error, FLOW_DRAW_SHEAR_STRESS,
+                       "shear stress");
+    return given;
+}
+
+static wt_status check(const wt_sliding *sliding, const wt_layer_job *job,
+                       const wt_layer_known *known, const wt_job *work, wt_error *err)
+{
+    wt_status status = flow_sliding_check(sliding, work, err);
+    if (status == WT_OK)
+        status = wt_layer_job_check(job, err);
+    if (status == WT_OK && known != NULL && sliding->layer_rubber == NULL &&
+        !(known->modulus_ratio.value > 0)) {
+        status = wt_fail(err, WT_E_MISSING, "the modulus of the layer is not known");
+        wt_error_expected(err, "modulus-ratio above 0");
+    }
+    return status == WT_OK ? sliding_layer_check(known, err) : status;
+}
+
+wt_status layer_draws_open(layer_draws *d, const wt_sliding *sliding, const wt_layer_job *job,
+                           const wt_layer_known *known, const wt_job *work, const char *what,
+                           bool friction, wt_error *err)
+{
+    *d = (layer_draws){.known = known};
+    wt_status status = check(sliding, job, known, work, err);
+    if (status != WT_OK)
+        return status;
+    d->stated = *job;
+    if (known != NULL) {
+        double gain[2] = {(double)NAN, (double)NAN};
+        status = sliding_layer_gain(sliding, known, work, gain, err);
+        if (status != WT_OK)
+            return status;
+        sliding_layer_describe(sliding, known, gain, work->log, d->moduli, sizeof d->moduli);
+    }
+    if (known != NULL && known->bulk_shear)
+        d->stated.shear.exponent = 0;
+    d->values =
+        (layer_scene){.sliding = sliding,
+                      .job = &d->stated,
+                      .work = work,
+                      .replicate = WT_NO_REPLICATE,
+                      .modulus_ratio = known != NULL ? known->modulus_ratio.value : (double)NAN,
+                      .slope = sliding_layer_slope(known, work->seed, WT_NO_REPLICATE)};
+    status = layer_job_calibrated(&d->values, &d->calibrated, err);
+    d->values.job = &d->calibrated;
+    d->replicates = replicates_of(sliding, work, what);
+    layer_replicates_add(&d->replicates, sliding, job);
+    if (friction && job->energy == WT_LAYER_HYSTERESIS && !isnan(sliding->shear_stress.value))
+        replicates_add(&d->replicates, sliding->shear_stress.standard_error, FLOW_DRAW_SHEAR_STRESS,
+                       "shear stress");
+    if (friction && known != NULL)
+        replicates_add_layer(&d->replicates, sliding, known, "modulus ratio");
+    return status;
+}
+
+wt_status layer_draws_scene(const layer_draws *d, size_t replicate, wt_layer_job *job,
+                            layer_scene *scene, wt_error *err)
+{
+    *scene = d->values;
+    scene->job = &d->stated;
+    scene->replicate = replicate;
+    scene->drawn = d->replicates.drawn;
+    scene->slope = sliding_layer_slope(d->known, scene->work->seed, replicate);
+    if (d->known != NULL)
+        scene->modulus_ratio =
+            flow_draw_positive_t(d->known->modulus_ratio, d->known->modulus_ratio_df,
+                                 scene->work->seed, replicate, FLOW_DRAW_RATIO);
+    const wt_status status = layer_job_calibrated(scene, job, err);
+    scene->job = job;
+    return status;
+}
+
+void layer_draws_say(const layer_draws *d, char *text, size_t size)
+{
+    const char *const lacks = d->replicates.lacks;
+    snprintf(text, size, "%s%s%s", replicates_include(&d->replicates),
+             lacks[0] != '\0' ? "; no error is known of: " : "", lacks);
+}
+
+wt_estimate layer_draws_ratio(const layer_draws *d)
+{
+    if (d->values.sliding->layer_rubber == NULL)
+        return flow_as_stated(d->known->modulus_ratio);
+    return (wt_estimate){(double)NAN, (double)NAN, (double)NAN, "1"};
+}
+
+void layer_draws_clear(layer_draws *d)
+{
+    replicates_clear(&d->replicates);
+}
+
+static const double beyond = 0.025; /* of 95 %, at either end */
+
+static size_t count_known(const replicates *r, size_t k)
+{
+    size_t known = 0;
+    for (size_t i = 0; i < r->n; i++)
+        known += isfinite(r->value[i * r->stride + k]) ? 1 : 0;
+    return known;
+}
+
+wt_interval layer_interval(const layer_draws *d, size_t k, double value)
+{
+    const replicates *r = &d->replicates;
+    const double error = r->error[k], wide = exp(NORMAL_95 * error);
+    const size_t known = count_known(r, k);
+    wt_interval interval = {value, value * error, value / wide, value * wide};
+    const bool whole = (double)(r->n - known) <= beyond * (double)r->n;
+    /* without memory for the ends there is no interval: what is left would be another one */
+    if (!whole || (isfinite(value) && r->n >= REPLICATES_FOR_ENDS &&
+                   replicate_ends(r, k, beyond, &interval) != WT_OK))
+        interval.low = interval.high = interval.standard_error = (double)NAN;
+    return interval;
+}
+
+void layer_say_known(const layer_draws *d, size_t k, double value, const char *without,
+                     const char *with, char *text, size_t size)
+{
+    const replicates *r = &d->replicates;
+    const size_t known = count_known(r, k), other = isfinite(value) ? r->n - known : known;
+    if (r->n == 0)
+        snprintf(text, size, "not tested: no replicates are drawn");
+    else if ((double)other <= beyond * (double)r->n)
+        snprintf(text, size, "yes: nearly all replicates agree");
+    else
+        clocale_print(
+            text, size,
+            "cannot say: in %.3g %% of the replicates %s; smaller errors of what is drawn "
+            "would settle it",
+            100 * (double)other / (double)r->n, isfinite(value) ? without : with);
+}

@@ -1,0 +1,360 @@
+/* The activated closure: Omega = P A exp(-max(0, eps - V_a e) / kB T) in contact, beside
+ * A exp(-eps / kB T) everywhere, which is taken off: what is left has an integral down to any
+ * depth.
+ *
+ * Its integral is kept in panels of depth over which two Gauss-Legendre rules agree, from the
+ * surface to where Omega is linear in e; from there on it is the integral of e.
+ *
+ * SPDX-License-Identifier: GPL-3.0-or-later
+ */
+#include "layer/numerics/activation.h"
+#include "core/math/gauss_legendre.h"
+
+#include "core/base/quantity.h"
+#include "core/math/root.h"
+
+#include <float.h>
+#include <math.h>
+#include <stdlib.h>
+
+/* Rules whose difference is the error: that of the lower one. */
+enum { LOW_NODES = 12, HIGH_NODES = 16 };
+/* A panel whose two rules differ by more is halved, until it is this part of its depth: where the
+ * barrier is gone Omega has an edge, which a panel so short may hold. */
+static const double panel_goal = 1e-13;
+static const double least_panel = 1e-14;
+/* ln(V_a e / kB T) below which expm1(x) is x to the last digit. */
+static const double log_linear = -37;
+/* exp(-x) is nothing beside 1. */
+static const double large = 40;
+/* More panels than any profile needs: some hundred, and fifty at each edge. */
+enum { MOST_PANELS = 20000 };
+
+struct activation {
+    wt_energy_source dwell; /* whose density is e */
+    double log_rate;        /* ln(P Omega_inf) */
+    double barrier;         /* eps / kB T */
+    double log_volume;      /* ln(V_a / kB T) */
+    double bare;            /* down to here the barrier is gone, if e falls */
+    const gauss_rule *low, *high;
+    size_t n, room;   /* panels */
+    double *edge;     /* [n + 1] */
+    double *log_part; /* [n] integral over a panel */
+    double *log_tail; /* [n + 1] from an edge on */
+};
+
+/* ---- without load ---------------------------------------------------------------------------- */
+
+static double attempt_rate(wt_attempt attempt, double temperature)
+{
+    return BOLTZMANN * temperature / (attempt == WT_ATTEMPT_H ? PLANCK : REDUCED_PLANCK);
+}
+
+double wt_activation_background(const wt_activation *parameters)
+{
+    const wt_activation *p = parameters;
+    return p->temperature > 0 ? attempt_rate(p->attempt, p->temperature) *
+                                    exp(-p->barrier / (BOLTZMANN * p->temperature))
+                              : (double)NAN;
+}
+
+double wt_activation_least_barrier(double temperature, wt_attempt attempt, double rate)
+{
+    return BOLTZMANN * temperature * log(attempt_rate(attempt, temperature) / rate);
+}
+
+/* T ln(A(T) / rate) = eps / kB: the left side rises as soon as A > rate. */
+typedef struct shelf {
+    double barrier, rate;
+    wt_attempt attempt;
+} shelf;
+
+static double shelf_excess(double temperature, void *user)
+{
+    const shelf *s = user;
+    return wt_activation_least_barrier(temperature, s->attempt, s->rate) / s->barrier - 1;
+}
+
+double wt_activation_most_temperature(double barrier, wt_attempt attempt, double rate)
+{
+    shelf s = {barrier, rate, attempt};
+    double low = rate / attempt_rate(attempt, 1), high = fmax(1, 2 * low), found = (double)NAN;
+    if (!(barrier > 0) || !(rate > 0))
+        return found;
+    while (isfinite(high) && shelf_excess(high, &s) < 0)
+        high *= 2;
+    return root_find(shelf_excess, &s, low, high, 0, &found, NULL) == WT_OK ? found : (double)NAN;
+}
+
+/* ---- the rate -------------------------------------------------------------------------------- */
+
+/* ln(V_a e / kB T) */
+static double log_help(const activation *a, double depth)
+{
+    return a->log_volume + energy_log_density(&a->dwell, depth);
+}
+
+/* ln(exp(x) - 1) of ln x; no more than the barrier helps. */
+static double log_gained(const activation *a, double log_x)
+{
+    if (log_x < log_linear)
+        return log_x;
+    const double x = fmin(exp(fmin(log_x, log(a->barrier))), a->barrier);
+    return x > large ? x : log(expm1(x));
+}
+
+double activation_log_density(const activation *a, double depth)
+{
+    return a->log_rate + log_gained(a, log_help(a, depth));
+}
+
+/* ln of the integral over a stretch, by one rule. */
+static double stretch_integral(const activation *a, const gauss_rule *rule, double low, double high)
+{
+    double value[HIGH_NODES], most = -HUGE_VAL, sum = 0;
+    const double half = 0.5 * (high - low);
+    for (size_t i = 0; i < rule->n; i++) {
+        value[i] = activation_log_density(a, low + half * (1 + rule->node[i]));
+        most = fmax(most, value[i]);
+    }
+    for (size_t i = 0; i < rule->n; i++)
+        sum += rule->weight[i] * exp(value[i] - most);
+    return log(half * sum) + most;
+}
+
+/* Where V_a e = eps. */
+static double bare_function(double depth, void *user)
+{
+    const activation *a = user;
+    return log_help(a, depth) - log(a->barrier);
+}
+
+static wt_status find_bare(activation *a, wt_error *err)
+{
+    double q_min, q_max;
+    (void)energy_range(&a->dwell, &q_min, &q_max);
+    if (!energy_falls(&a->dwell) || !(bare_function(0, a) > 0))
+        return WT_OK;
+    double high = 1 / q_max;
+    while (bare_function(high, a) > 0)
+        high *= 2;
+    return root_find(bare_function, a, 0, high, 0, &a->bare, err);
+}
+
+/* ---- panels ---------------------------------------------------------------------------------- */
+
+static bool panels_grow(activation *a)
+{
+    if (a->n + 1 < a->room)
+        return true;
+    const size_t room = a->room ? 2 * a->room : 128;
+    double *edge = realloc(a->edge, room * sizeof *edge);
+    a->edge = edge ? edge : a->edge;
+    double *part = realloc(a->log_part, room * sizeof *part);
+    a->log_part = part ? part : a->log_part;
+    if (edge == NULL || part == NULL)
+        return false;
+    a->room = room;
+    return true;
+}
+
+/* The next panel, as long as the rules let it be; the length that may be tried next. */
+static void panel_add(activation *a, double *length)
+{
+    const double from = a->edge[a->n];
+    double part;
+    if (from < a->bare && from + *length > a->bare)
+        *length = a->bare - from;
+    for (;;) {
+        part = stretch_integral(a, a->high, from, from + *length);
+        const double other = stretch_integral(a, a->low, from, from + *length);
+        if (fabs(part - other) <= panel_goal || *length <= least_panel * from)
+            break;
+        *length *= 0.5;
+    }
+    a->log_part[a->n] = part;
+    a->edge[++a->n] = from + *length;
+    *length *= 2;
+}
+
+/* ln of the integral of what is linear in e, below the last panel. */
+static double linear_tail(const activation *a, double depth)
+{
+    return a->log_rate + a->log_volume + energy_log_tail(&a->dwell, depth);
+}
+
+static wt_status panels_make(activation *a, wt_error *err)
+{
+    double q_min, q_max;
+    (void)energy_range(&a->dwell, &q_min, &q_max);
+    const double falling = energy_falling(&a->dwell);
+    double length = 1 / q_max;
+    if (!panels_grow(a))
+        return wt_fail(err, WT_E_MEMORY, "out of memory for the rate of an activated layer");
+    a->edge[0] = 0;
+    while (a->edge[a->n] < falling || !(log_help(a, a->edge[a->n]) < log_linear)) {
+        if (a->n == MOST_PANELS)
+            return wt_fail(err, WT_E_RANGE, "the rate of an activated layer cannot be integrated");
+        if (!panels_grow(a))
+            return wt_fail(err, WT_E_MEMORY, "out of memory for the rate of an activated layer");
+        panel_add(a, &length);
+    }
+    a->log_tail = malloc((a->n + 1) * sizeof *a->log_tail);
+    if (a->log_tail == NULL)
+        return wt_fail(err, WT_E_MEMORY, "out of memory for the rate of an activated layer");
+    a->log_tail[a->n] = linear_tail(a, a->edge[a->n]);
+    for (size_t i = a->n; i > 0; i--)
+        a->log_tail[i - 1] = log_add(a->log_tail[i], a->log_part[i - 1]);
+    return WT_OK;
+}
+
+/* The last edge at or above a depth. */
+static size_t panel_of(const activation *a, double depth)
+{
+    size_t low = 0, high = a->n;
+    while (high - low > 1) {
+        const size_t middle = (low + high) / 2;
+        if (a->edge[middle] <= depth)
+            low = middle;
+        else
+            high = middle;
+    }
+    return depth >= a->edge[a->n] ? a->n : low;
+}
+
+double activation_log_tail(const activation *a, double depth)
+{
+    const size_t i = panel_of(a, depth);
+    if (i == a->n)
+        return linear_tail(a, depth);
+    if (depth == a->edge[i])
+        return a->log_tail[i];
+    return log_add(a->log_tail[i + 1], stretch_integral(a, a->high, depth, a->edge[i + 1]));
+}
+
+double activation_log_gain(const activation *a, double depth, double length)
+{
+    const double end = depth + length, last = a->edge[a->n];
+    const size_t first = panel_of(a, depth), to = panel_of(a, end);
+    if (!(end > depth)) /* too short for its end to be another number */
+        return length > 0 ? activation_log_density(a, depth) + log(length) : -HUGE_VAL;
+    if (first == a->n)
+        return a->log_rate + a->log_volume + energy_log_gain(&a->dwell, depth, length);
+    if (first == to)
+        return stretch_integral(a, a->high, depth, end);
+    double sum = stretch_integral(a, a->high, depth, a->edge[first + 1]);
+    for (size_t i = first + 1; i < to; i++)
+        sum = log_add(sum, a->log_part[i]);
+    if (to == a->n && end > last)
+        return log_add(sum,
+                       a->log_rate + a->log_volume + energy_log_gain(&a->dwell, last, end - last));
+    return end > a->edge[to] ? log_add(sum, stretch_integral(a, a->high, a->edge[to], end)) : sum;
+}
+
+/* ---- with bounds ----------------------------------------------------------------------------- */
+
+/* exp(-scale) times d Omega / dz and the largest |d Omega/dz| and |d^2 Omega/dz^2| from a depth on.
+ */
+typedef struct rate_slopes {
+    double slope, most_slope, most_bend;
+} rate_slopes;
+
+static rate_slopes slopes_at(const activation *a, double depth, double reach, double scale)
+{
+    double q_min = 0, q_max;
+    (void)energy_range(&a->dwell, &q_min, &q_max);
+    const energy_course c = energy_course_at(&a->dwell, q_min, depth, 0, reach);
+    const double volume = exp(a->log_volume + c.log_scale); /* of the numbers of the course */
+    const double x = volume * c.value;
+    const double highest =
+        volume * (c.value + reach * (fmax(0, c.slope) + 0.5 * reach * c.curvature));
+    const double steepest = volume * (fabs(c.slope) + reach * c.curvature);
+    const double here = exp(a->log_rate - scale + fmin(x, a->barrier));
+    const double most = exp(a->log_rate - scale + fmin(highest, a->barrier));
+    return (rate_slopes){x < a->barrier ? here * volume * c.slope : 0, most * steepest,
+                         most * (steepest * steepest + volume * c.curvature)};
+}
+
+energy_course activation_course(const activation *a, double depth, double length, double reach)
+{
+    energy_course course = {.value = 1};
+    course.log_scale =
+        length > 0 ? activation_log_gain(a, depth, length) : activation_log_density(a, depth);
+    const rate_slopes here = slopes_at(a, depth, reach, course.log_scale);
+    if (!(length > 0)) {
+        course.slope = here.slope;
+        course.curvature = here.most_bend;
+        return course;
+    }
+    const rate_slopes there = slopes_at(a, depth + length, reach, course.log_scale);
+    course.slope = exp(activation_log_density(a, depth + length) - course.log_scale) -
+                   exp(activation_log_density(a, depth) - course.log_scale);
+    course.curvature = here.most_slope + there.most_slope;
+    return course;
+}
+
+/* ---- the object ------------------------------------------------------------------------------ */
+
+double activation_error(const activation *a)
+{
+    const double most = fmin(exp(log_help(a, energy_falling(&a->dwell))), a->barrier);
+    return panel_goal + (1 + most) * a->dwell.numerical_error + 8 * DBL_EPSILON * (1 + a->barrier);
+}
+
+void activation_free(activation *a)
+{
+    if (a == NULL)
+        return;
+    wt_energy_source_clear(&a->dwell);
+    free(a->edge);
+    free(a->log_part);
+    free(a->log_tail);
+    free(a);
+}
+
+/* The energy of each wave in contact for as long as it takes to pass. */
+static wt_status copy_dwell(const wt_energy_source *source, double contact_velocity,
+                            wt_energy_source *dwell, wt_error *err)
+{
+    *dwell = *source;
+    dwell->wavenumber = malloc(source->n * sizeof *dwell->wavenumber);
+    dwell->power = malloc(source->n * sizeof *dwell->power);
+    if (dwell->wavenumber == NULL || dwell->power == NULL)
+        return wt_fail(err, WT_E_MEMORY, "out of memory for an activated layer");
+    for (size_t i = 0; i < source->n; i++) {
+        dwell->wavenumber[i] = source->wavenumber[i];
+        dwell->power[i] = source->power[i] / (source->wavenumber[i] * contact_velocity);
+    }
+    return energy_check(dwell, err);
+}
+
+wt_status activation_new(const wt_energy_source *source, const wt_activation *parameters,
+                         double velocity, activation **out, wt_error *err)
+{
+    const wt_activation *p = parameters;
+    double q_min, q_max;
+    *out = NULL;
+    if (!energy_range(source, &q_min, &q_max))
+        return WT_OK;
+    activation *a = calloc(1, sizeof *a);
+    if (a == NULL)
+        return wt_fail(err, WT_E_MEMORY, "out of memory for an activated layer");
+    const double energy = BOLTZMANN * p->temperature;
+    a->barrier = p->barrier / energy;
+    a->log_volume = log(p->volume) - log(energy);
+    a->log_rate = log(p->area_ratio) + log(attempt_rate(p->attempt, p->temperature)) - a->barrier;
+    wt_status status = rule_of(LOW_NODES, &a->low, err);
+    if (status == WT_OK)
+        status = rule_of(HIGH_NODES, &a->high, err);
+    if (status == WT_OK)
+        status = copy_dwell(source, velocity * p->area_ratio, &a->dwell, err);
+    if (status == WT_OK)
+        status = find_bare(a, err);
+    if (status == WT_OK)
+        status = panels_make(a, err);
+    if (status == WT_OK)
+        *out = a;
+    else
+        activation_free(a);
+    return status;
+}

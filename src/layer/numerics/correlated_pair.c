@@ -1,0 +1,204 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "layer/numerics/correlated_pair.h"
+
+#include "core/base/arena.h"
+#include "core/base/clocale.h"
+#include "core/math/gsl_quiet.h"
+
+#include <gsl/gsl_blas.h>
+#include <gsl/gsl_cdf.h>
+#include <gsl/gsl_linalg.h>
+#include <math.h>
+
+enum { ENERGY, WEAR, BOTH }; /* the numbers of a pair, and how many there are */
+/* Of the part in common: all but the digits of a covariance, and where it is none any more, which
+ * is beyond what is known of it. */
+static const double whole = 1 - 1e-6, least_part = 1.0 / 64;
+/* Of the product of the variances: below, the two numbers are one. */
+static const double least_determinant = 1e-9;
+
+constant_axes constant_axes_of(pair_covariance c)
+{
+    const double middle = 0.5 * (c.energy + c.wear),
+                 apart = hypot(0.5 * (c.energy - c.wear), c.both),
+                 angle = 0.5 * atan2(2 * c.both, c.energy - c.wear),
+                 scale = sqrt(c.energy * c.wear);
+    constant_axes a = {.correlation = scale > 0 ? fmax(-1, fmin(1, c.both / scale)) : (double)NAN,
+                       .loose_error = sqrt(middle + apart),
+                       .tight_error = sqrt(fmax(middle - apart, 0))};
+    if (isnan(angle))
+        a.tight_error = (double)NAN; /* fmax leaves NaN out */
+    else if (fabs(cos(angle)) >= fabs(sin(angle)))
+        clocale_print(a.loose, sizeof a.loose, "U_c k^%.2f", tan(angle));
+    else
+        clocale_print(a.loose, sizeof a.loose, "k U_c^%.2f", 1 / tan(angle));
+    return a;
+}
+
+static double determinant(pair_covariance c)
+{
+    return c.energy * c.wear - c.both * c.both;
+}
+
+static pair_covariance inverse(pair_covariance c)
+{
+    const double d = determinant(c);
+    return (pair_covariance){c.wear / d, c.energy / d, -c.both / d};
+}
+
+/* ---- in common ------------------------------------------------------------------------------- */
+
+typedef struct pair_work {
+    const constant_pair *of;
+    const bool *common;
+    size_t n;
+    double *root;       /* [n][2][2] lower triangles whose squares are the inputs */
+    double *covariance; /* [2n][2n] */
+    double *columns;    /* [3][2n]: 1 for each number of a pair, and the values */
+} pair_work;
+
+static void find_root(pair_covariance c, double root[4])
+{
+    root[0] = sqrt(fmax(c.energy, 0));
+    root[1] = 0;
+    root[2] = root[0] > 0 ? c.both / root[0] : 0;
+    root[3] = sqrt(fmax(c.wear - root[2] * root[2], 0));
+}
+
+/* Of numbers `a` of pair i and `b` of pair k. */
+static double covariance_of(const pair_work *w, double part, size_t i, size_t k, size_t a, size_t b)
+{
+    const pair_covariance *c = &w->of[i].whole;
+    if (i == k)
+        return a != b ? c->both : a == ENERGY ? c->energy : c->wear;
+    if (!w->common[i * w->n + k])
+        return 0;
+    const double *p = w->root + 4 * i + 2 * a, *q = w->root + 4 * k + 2 * b;
+    return part * (p[0] * q[0] + p[1] * q[1]);
+}
+
+static double dot(const double *x, const double *y, size_t n)
+{
+    double sum = 0;
+    for (size_t i = 0; i < n; i++)
+        sum += x[i] * y[i];
+    return sum;
+}
+
+/* By generalised least squares; false: the covariances are none. */
+static bool find_chi_squared(pair_work *w, double part, double *to)
+{
+    const size_t all = BOTH * w->n;
+    gsl_matrix_view v = gsl_matrix_view_array(w->covariance, all, all);
+    for (size_t r = 0; r < all; r++) {
+        w->columns[r] = r % BOTH == ENERGY;
+        w->columns[all + r] = r % BOTH == WEAR;
+        w->columns[2 * all + r] = r % BOTH == ENERGY ? w->of[r / BOTH].energy - w->of[0].energy
+                                                     : w->of[r / BOTH].wear - w->of[0].wear;
+        for (size_t c = 0; c < all; c++)
+            w->covariance[r * all + c] =
+                covariance_of(w, part, r / BOTH, c / BOTH, r % BOTH, c % BOTH);
+    }
+    if (gsl_linalg_cholesky_decomp1(&v.matrix) != 0)
+        return false;
+    for (size_t k = 0; k < 3; k++) {
+        gsl_vector_view x = gsl_vector_view_array(w->columns + k * all, all);
+        if (gsl_blas_dtrsv(CblasLower, CblasNoTrans, CblasNonUnit, &v.matrix, &x.vector) != 0)
+            return false;
+    }
+    const double *e = w->columns, *k = e + all, *y = k + all;
+    const pair_covariance i =
+        inverse((pair_covariance){dot(e, e, all), dot(k, k, all), dot(e, k, all)});
+    const double of_e = dot(e, y, all), of_k = dot(k, y, all);
+    *to = fmax(dot(y, y, all) - i.energy * of_e * of_e - i.wear * of_k * of_k -
+                   2 * i.both * of_e * of_k,
+               0);
+    return true;
+}
+
+/* ---- the pair behind all --------------------------------------------------------------------- */
+
+/* The rows of the weight of pair i: `sum` is the inverse of the sum of the weights. */
+static void weight_of(const pair_work *w, pair_covariance sum, size_t i, double weight[4])
+{
+    const pair_covariance own = inverse(w->of[i].whole);
+    weight[0] = sum.energy * own.energy + sum.both * own.both;
+    weight[1] = sum.energy * own.both + sum.both * own.wear;
+    weight[2] = sum.both * own.energy + sum.wear * own.both;
+    weight[3] = sum.both * own.both + sum.wear * own.wear;
+}
+
+static void add_common(const pair_work *w, pair_covariance sum, size_t i, size_t k,
+                       pair_covariance *to)
+{
+    double p[4], q[4];
+    weight_of(w, sum, i, p);
+    weight_of(w, sum, k, q);
+    for (size_t a = 0; a < BOTH; a++)
+        for (size_t b = 0; b < BOTH; b++) {
+            const double c = covariance_of(w, 1, i, k, a, b);
+            to->energy += p[a] * c * q[b];
+            to->wear += p[2 + a] * c * q[2 + b];
+            to->both += p[a] * c * q[2 + b];
+        }
+}
+
+static void find_mean(const pair_work *w, shared_pair *to)
+{
+    pair_covariance sum = {0, 0, 0};
+    for (size_t i = 0; i < w->n; i++) {
+        const pair_covariance own = inverse(w->of[i].whole);
+        sum = (pair_covariance){sum.energy + own.energy, sum.wear + own.wear, sum.both + own.both};
+    }
+    sum = inverse(sum);
+    pair_covariance common = sum;
+    for (size_t i = 0; i < w->n; i++) {
+        double weight[4];
+        weight_of(w, sum, i, weight);
+        to->energy += weight[0] * w->of[i].energy + weight[1] * w->of[i].wear;
+        to->wear += weight[2] * w->of[i].energy + weight[3] * w->of[i].wear;
+        for (size_t k = 0; k < w->n; k++)
+            if (i != k)
+                add_common(w, sum, i, k, &common);
+    }
+    to->covariance = common.energy + common.wear > sum.energy + sum.wear ? common : sum;
+}
+
+static void fit(pair_work *w, shared_pair *to)
+{
+    double common;
+    *to = (shared_pair){.energy = 0};
+    for (size_t i = 0; i < w->n; i++)
+        find_root(w->of[i].inputs, w->root + 4 * i);
+    find_mean(w, to);
+    (void)find_chi_squared(w, 0, &to->chi_squared);
+    for (double part = whole; part > least_part; part /= 2)
+        if (find_chi_squared(w, part, &common)) {
+            to->chi_squared = fmin(to->chi_squared, common);
+            break;
+        }
+    to->p = gsl_cdf_chisq_Q(to->chi_squared, BOTH * ((double)w->n - 1));
+}
+
+wt_status shared_pair_fit(const constant_pair *of, const bool *common, size_t n, shared_pair *to,
+                          wt_error *err)
+{
+    gsl_quiet();
+    if (n < 2)
+        return wt_fail(err, WT_E_ARG, "one pair shares nothing");
+    for (size_t i = 0; i < n; i++)
+        if (!(determinant(of[i].whole) > least_determinant * of[i].whole.energy * of[i].whole.wear))
+            return wt_fail(err, WT_E_ARG, "a pair without a covariance shares nothing");
+    pool memory = {0};
+    pair_work w = {.of = of,
+                   .common = common,
+                   .n = n,
+                   .root = pool_numbers(&memory, 4 * n),
+                   .covariance = pool_numbers(&memory, BOTH * n * BOTH * n),
+                   .columns = pool_numbers(&memory, 3 * BOTH * n)};
+    if (!memory.failed)
+        fit(&w, to);
+    const wt_status status = memory.failed ? wt_fail(err, WT_E_MEMORY, "out of memory") : WT_OK;
+    pool_free(&memory);
+    return status;
+}

@@ -1,0 +1,393 @@
+/* Energy density with depth: w(z) = sum_i power_i g(z; q_i), and its integrals.
+ *
+ * `persson`: g = 2 q exp(-2 q z), the profile of the flash-temperature heat source of Persson,
+ * J. Phys.: Condens. Matter 18 (2006) 7789. `incompressible`: with x = q z and local friction m,
+ *   g = 4 q exp(-2 x) [x^2 + m^2 (1 - x)^2] / (1 + m^2)
+ * and its tail exp(-2 x) [1 + 2 x^2 + 2 x r], r = (1 - m^2) / (1 + m^2): the square of the Mohr
+ * radius in a half-space of Poisson ratio 1/2 under a cosine of pressure and shear.
+ *
+ * SPDX-License-Identifier: GPL-3.0-or-later
+ */
+#include "layer/numerics/energy_density_kernel.h"
+#include "core/base/shared_params.h"
+
+#include "core/math/simd.h"
+#include "core/math/vector_exp.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+void wt_energy_source_clear(wt_energy_source *source)
+{
+    if (source == NULL)
+        return;
+    free(source->wavenumber);
+    free(source->power);
+    *source = (wt_energy_source){0};
+}
+
+wt_status energy_check(const wt_energy_source *source, wt_error *err)
+{
+    if (source == NULL || source->n == 0 || source->wavenumber == NULL || source->power == NULL)
+        return wt_fail(err, WT_E_ARG, "a layer needs an energy source with at least one term");
+    double sum = 0;
+    for (size_t i = 0; i < source->n; i++) {
+        const double q = source->wavenumber[i];
+        const double power = source->power[i];
+        wt_status status = WT_OK;
+        if (!(q > 0) || !isfinite(q))
+            status = range_error("wavenumber of an energy source", q, "finite and > 0 rad/m", err);
+        else if (!(power >= 0) || !isfinite(power))
+            status = range_error("power of an energy source", power, "finite and >= 0 W/m^2", err);
+        if (status != WT_OK) {
+            wt_error_place(err, "term %zu of %zu", i + 1, source->n);
+            return status;
+        }
+        sum += power;
+    }
+    if (!isfinite(sum))
+        return range_error("total power of an energy source", sum, "finite, in W/m^2", err);
+    if (!(source->numerical_error >= 0) || !isfinite(source->numerical_error))
+        return range_error("numerical_error of an energy source", source->numerical_error,
+                           "finite and >= 0", err);
+    static const wt_param local_friction = ENERGY_LOCAL_FRICTION(wt_energy_source);
+    return param_check_number(&local_friction, source->local_friction, err);
+}
+
+bool energy_range(const wt_energy_source *source, double *q_min, double *q_max)
+{
+    *q_min = (double)INFINITY;
+    *q_max = 0;
+    for (size_t i = 0; i < source->n; i++) {
+        const double q = source->wavenumber[i];
+        if (!(source->power[i] > 0))
+            continue;
+        *q_min = q < *q_min ? q : *q_min;
+        *q_max = q > *q_max ? q : *q_max;
+    }
+    return *q_max > 0;
+}
+
+/* r = (1 - m^2) / (1 + m^2), for any m. */
+static double asymmetry(double m)
+{
+    return m > 1 ? -(1 - 1 / (m * m)) / (1 + 1 / (m * m)) : (1 - m * m) / (1 + m * m);
+}
+
+/* The incompressible density of one wavenumber has its extrema at q z = 1 and 1 - r; they fall
+ * together for m = 1, and only then does it fall all the way. */
+bool energy_falls(const wt_energy_source *source)
+{
+    return source->profile == WT_PROFILE_PERSSON || source->local_friction == 1;
+}
+
+/* The density over q exp(-2 x) and its derivatives, quadratics in x: g = q exp(-2 x) P(x), g' = q^2
+ * exp(-2 x) D(x), g'' = q^3 exp(-2 x) B(x), with s = 1 - r. A quadratic c[0] + c[1] t + c[2] t^2 in
+ * the way t from x on. */
+typedef struct quadratic {
+    double c[3];
+} quadratic;
+
+WIDE_PART quadratic density_from(double s, double x)
+{
+    return (quadratic){
+        {2 * ((2 - s) * x * x + s * (1 - x) * (1 - x)), 4 * ((2 - s) * x - s * (1 - x)), 4}};
+}
+
+WIDE_PART quadratic slope_from(double s, double x)
+{
+    return (quadratic){{-8 * (x - 1) * (x - s), -8 * (2 * x - 1 - s), -8}};
+}
+
+WIDE_PART quadratic bend_from(double s, double x)
+{
+    return (quadratic){
+        {8 * (2 * x * x - 2 * (2 + s) * x + 1 + 3 * s), 8 * (4 * x - 2 * (2 + s)), 16}};
+}
+
+/* Some wavenumbers of a source at a depth, as many as the first cache holds. */
+enum { BATCH = 64 };
+typedef struct batch {
+    size_t n;
+    const double *q;
+    double r, depth, length;
+    double power[BATCH]; /* as it is left at the depth, over exp(-2 q_min depth) */
+    double gone[BATCH];  /* exp(-2 q length) - 1 */
+} batch;
+
+/* Begins at a wavenumber. */
+static void batch_fill(const wt_energy_source *source, size_t from, double q_min, batch *b)
+{
+    double x[BATCH];
+    b->n = source->n - from < BATCH ? source->n - from : BATCH;
+    b->q = source->wavenumber + from;
+    for (size_t i = 0; i < b->n; i++) /* without power it may be below q_min */
+        x[i] = b->q[i] > q_min ? -2 * (b->q[i] - q_min) * b->depth : 0;
+    exponential(x, b->n, b->power);
+    for (size_t i = 0; i < b->n; i++) {
+        b->power[i] *= source->power[from + i];
+        x[i] = -2 * b->q[i] * b->length;
+    }
+    if (b->length > 0)
+        exponential_less_one(x, b->n, b->gone);
+}
+
+/* What wavenumbers of power exp(2 q z) give at a depth z. */
+typedef void shape_fn(const wt_energy_source *source, const batch *b, double *value);
+
+/* g(z; q) exp(2 q z) */
+static void energy_shape(const wt_energy_source *source, const batch *b, double *value)
+{
+    const bool plain = source->profile == WT_PROFILE_PERSSON;
+    for (size_t i = 0; i < b->n; i++)
+        value[i] = b->q[i] * (plain ? 2 : density_from(1 - b->r, b->q[i] * b->depth).c[0]);
+}
+
+/* exp(2 q z) int_z^inf g */
+static void tail_shape(const wt_energy_source *source, const batch *b, double *value)
+{
+    const bool plain = source->profile == WT_PROFILE_PERSSON;
+    for (size_t i = 0; i < b->n; i++) {
+        const double x = b->q[i] * b->depth;
+        value[i] = plain ? 1 : 1 + 2 * x * (x + b->r);
+    }
+}
+
+WIDE_PART double lesser(double a, double b)
+{
+    return a < b ? a : b;
+}
+
+/* Largest |exp(-2 t) (c[0] + c[1] t + c[2] t^2)| for 0 <= t <= width. */
+WIDE_PART double largest_of(quadratic of, double width)
+{
+    static const double inverse_square = 0.13533528323661269; /* exp(-2) */
+    return fabs(of.c[0]) + fabs(of.c[1]) * lesser(width, 0.5 / M_E) +
+           fabs(of.c[2]) * lesser(width * width, inverse_square);
+}
+
+/* Ways so short that their ends cancel, by series in y = -2 l: of l^(k+1) y^j / (j! (k+1+j)) the
+ * first that is left out, j = 7, is below 1e-16. */
+static const double short_way = 0.01;
+/* At the end of a longer one nothing is left, exp(-800): its square must be a number. */
+static const double longest_way = 400;
+
+/* int_0^l t^k exp(-2 t) dt; gone: exp(-2 l) - 1. */
+WIDE_PART quadratic moments(double l, double gone)
+{
+    const double y = -2 * l, way = lesser(l, longest_way), left = 1 + gone;
+    const double first =
+        l *
+        (1 + y * (1 / 2.0 +
+                  y * (1 / 6.0 + y * (1 / 24.0 + y * (1 / 120.0 + y * (1 / 720.0 + y / 5040.0))))));
+    const double second =
+        l * l *
+        (1 / 2.0 +
+         y * (1 / 3.0 +
+              y * (1 / 8.0 + y * (1 / 30.0 + y * (1 / 144.0 + y * (1 / 840.0 + y / 5760.0))))));
+    const double third =
+        l * l * l *
+        (1 / 3.0 +
+         y * (1 / 4.0 +
+              y * (1 / 10.0 + y * (1 / 36.0 + y * (1 / 168.0 + y * (1 / 960.0 + y / 6480.0))))));
+    const double j0 = -0.5 * gone;
+    const double j1 = 0.5 * (j0 - way * left);
+    const double j2 = j1 - 0.5 * way * way * left;
+    return (quadratic){
+        {l < short_way ? first : j0, l < short_way ? second : j1, l < short_way ? third : j2}};
+}
+
+WIDE_PART double integral_of(quadratic of, quadratic moment)
+{
+    return of.c[0] * moment.c[0] + of.c[1] * moment.c[1] + of.c[2] * moment.c[2];
+}
+
+/* exp(2 q z) int_z^(z+length) g */
+WIDE_REGISTERS
+static void gain_shape(const wt_energy_source *source, const batch *b, double *value)
+{
+    const bool plain = source->profile == WT_PROFILE_PERSSON;
+    const double s = 1 - b->r, depth = b->depth, length = b->length;
+    for (size_t i = 0; plain && i < b->n; i++)
+        value[i] = -b->gone[i];
+    for (size_t i = 0; !plain && i < b->n; i++) {
+        const double q = b->q[i];
+        const double gain =
+            integral_of(density_from(s, q * depth), moments(q * length, b->gone[i]));
+        value[i] = gain > 0 ? gain : 0;
+    }
+}
+
+/* Over exp(-2 q_min depth). */
+static double sum_of(const wt_energy_source *source, shape_fn *of, double depth, double length,
+                     double q_min)
+{
+    double sum = 0, value[BATCH];
+    batch b = {.r = asymmetry(source->local_friction), .depth = depth, .length = length};
+    for (size_t from = 0; from < source->n; from += BATCH) {
+        batch_fill(source, from, q_min, &b);
+        of(source, &b, value);
+        for (size_t i = 0; i < b.n; i++)
+            sum += b.power[i] * value[i];
+    }
+    return sum;
+}
+
+/* Below it the powers are taken relative to the last that is left: far above where a double loses
+ * digits, 1e-308. */
+static const double least_sum = 1e-200;
+
+static double log_sum(const wt_energy_source *source, shape_fn *of, double depth, double length)
+{
+    double q_min, q_max;
+    const double sum = sum_of(source, of, depth, length, 0);
+    if (sum > least_sum || !energy_range(source, &q_min, &q_max))
+        return log(sum);
+    return log(sum_of(source, of, depth, length, q_min)) - 2 * q_min * depth;
+}
+
+/* The sum of those with power: without it a wavenumber may be any. */
+WIDE_REGISTERS
+static double total_of(const double *value, const double *power, size_t n)
+{
+    double sum[WIDE] = {0};
+    size_t i = 0;
+    for (; i + WIDE <= n; i += WIDE)
+        for (size_t k = 0; k < WIDE; k++)
+            sum[k] += power[i + k] > 0 ? value[i + k] : 0;
+    for (; i < n; i++)
+        sum[0] += power[i] > 0 ? value[i] : 0;
+    return (sum[0] + sum[1]) + (sum[2] + sum[3]);
+}
+
+/* Tail and density of both profiles, of a batch. */
+WIDE_REGISTERS
+static void terms_of_both(const batch *b, double value[ENERGY_BOTH][BATCH])
+{
+    const double r = b->r, depth = b->depth;
+    for (size_t i = 0; i < b->n; i++) {
+        const double q = b->q[i], power = b->power[i], x = q * depth;
+        value[0][i] = power;
+        value[1][i] = power * q * 2;
+        value[2][i] = power * (1 + 2 * x * (x + r));
+        value[3][i] = power * q * density_from(1 - r, x).c[0];
+    }
+}
+
+static void sums_of_both(const wt_energy_source *source, double depth, double q_min,
+                         double sum[ENERGY_BOTH])
+{
+    double value[ENERGY_BOTH][BATCH];
+    batch b = {.r = asymmetry(source->local_friction), .depth = depth};
+    for (size_t k = 0; k < ENERGY_BOTH; k++)
+        sum[k] = 0;
+    for (size_t from = 0; from < source->n; from += BATCH) {
+        batch_fill(source, from, q_min, &b);
+        terms_of_both(&b, value);
+        for (size_t k = 0; k < ENERGY_BOTH; k++)
+            sum[k] += total_of(value[k], b.power, b.n);
+    }
+}
+
+void energy_log_both(const wt_energy_source *source, double depth, double logarithm[ENERGY_BOTH])
+{
+    double sum[ENERGY_BOTH], scaled[ENERGY_BOTH], q_min, q_max;
+    bool small = false;
+    sums_of_both(source, depth, 0, sum);
+    for (size_t k = 0; k < ENERGY_BOTH; k++)
+        small = small || !(sum[k] > least_sum);
+    small = small && energy_range(source, &q_min, &q_max);
+    if (small)
+        sums_of_both(source, depth, q_min, scaled);
+    for (size_t k = 0; k < ENERGY_BOTH; k++)
+        logarithm[k] =
+            small && !(sum[k] > least_sum) ? log(scaled[k]) - 2 * q_min * depth : log(sum[k]);
+}
+
+double energy_falling(const wt_energy_source *source)
+{
+    double q_min, q_max;
+    const double last = fmax(1, 1 - asymmetry(source->local_friction));
+    return !energy_falls(source) && energy_range(source, &q_min, &q_max) ? last / q_min : 0;
+}
+
+/* What the wavenumbers of a batch add to a course of the incompressible profile. */
+typedef struct course_terms {
+    double value[BATCH], slope[BATCH], curvature[BATCH];
+} course_terms;
+
+/* Of the density itself. */
+WIDE_REGISTERS
+static void density_terms(const batch *b, double reach, course_terms *t)
+{
+    const double s = 1 - b->r, depth = b->depth;
+    for (size_t i = 0; i < b->n; i++) {
+        const double q = b->q[i], power = q * b->power[i], x = q * depth;
+        t->value[i] = power * density_from(s, x).c[0];
+        t->slope[i] = power * q * slope_from(s, x).c[0];
+        t->curvature[i] = power * q * q * largest_of(bend_from(s, x), q * reach);
+    }
+}
+
+/* Of its integral over a length. */
+WIDE_REGISTERS
+static void gain_terms(const batch *b, double reach, course_terms *t)
+{
+    const double s = 1 - b->r, depth = b->depth, length = b->length;
+    for (size_t i = 0; i < b->n; i++) {
+        const double q = b->q[i], power = b->power[i], x = q * depth, width = q * reach;
+        const double l = q * length, gone = b->gone[i], way = lesser(l, longest_way);
+        const quadratic over = moments(l, gone);
+        const double gain = integral_of(density_from(s, x), over);
+        const double apart = largest_of(slope_from(s, x), width) +
+                             (1 + gone) * largest_of(slope_from(s, x + way), width);
+        const double along = l * largest_of(bend_from(s, x), width + l);
+        t->value[i] = power * (gain > 0 ? gain : 0);
+        t->slope[i] = power * q * integral_of(slope_from(s, x), over);
+        t->curvature[i] = power * q * q * lesser(apart, along);
+    }
+}
+
+energy_course energy_course_at(const wt_energy_source *source, double q_min, double depth,
+                               double length, double reach)
+{
+    batch b = {.r = asymmetry(source->local_friction), .depth = depth, .length = length};
+    course_terms t;
+    energy_course sum = {.log_scale = -2 * q_min * depth};
+    for (size_t from = 0; from < source->n; from += BATCH) {
+        batch_fill(source, from, q_min, &b);
+        if (length > 0)
+            gain_terms(&b, reach, &t);
+        else
+            density_terms(&b, reach, &t);
+        sum.value += total_of(t.value, b.power, b.n);
+        sum.slope += total_of(t.slope, b.power, b.n);
+        sum.curvature += total_of(t.curvature, b.power, b.n);
+    }
+    return sum;
+}
+
+double energy_log_density(const wt_energy_source *source, double depth)
+{
+    return log_sum(source, energy_shape, depth, 0);
+}
+
+double energy_log_tail(const wt_energy_source *source, double depth)
+{
+    return log_sum(source, tail_shape, depth, 0);
+}
+
+double energy_log_gain(const wt_energy_source *source, double depth, double length)
+{
+    return length > 0 ? log_sum(source, gain_shape, depth, length) : -(double)INFINITY;
+}
+
+double wt_energy_density(const wt_energy_source *source, double depth)
+{
+    return depth >= 0 ? exp(energy_log_density(source, depth)) : 0;
+}
+
+double wt_energy_tail(const wt_energy_source *source, double depth)
+{
+    return exp(energy_log_tail(source, fmax(depth, 0)));
+}

@@ -1,0 +1,90 @@
+/* The energy source of sliding: the power that each wavenumber of the roughness dissipates.
+ *
+ * SPDX-License-Identifier: GPL-3.0-or-later
+ */
+#include "friction/numerics/friction_kernel.h"
+#include "layer/numerics/energy_density_kernel.h"
+
+#include <math.h>
+
+/* Depths at which two sources are compared, from 0.1 / q1 to where nothing is left that a number
+ * could hold: exp(-2 q z) is 0 for q z = 710 as soon as it is multiplied with anything. */
+enum { DEPTHS = 32 };
+static const double last_depth = 710;
+/* Cells, each a quarter of the one before, towards q0 with which the waves there, which alone count
+ * at the last depth, are resolved. */
+static const size_t least_level = 6;
+/* Sources of panels halved so many times are compared at most. */
+enum { MOST_HALVES = 4 };
+
+/* Largest relative difference of w and of int w, for both profiles. */
+static double compare_sources(const wt_energy_source *a, const wt_energy_source *b,
+                              const wt_roughness *roughness)
+{
+    double worst = 0;
+    const double from = 0.1 / roughness->q1;
+    const double to = last_depth / roughness->q0;
+    for (size_t i = 0; i <= DEPTHS; i++) {
+        const double depth = i ? from * pow(to / from, (double)(i - 1) / (DEPTHS - 1)) : 0;
+        double of_a[ENERGY_BOTH], of_b[ENERGY_BOTH];
+        energy_log_both(a, depth, of_a);
+        energy_log_both(b, depth, of_b);
+        for (size_t k = 0; k < ENERGY_BOTH; k++)
+            worst = fmax(worst, fabs(of_a[k] - of_b[k])); /* NaN: both without power */
+    }
+    return worst;
+}
+
+wt_status wt_energy_source_friction(wt_friction_workspace *workspace, double pressure,
+                                    double velocity, wt_energy_source *source, wt_error *err)
+{
+    if (workspace == NULL || source == NULL)
+        return wt_fail(err, WT_E_ARG, "an energy source needs a friction workspace");
+    wt_status status = friction_prepare(workspace, pressure, &velocity, 1, err);
+    if (status != WT_OK)
+        return status;
+    friction_load at = friction_load_at(workspace, pressure, velocity);
+    friction_scratch scratch;
+    pool memory = {0};
+    wt_energy_source pair[2] = {{0}, {0}};
+    status = friction_scratch_init(&scratch, workspace, 0, &memory, err);
+    if (status == WT_OK)
+        status = friction_heat(workspace, &scratch, &at, err);
+    const panel_plan *plan =
+        status == WT_OK ? friction_plan(workspace, &scratch, &at, NULL, 0) : NULL;
+    size_t now = 0;
+    double error = (double)INFINITY;
+    for (size_t k = 0; status == WT_OK && k < MOST_HALVES && error > workspace->options.tolerance;
+         k++) {
+        now = 1 - now;
+        friction_record record = {0};
+        friction_pass pass;
+        const friction_effort effort = {.level = least_level, .halves = k, .all_along = true};
+        friction_evaluate(workspace, &scratch, plan, effort, at, false, &record, &pass);
+        wt_energy_source *s = &pair[now];
+        wt_energy_source_clear(s);
+        *s = (wt_energy_source){.profile = WT_PROFILE_PERSSON,
+                                .n = record.n,
+                                .wavenumber = record.q,
+                                .power = record.mu};
+        if (record.failed)
+            status = wt_fail(err, WT_E_MEMORY, "out of memory for an energy source");
+        for (size_t i = 0; i < s->n; i++)
+            s->power[i] *= pressure * at.speed;
+        if (k > 0 && status == WT_OK)
+            error = compare_sources(s, &pair[1 - now], workspace->roughness) +
+                    pass.hysteresis_error / (pass.hysteresis > 0 ? pass.hysteresis : 1);
+        s->numerical_error = error + friction_relative_error(workspace, &pass, at).hysteresis;
+    }
+    if (status == WT_OK)
+        status = energy_check(&pair[now], err);
+    if (status == WT_OK) {
+        *source = pair[now];
+        pair[now] = (wt_energy_source){0};
+    }
+    wt_energy_source_clear(&pair[0]);
+    wt_energy_source_clear(&pair[1]);
+    workspace->scratch[0].nodes += scratch.nodes;
+    pool_free(&memory);
+    return status;
+}

@@ -1,0 +1,140 @@
+/* The balance of formation and wear: where it is, how stable, how fast reached, and what happens to
+ * a layer that has none.
+ *
+ * SPDX-License-Identifier: GPL-3.0-or-later
+ */
+#include "layer/numerics/layer_kernel.h"
+
+#include <float.h>
+#include <math.h>
+
+static wt_layer_regime regime_of(double log_ratio)
+{
+    if (!(log_ratio > 0))
+        return WT_LAYER_NONE;
+    return log_ratio < 1 ? WT_LAYER_THIN : WT_LAYER_THICK;
+}
+
+static wt_estimate seconds(double value, double error)
+{
+    return (wt_estimate){.value = value, .numerical_error = error, .unit = "s"};
+}
+
+/* With damage transport nothing regrows where R <= 1: the old layer is worn off from the top. */
+static wt_estimate removal_of_old_layer(const layer_rates *rates, double start)
+{
+    if (start == 0)
+        return seconds(0, 0);
+    const double time = rates->wear > 0 ? start / rates->wear : HUGE_VAL;
+    return seconds(time, (4 * DBL_EPSILON + rates->wear_error) * time);
+}
+
+/* 1/(kappa Qw) at the balance; its error is how far that of the thickness and of kappa moves it. */
+static wt_estimate relaxation_of(const layer_rates *rates, wt_estimate thickness)
+{
+    const double rate = rates->wear > 0 ? rates->wear * layer_decay(rates, thickness.value) : 0;
+    if (!(rate > 0))
+        return seconds(HUGE_VAL, 0);
+    const double time = 1 / rate;
+    if (rates->without_errors)
+        return seconds(time, (double)NAN);
+    const double above = layer_decay(rates, thickness.value + thickness.numerical_error);
+    const double below = layer_decay(rates, fmax(0, thickness.value - thickness.numerical_error));
+    const double moved =
+        fmax(fabs(1 / (rates->wear * above) - time), fabs(1 / (rates->wear * below) - time));
+    return seconds(time, moved + time * (2 * rates->error + rates->wear_error + 64 * DBL_EPSILON));
+}
+
+/* Rubber of every depth is modified in time, however fast it is worn. */
+static void age_everywhere(wt_layer_balance *b, bool without_errors)
+{
+    b->formation_rate_zero = b->ratio = b->critical_specific_wear_rate = HUGE_VAL;
+    b->thickness.value = HUGE_VAL;
+    b->thickness.numerical_error = without_errors ? (double)NAN : 0;
+    b->regime = WT_LAYER_THICK;
+    b->relaxation_time = seconds(HUGE_VAL, 0);
+    b->eigenvalue = 0;
+}
+
+wt_status wt_layer_balance_compute(const wt_energy_source *source,
+                                   const wt_layer_parameters *parameters, wt_layer_balance *balance,
+                                   wt_error *err)
+{
+    if (balance == NULL)
+        return wt_fail(err, WT_E_ARG, "a balance needs a place for the result");
+    layer_rates r;
+    wt_layer_balance b = {0};
+    wt_status status = layer_rates_make(source, parameters, &r, err);
+    if (status == WT_OK)
+        status = layer_fixed_point(&r, 0, &b.thickness, err);
+    b.incubation_time = seconds((double)NAN, (double)NAN);
+    if (status == WT_OK && !parameters->balance_only)
+        status = layer_damage_time(&r, parameters->incubation, (wt_estimate){.unit = "m"},
+                                   &b.incubation_time, err);
+    if (status != WT_OK) {
+        layer_rates_clear(&r);
+        return status;
+    }
+
+    b.surface_power = r.power;
+    b.formation_rate_zero = r.formation;
+    b.wear_rate = r.wear;
+    b.ratio = r.formation == 0 ? 0 : exp(r.log_ratio);
+    b.ratio_error = r.error + r.wear_error;
+    wt_layer_parameters unit = *parameters; /* what the power makes of a k of 1 */
+    unit.specific_wear_rate = 1;
+    b.critical_specific_wear_rate =
+        r.formation == 0
+            ? 0
+            : exp(r.log_power - r.threshold) /
+                  (parameters->pressure * parameters->velocity * layer_wear_rate(&unit, r.power));
+    b.regime = regime_of(r.log_ratio);
+    b.relaxation_time = relaxation_of(&r, b.thickness);
+    b.eigenvalue = b.regime == WT_LAYER_NONE ? 0 : -1 / b.relaxation_time.value;
+    b.removal_time = seconds((double)NAN, (double)NAN);
+    if (r.background > 0) {
+        age_everywhere(&b, r.without_errors);
+    } else if (b.regime == WT_LAYER_NONE) {
+        if (parameters->incubation)
+            b.removal_time = removal_of_old_layer(&r, parameters->start_thickness);
+        else
+            status = layer_march_time(&r, parameters->start_thickness, (wt_estimate){.unit = "m"},
+                                      &b.removal_time, err);
+    }
+    layer_rates_clear(&r);
+    if (status == WT_OK)
+        *balance = b;
+    return status;
+}
+
+wt_status wt_layer_time(const wt_energy_source *source, const wt_layer_parameters *parameters,
+                        wt_estimate thickness, wt_estimate *time, wt_error *err)
+{
+    if (time == NULL)
+        return wt_fail(err, WT_E_ARG, "the time of a thickness needs a place for it");
+    layer_rates r;
+    *time = seconds((double)NAN, (double)NAN);
+    wt_status status = layer_rates_make(source, parameters, &r, err);
+    if (status != WT_OK || !(thickness.value > 0)) {
+        layer_rates_clear(&r);
+        return status;
+    }
+    const double start = parameters->start_thickness;
+    if (parameters->incubation)
+        status = layer_damage_time(&r, true, thickness, time, err);
+    else if (start < thickness.value)
+        status = layer_march_time(&r, start, thickness, time, err);
+    /* never, or the old layer has not become as thin by then */
+    if (isinf(time->value) || start - r.wear * time->value >= thickness.value)
+        *time = seconds((double)NAN, (double)NAN);
+    layer_rates_clear(&r);
+    return status;
+}
+
+double wt_layer_calibrate(const wt_energy_source *source, const wt_layer_parameters *parameters,
+                          double thickness)
+{
+    return wt_energy_tail(source, thickness) /
+           (parameters->damage * layer_wear_rate(parameters, wt_energy_tail(source, 0)) *
+            parameters->pressure * parameters->velocity);
+}

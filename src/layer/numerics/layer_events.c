@@ -1,0 +1,218 @@
+/* When the modified bands of loads in turn begin, reach the surface, merge and are worn off: the
+ * number of bands is followed over close times, and where it changes the time is found by halves.
+ *
+ * SPDX-License-Identifier: GPL-3.0-or-later
+ */
+#include "layer/numerics/layer_damage_bands.h"
+
+#include "core/math/root.h"
+
+#include <float.h>
+#include <math.h>
+#include <stdint.h>
+
+/* Two times are a factor of 1.009 apart, closer than events that do not undo each other; of loads
+ * in turn, each of which is looked at from its beginning on, of 1.037; where the first event alone
+ * is wanted, which nothing undoes at once, of 1.15. */
+static const double times_per_decade = 256, times_in_turn = 64, times_of_first = 16;
+/* To so much of the time that first event is found: it is asked for by replicates. */
+static const double first_close = 1e-7;
+/* So long before and after an event the bands are wide enough to be more than rounding. */
+static const double settled = 1e-9;
+/* Of a load that follows another one the first time is this part of how long it lasts, of what came
+ * before it and of how long it alone would take to modify anything. */
+static const double first_part = 1e-4;
+/* Events are over when so many times the longest wave has been worn off, */
+static const double longest_waves = 20;
+/* or, without wear, so many times the time of the first. */
+static const double last_without_wear = 1e6;
+
+typedef struct event_search {
+    layer_loads *loads;
+    wt_layer_event *events;
+    size_t most, n, enough;     /* after how many events to stop */
+    double per_decade, closest; /* times; relative width to which an event is found */
+    wt_layer_section before;    /* at the last time looked at */
+} event_search;
+
+static bool touches(const wt_layer_section *s)
+{
+    return s->n > 0 && s->n <= WT_LAYER_BANDS && !(s->band[s->n - 1].upper.value > 0);
+}
+
+static bool same_bands(const wt_layer_section *a, const wt_layer_section *b)
+{
+    return a->n == b->n && touches(a) == touches(b);
+}
+
+static double slope_at(double depth, void *user)
+{
+    return damage_course(user, depth, 0).slope;
+}
+
+/* Where the damage is stationary between two depths. */
+static double stationary(event_search *s, double time, double low, double high)
+{
+    double worn, depth = 0.5 * (low + high);
+    damage d = layer_loads_at(s->loads, time, &worn);
+    if (slope_at(low, &d) * slope_at(high, &d) < 0 &&
+        root_find(slope_at, &d, low, high, 0, &depth, NULL) != WT_OK)
+        depth = 0.5 * (low + high);
+    return depth;
+}
+
+/* The band of `more` that is not in `fewer`, both from the deepest on. */
+static size_t new_band(const wt_layer_section *fewer, const wt_layer_section *more)
+{
+    for (size_t i = 0; i < fewer->n; i++)
+        if (more->band[i].lower.value < fewer->band[i].upper.value ||
+            more->band[i].upper.value > fewer->band[i].lower.value)
+            return i;
+    return fewer->n;
+}
+
+/* What happened at a time between two sections. */
+static void event_add(event_search *s, double time, const wt_layer_section *b,
+                      const wt_layer_section *after)
+{
+    wt_layer_event e = {WT_LAYER_SURFACE_REACHED, time, 0};
+    if (after->n > b->n && after->n <= WT_LAYER_BANDS) {
+        const wt_layer_band *band = &after->band[new_band(b, after)];
+        e.kind = band->upper.value > 0 ? WT_LAYER_BAND_ONSET : WT_LAYER_SURFACE_ONSET;
+        if (band->upper.value > 0)
+            e.depth = stationary(s, time, band->upper.value, band->lower.value);
+    } else if (after->n < b->n && b->n <= WT_LAYER_BANDS) {
+        const size_t gone = new_band(after, b);
+        const bool merged =
+            gone > 0 && after->band[gone - 1].upper.value < b->band[gone].lower.value;
+        e.kind = merged ? WT_LAYER_BANDS_MERGE : WT_LAYER_WORN_OFF;
+        if (merged)
+            e.depth = stationary(s, time, b->band[gone].lower.value, b->band[gone - 1].upper.value);
+    }
+    if (s->n < s->most)
+        s->events[s->n] = e;
+    s->n++;
+}
+
+/* The event between the time before and a later one, to the last digits. */
+static wt_status event_find(event_search *s, double later, wt_error *err)
+{
+    double low = s->before.time, high = later;
+    wt_layer_section early = {0}, late = {0};
+    wt_status status = WT_OK;
+    while (status == WT_OK && high > low * (1 + s->closest)) {
+        wt_layer_section middle;
+        status = layer_bands_at(s->loads, 0.5 * (low + high), &middle, err);
+        if (status == WT_OK && same_bands(&s->before, &middle))
+            low = middle.time;
+        else
+            high = middle.time;
+    }
+    if (status == WT_OK)
+        status = layer_bands_at(s->loads, low * (1 - settled), &early, err);
+    if (status == WT_OK)
+        status = layer_bands_at(s->loads, high * (1 + settled), &late, err);
+    if (status == WT_OK && !same_bands(&early, &late))
+        event_add(s, high, &early, &late);
+    s->before = late;
+    return status;
+}
+
+/* All changes up to a time. */
+static wt_status events_until(event_search *s, double time, wt_error *err)
+{
+    wt_layer_section end;
+    wt_status status = layer_bands_at(s->loads, time, &end, err);
+    while (status == WT_OK && s->before.time < time && !same_bands(&s->before, &end))
+        status = event_find(s, time, err);
+    s->before = end;
+    return status;
+}
+
+/* From `first` after the beginning of a load to `last` after it. */
+static wt_status events_between(event_search *s, double begin, double first, double last,
+                                wt_error *err)
+{
+    const double factor = pow(10, 1 / s->per_decade);
+    double time = first / factor;
+    wt_status status = WT_OK;
+    if (begin == 0)
+        status = layer_bands_at(s->loads, time, &s->before, err);
+    while (status == WT_OK && time < last && s->n < s->enough) {
+        time = fmin(time * factor, last);
+        status = events_until(s, begin + time, err);
+    }
+    return status;
+}
+
+/* Those of one load; `first` is when it alone would modify something, NaN: never. */
+static wt_status events_of_load(event_search *s, size_t i, double first, wt_error *err)
+{
+    const layer_loads *loads = s->loads;
+    const double begin = loads->begin[i], wear = loads->rates[i].wear;
+    const bool is_last = i + 1 == loads->n, alone = begin == 0;
+    double last = is_last ? HUGE_VAL : loads->begin[i + 1] - begin;
+    if (is_last)
+        last = wear > 0    ? fmax(longest_waves / (loads->q_min * wear), first > 0 ? 2 * first : 0)
+               : first > 0 ? last_without_wear * first
+                           : 0;
+    if (alone)
+        return first > 0 && first < last ? events_between(s, 0, first, last, err) : WT_OK;
+    const double scale = fmin(fmin(last, begin), first > 0 ? first : HUGE_VAL);
+    return scale > 0 ? events_between(s, begin, first_part * scale, last, err) : WT_OK;
+}
+
+static wt_status find_events(const wt_layer_stage *stages, size_t n_stages, size_t enough,
+                             wt_layer_event *events, size_t most, size_t *n, wt_error *err)
+{
+    layer_loads loads = {0};
+    const bool first_alone = enough == 1;
+    event_search s = {.loads = &loads,
+                      .events = events,
+                      .most = most,
+                      .enough = enough,
+                      .per_decade = first_alone    ? times_of_first
+                                    : n_stages > 1 ? times_in_turn
+                                                   : times_per_decade,
+                      .closest = first_alone ? first_close : 2 * DBL_EPSILON};
+    wt_status status = layer_loads_make(stages, n_stages, &loads, err);
+    loads.start = 0; /* of bare rubber */
+    for (size_t i = 0; status == WT_OK && i < n_stages && s.n < enough; i++) {
+        wt_estimate first = {.value = (double)NAN};
+        status = layer_damage_time(&loads.rates[i], true, (wt_estimate){.unit = "m"}, &first, err);
+        if (status == WT_OK)
+            status = events_of_load(&s, i, first.value, err);
+    }
+    layer_loads_clear(&loads);
+    *n = s.n;
+    return status;
+}
+
+wt_status wt_layer_stage_events(const wt_layer_stage *stages, size_t n_stages,
+                                wt_layer_event *events, size_t most, size_t *n, wt_error *err)
+{
+    if (stages == NULL || n == NULL || (most > 0 && events == NULL))
+        return wt_fail(err, WT_E_ARG, "the events of a layer need loads and a place for them");
+    return find_events(stages, n_stages, SIZE_MAX, events, most, n, err);
+}
+
+wt_status wt_layer_first_event(const wt_layer_stage *stages, size_t n_stages, wt_layer_event *event,
+                               wt_error *err)
+{
+    size_t n = 0;
+    if (stages == NULL || event == NULL)
+        return wt_fail(err, WT_E_ARG, "the first event of a layer needs loads and a place for it");
+    const wt_status status = find_events(stages, n_stages, 1, event, 1, &n, err);
+    if (status == WT_OK && n == 0)
+        *event = (wt_layer_event){WT_LAYER_BAND_ONSET, (double)NAN, (double)NAN};
+    return status;
+}
+
+wt_status wt_layer_events(const wt_energy_source *source, const wt_layer_parameters *parameters,
+                          wt_layer_event *events, size_t most, size_t *n, wt_error *err)
+{
+    if (parameters == NULL)
+        return wt_fail(err, WT_E_ARG, "the events of a layer need parameters");
+    const wt_layer_stage stage = {.source = source, .parameters = *parameters};
+    return wt_layer_stage_events(&stage, 1, events, most, n, err);
+}

@@ -1,0 +1,264 @@
+/* A layer that acts back on the energy that makes it: formation under a layer of thickness d
+ * against wear. A map from thickness to balance need not settle, so that all crossings are looked
+ * for on a grid and bracketed.
+ *
+ * SPDX-License-Identifier: GPL-3.0-or-later
+ */
+#include "layer/numerics/layer_feedback_rate.h"
+
+#include "core/math/root.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+/* Step of a slope, as a part of the thickness: its fourth power is below what the energy is good
+ * to. */
+static const double slope_step = 3e-3;
+/* An extremum of ln(Qf / Qw) that stands out by less is one of rounding. */
+static const double least_fold = 1e-7;
+/* Golden sections that leave 1e-8 of a bracket, where an extremum is flat to 1e-16. */
+enum { SECTIONS = 40 };
+
+/* What is so much thinner than the first thickness of the grid is none. */
+static const double below_grid = 1e-9;
+
+typedef struct loop_search {
+    wt_layer_energy_fn energy;
+    void *user;
+    wt_status status; /* the first that failed */
+    wt_error *err;
+} loop_search;
+
+/* What the layer of a thickness makes of itself. */
+typedef struct loop_point {
+    double log_ratio; /* ln(Qf / Qw) */
+    double formation, wear, decay, wear_factor, q_max;
+} loop_point;
+
+static loop_point point_at(loop_search *s, double thickness)
+{
+    loop_point p = {.log_ratio = (double)NAN};
+    wt_energy_source source = {0};
+    wt_layer_parameters parameters;
+    layer_rates rates;
+    if (s->status != WT_OK)
+        return p;
+    s->status = s->energy(thickness, s->user, &source, &parameters, s->err);
+    if (s->status == WT_OK)
+        s->status = layer_rates_make(&source, &parameters, &rates, s->err);
+    if (s->status == WT_OK && rates.background > 0) {
+        s->status = wt_fail(s->err, WT_E_ARG, "a layer that ages has no balance to act back on");
+        wt_error_place(s->err, "ageing");
+        wt_error_advice(s->err, "leave out ageing, or acts-back");
+        layer_rates_clear(&rates);
+    }
+    if (s->status == WT_OK) {
+        p = (loop_point){.formation = layer_formation(&rates, thickness),
+                         .wear = rates.wear,
+                         .decay = layer_decay(&rates, thickness),
+                         .wear_factor = parameters.specific_wear_rate,
+                         .q_max = rates.q_max};
+        p.log_ratio = rates.formation > 0
+                          ? rates.log_ratio + rates_log_tail(&rates, thickness) - rates.log_power
+                          : -HUGE_VAL;
+        layer_rates_clear(&rates);
+    }
+    wt_energy_source_clear(&source);
+    return p;
+}
+
+static double log_ratio_at(double log_thickness, void *user)
+{
+    return point_at(user, exp(log_thickness)).log_ratio;
+}
+
+static double less_at(double log_thickness, void *user)
+{
+    return -log_ratio_at(log_thickness, user);
+}
+
+/* d ln(Qf / Qw) / dd by five points. */
+static double slope_at(loop_search *s, double thickness)
+{
+    const double h = slope_step * thickness;
+    const double near = point_at(s, thickness + h).log_ratio - point_at(s, thickness - h).log_ratio;
+    const double far =
+        point_at(s, thickness + 2 * h).log_ratio - point_at(s, thickness - 2 * h).log_ratio;
+    return (8 * near - far) / (12 * h);
+}
+
+static void add_root(loop_search *s, double thickness, wt_layer_loop *loop)
+{
+    if (loop->n_roots == WT_LAYER_ROOTS)
+        return;
+    wt_layer_root *r = &loop->root[loop->n_roots++];
+    const loop_point p = point_at(s, thickness);
+    /* d (Qf - Qw) / dd where both are the same */
+    r->thickness = thickness;
+    r->eigenvalue = p.wear * slope_at(s, thickness);
+    r->map_slope = 1 + r->eigenvalue / (p.wear * p.decay);
+    r->stable = r->eigenvalue < 0;
+}
+
+static void add_fold(loop_search *s, double low, double high, bool maximum, wt_layer_loop *loop)
+{
+    if (loop->n_folds == WT_LAYER_ROOTS)
+        return;
+    const double place = root_maximum(maximum ? log_ratio_at : less_at, s, low, high, SECTIONS);
+    const loop_point p = point_at(s, exp(place));
+    loop->fold[loop->n_folds++] =
+        (wt_layer_fold){exp(place), p.wear_factor * exp(p.log_ratio), maximum};
+}
+
+/* A balance below the grid, where of the bare surface and a layer of the first thickness one is
+ * modified and the other worn: so near to 0 that it is 0 where the energy jumps there, as that of
+ * shearing does. It is stable if the bare surface is modified, else a threshold. */
+static void add_thinnest(loop_search *s, double log_low, bool grows, wt_layer_loop *loop)
+{
+    const double least = log_low + log(below_grid);
+    double root = -HUGE_VAL;
+    if ((log_ratio_at(least, s) > 0) == grows) {
+        const wt_status status = root_find(log_ratio_at, s, least, log_low, 0, &root, s->err);
+        s->status = s->status == WT_OK ? status : s->status;
+    }
+    if (s->status != WT_OK)
+        return;
+    if (isfinite(root))
+        add_root(s, exp(root), loop);
+    else
+        loop->root[loop->n_roots++] = (wt_layer_root){0, grows, (double)NAN, (double)NAN};
+}
+
+/* Crossings and extrema of values on a grid of ln d. */
+static void search_grid(loop_search *s, const double *x, const double *value, size_t n,
+                        wt_layer_loop *loop)
+{
+    for (size_t i = 1; s->status == WT_OK && i < n; i++) {
+        double root;
+        if ((value[i - 1] > 0) != (value[i] > 0)) {
+            wt_status status = root_find(log_ratio_at, s, x[i - 1], x[i], 0, &root, s->err);
+            if (s->status == WT_OK)
+                s->status = status;
+            if (s->status == WT_OK)
+                add_root(s, exp(root), loop);
+        }
+        if (i + 1 == n)
+            continue;
+        const double before = value[i] - value[i - 1], after = value[i + 1] - value[i];
+        if (before * after < 0 && fmin(fabs(before), fabs(after)) > least_fold)
+            add_fold(s, x[i - 1], x[i + 1], before > 0, loop);
+    }
+}
+
+wt_status wt_layer_loop_find(wt_layer_energy_fn energy, void *user, double low, double high,
+                             size_t grid, wt_layer_loop *loop, wt_error *err)
+{
+    if (energy == NULL || loop == NULL || !(low > 0) || !(high > low) || grid < 3)
+        return wt_fail(err, WT_E_ARG, "a layer that acts back needs a range of thickness");
+    loop_search s = {.energy = energy, .user = user, .err = err};
+    double *x = malloc(2 * grid * sizeof *x);
+    if (x == NULL)
+        return wt_fail(err, WT_E_MEMORY, "out of memory for a layer that acts back");
+    double *value = x + grid;
+    wt_layer_loop l = {.low = low, .high = high};
+    const double bare = point_at(&s, 0).log_ratio;
+    l.ratio = exp(bare);
+    if (!(bare > 0))
+        l.root[l.n_roots++] = (wt_layer_root){0, true, (double)NAN, (double)NAN};
+    for (size_t i = 0; s.status == WT_OK && i < grid; i++) {
+        x[i] = log(low) + log(high / low) * (double)i / (double)(grid - 1);
+        value[i] = log_ratio_at(x[i], &s);
+    }
+    if (s.status == WT_OK && (bare > 0) != (value[0] > 0))
+        add_thinnest(&s, x[0], bare > 0, &l);
+    if (s.status == WT_OK)
+        search_grid(&s, x, value, grid, &l);
+    free(x);
+    if (s.status == WT_OK)
+        *loop = l;
+    return s.status;
+}
+
+/* ---- in time --------------------------------------------------------------------------------- */
+
+/* The march wears at the rate of the bare surface: what the layer changes of it counts as
+ * formation, which up to the first balance is the larger of the two. */
+typedef struct own_search {
+    loop_search *search;
+    double wear;
+} own_search;
+
+static double log_formation_at(double thickness, void *user)
+{
+    const own_search *o = user;
+    const loop_point p = point_at(o->search, thickness);
+    const double log_formation = p.log_ratio + log(p.wear);
+    return p.wear == o->wear ? log_formation : log(exp(log_formation) - p.wear + o->wear);
+}
+
+static wt_status march_own(loop_search *s, layer_rates *rates, const double *time, size_t n,
+                           wt_layer_point *points, wt_error *err)
+{
+    const wt_status status = layer_history_in_order(rates, 0, false, time, n, points, err);
+    for (size_t i = 0; status == WT_OK && i < n; i++) {
+        points[i].time = time[i];
+        const loop_point p = point_at(s, points[i].thickness.value);
+        points[i].formation_rate = p.formation;
+        points[i].wear_rate = p.wear;
+    }
+    return status == WT_OK ? s->status : status;
+}
+
+/* The lowest root that a growing layer comes to; 0: none grows. */
+static double growing_to(const wt_layer_loop *loop)
+{
+    for (size_t i = 0; loop->ratio > 1 && i < loop->n_roots; i++)
+        if (loop->root[i].stable)
+            return loop->root[i].thickness;
+    return 0;
+}
+
+wt_status wt_layer_loop_history(wt_layer_energy_fn energy, void *user, const wt_layer_loop *loop,
+                                const double *time, size_t n, wt_layer_point *points, wt_error *err)
+{
+    if (energy == NULL || loop == NULL || (n > 0 && (time == NULL || points == NULL)))
+        return wt_fail(err, WT_E_ARG, "a layer that acts back needs its roots and times");
+    wt_status status = layer_times_check(time, n, err);
+    if (status != WT_OK)
+        return status;
+    loop_search s = {.energy = energy, .user = user, .err = err};
+    const loop_point bare = point_at(&s, 0);
+    const double target = growing_to(loop);
+    if (s.status != WT_OK)
+        return s.status;
+    if (!(target > 0)) {
+        for (size_t i = 0; i < n; i++)
+            points[i] = (wt_layer_point){time[i], {.unit = "m"}, bare.formation, bare.wear};
+        if (!(loop->ratio > 1) || loop->n_roots > 0)
+            return WT_OK;
+        wt_fail(err, WT_E_RANGE, "a layer that acts back grows beyond the longest waves");
+        wt_error_expected(err, "a balance below %.3g um", 1e6 * loop->high);
+        wt_error_found(err, "none, with R = %.3g on a bare surface", loop->ratio);
+        wt_error_advice(err,
+                        "without wear, or with little, it has no balance: leave out acts-back");
+        return WT_E_RANGE;
+    }
+    layer_own *own = calloc(1, sizeof *own);
+    if (own == NULL)
+        return wt_fail(err, WT_E_MEMORY, "out of memory for a layer that acts back");
+    own_search o = {&s, bare.wear};
+    status = layer_own_make(log_formation_at, &o, 1 / bare.q_max, target, own, err);
+    if (status == WT_OK)
+        status = s.status;
+    layer_rates rates = {.own = own,
+                         .q_min = 1 / target,
+                         .q_max = bare.q_max,
+                         .formation = bare.formation,
+                         .wear = bare.wear,
+                         .log_ratio = log(bare.formation / bare.wear)};
+    if (status == WT_OK)
+        status = march_own(&s, &rates, time, n, points, err);
+    layer_own_clear(own);
+    free(own);
+    return status;
+}

@@ -1,0 +1,62 @@
+/* ln Qf(d) under a layer of thickness d by Chebyshev series over panels of the thickness: the first
+ * as long as the shortest wave, below which the layer is nothing to any wave, each further one as
+ * long as all before it.
+ *
+ * SPDX-License-Identifier: GPL-3.0-or-later
+ */
+#include "layer/numerics/layer_feedback_rate.h"
+
+#include <gsl/gsl_chebyshev.h>
+#include <math.h>
+
+/* Of a function that is smooth over a doubling: the last coefficients are then those of rounding.
+ */
+enum { ORDER = 24 };
+
+void layer_own_clear(layer_own *own)
+{
+    for (size_t i = 0; i < own->n; i++) {
+        gsl_cheb_free(own->panel[i].value);
+        gsl_cheb_free(own->panel[i].slope);
+    }
+    own->n = 0;
+}
+
+wt_status layer_own_make(own_fn f, void *user, double first, double target, layer_own *own,
+                         wt_error *err)
+{
+    gsl_function function = {f, user};
+    *own = (layer_own){.target = target};
+    for (double low = 0, high = fmin(first, target); low < target; high *= 2) {
+        if (own->n == OWN_PANELS)
+            return wt_fail(err, WT_E_RANGE, "a layer is too thick beside the shortest wave");
+        own_panel *p = &own->panel[own->n];
+        *p = (own_panel){low, 2 * high > target ? target : high, gsl_cheb_alloc(ORDER),
+                         gsl_cheb_alloc(ORDER)};
+        own->n++;
+        if (p->value == NULL || p->slope == NULL)
+            return wt_fail(err, WT_E_MEMORY, "out of memory for a layer that acts back");
+        gsl_cheb_init(p->value, &function, p->low, p->high);
+        gsl_cheb_calc_deriv(p->slope, p->value);
+        low = p->high;
+    }
+    return WT_OK;
+}
+
+static const own_panel *panel_at(const layer_own *own, double thickness)
+{
+    size_t i = 0;
+    while (i + 1 < own->n && thickness > own->panel[i].high)
+        i++;
+    return &own->panel[i];
+}
+
+double layer_own_log(const layer_own *own, double thickness)
+{
+    return gsl_cheb_eval(panel_at(own, thickness)->value, thickness);
+}
+
+double layer_own_slope(const layer_own *own, double thickness)
+{
+    return gsl_cheb_eval(panel_at(own, thickness)->slope, thickness);
+}

@@ -1,0 +1,33 @@
+/* Internal to the kernel room: the rate of formation under a layer that acts back on it, between
+ * the bare surface and a balance.
+ *
+ * SPDX-License-Identifier: GPL-3.0-or-later
+ */
+#ifndef WT_LAYER_NUMERICS_LAYER_FEEDBACK_RATE_H
+#define WT_LAYER_NUMERICS_LAYER_FEEDBACK_RATE_H
+
+#include "layer/numerics/layer_kernel.h"
+
+typedef struct own_panel {
+    double low, high;
+    struct gsl_cheb_series_struct *value, *slope; /* of ln Qf */
+} own_panel;
+
+/* Each is as long as all before it: no layer is 2^64 times as thick as the shortest wave. */
+enum { OWN_PANELS = 64 };
+typedef struct layer_own {
+    double target; /* where the motion ends [m] */
+    size_t n;
+    own_panel panel[OWN_PANELS];
+} layer_own;
+
+/* ln Qf at a thickness under itself. */
+typedef double (*own_fn)(double thickness, void *user);
+/* Panels from 0 to the target, of which the first is as long as `first`. */
+wt_status layer_own_make(own_fn f, void *user, double first, double target, layer_own *own,
+                         wt_error *err) WT_NODISCARD;
+void layer_own_clear(layer_own *own);
+double layer_own_log(const layer_own *own, double thickness);
+double layer_own_slope(const layer_own *own, double thickness);
+
+#endif

@@ -1,0 +1,285 @@
+/* Rate balance d delta/dt = Qf(delta) - Qw for any profile. The equation does not contain the time,
+ * so it is integrated over the thickness, t = int d delta / (Qf - Qw), by Gauss-Legendre panels
+ * that shrink in proportion to the distance from the balance: no step is ever too fast for it, from
+ * nanoseconds to years. Two rules per panel give the error.
+ *
+ * SPDX-License-Identifier: GPL-3.0-or-later
+ */
+#include "layer/numerics/layer_feedback_rate.h"
+
+#include "core/math/gauss_legendre.h"
+
+#include <float.h>
+#include <math.h>
+
+/* Rules whose difference is the error: that of the lower one. */
+enum { LOW_NODES = 12, HIGH_NODES = 16 };
+
+/* Panel length as a part of the way to the balance, where the time has a logarithm, and in units of
+ * the local decay length, over which formation is smooth: more panels or fewer, and the same error,
+ * for those that do not reach it are halved. */
+static const double way_part = 0.7;
+static const double decay_part = 2;
+/* A panel whose two rules differ by more is halved: a hundred panels are then good to 1e-10. */
+static const double panel_goal = 1e-12;
+/* Formation is left out where it is a smaller part of wear. */
+static const double log_negligible = -41.5; /* 1e-18 */
+
+typedef struct march {
+    const layer_rates *rates;
+    const gauss_rule *low, *high;
+    double target;    /* where the motion ends: the balance, or 0 */
+    double direction; /* +1 growing, -1 being worn */
+    double thickness, time;
+    double time_error;
+    double sensitivity; /* int Qf / (Qf - Qw)^2: minus d time / d ln Qf */
+} march;
+
+static double net_rate(const layer_rates *rates, double thickness)
+{
+    return layer_formation(rates, thickness) - rates->wear;
+}
+
+/* Time from `from` over `length` in the direction of the march. */
+static double panel_time(const march *m, const gauss_rule *rule, double from, double length,
+                         double *sensitivity)
+{
+    double sum = 0;
+    *sensitivity = 0;
+    for (size_t i = 0; i < rule->n; i++) {
+        const double thickness = from + m->direction * 0.5 * length * (1 + rule->node[i]);
+        const double formation = layer_formation(m->rates, thickness);
+        const double rate = formation - m->rates->wear;
+        const double weight = 0.5 * length * rule->weight[i] / fabs(rate);
+        sum += weight;
+        *sensitivity += weight * (formation / fabs(rate));
+    }
+    return sum;
+}
+
+/* Length of the next panel; 0 when the target is reached to rounding. */
+static double panel_length(const march *m)
+{
+    const double kappa = layer_decay(m->rates, m->thickness);
+    const double rate = fabs(net_rate(m->rates, m->thickness));
+    const double slope = layer_formation(m->rates, m->thickness) * kappa;
+    double length = fabs(m->target - m->thickness);
+    const double noise = 4 * DBL_EPSILON * (m->thickness + (kappa > 0 ? 1 / kappa : 0));
+    const bool balance = m->direction > 0 || m->rates->log_ratio >= 0;
+    if (balance) {
+        if (length <= noise)
+            return 0;
+        length *= way_part;
+    } else if (slope > 0) { /* the balance is virtual, above the surface */
+        length = fmin(length, way_part * log1p(kappa * rate / slope) / kappa);
+    }
+    if (kappa == 0) /* the surface of a profile that begins with 0 */
+        return m->rates->q_min > 0 ? fmin(length, 1 / m->rates->q_min) : length;
+    return fmin(length, decay_part / kappa);
+}
+
+/* Relative rounding error of Qf, which is the exponential of a sum of logarithms. */
+static double rounding_error(const layer_rates *rates, double thickness)
+{
+    const double depth = rates->q_min * thickness;
+    return 16 * DBL_EPSILON * (1 + fabs(rates->log_power) + 2 * depth);
+}
+
+/* Takes the time of one panel, shortened until its two rules agree, down to the noise of Qf - Qw.
+ */
+static double panel_take(const march *m, double *length, double *error, double *sensitivity)
+{
+    double time = 0, ignored;
+    for (int i = 0; i < 60; i++) {
+        const double end = m->thickness + m->direction * *length;
+        const double formation = layer_formation(m->rates, end);
+        const double noise =
+            rounding_error(m->rates, end) * formation / fabs(formation - m->rates->wear);
+        time = panel_time(m, m->high, m->thickness, *length, sensitivity);
+        *error = fabs(time - panel_time(m, m->low, m->thickness, *length, &ignored));
+        /* times below the smallest normal number have no digits to agree in, and where formation
+         * underflows there are none */
+        if (!(*error > (panel_goal + 4 * noise) * time + DBL_MIN))
+            break;
+        *length *= 0.5;
+    }
+    return time;
+}
+
+/* Thickness at a time inside the panel that starts here and takes `took`: Newton's method from a
+ * straight line, kept inside. */
+static double panel_find(const march *m, double length, double took, double time)
+{
+    double low = 0, high = length;
+    double way = length * ((time - m->time) / took);
+    for (int i = 0; i < 60; i++) {
+        double ignored;
+        const double excess = m->time + panel_time(m, m->high, m->thickness, way, &ignored) - time;
+        if (excess > 0)
+            high = way;
+        else
+            low = way;
+        const double here = m->thickness + m->direction * way;
+        double next = way - excess * fabs(net_rate(m->rates, here));
+        if (!(next >= low && next <= high))
+            next = 0.5 * (low + high);
+        const double change = fabs(next - way);
+        way = next;
+        /* the noise of the quadrature moves it by some ulps of the whole thickness */
+        if (change <= 4 * DBL_EPSILON * way || change <= 16 * DBL_EPSILON * m->thickness)
+            break;
+    }
+    return m->thickness + m->direction * way;
+}
+
+static wt_estimate estimate_at(const march *m, double thickness, double time, double time_error,
+                               double sensitivity)
+{
+    const double rate = fabs(net_rate(m->rates, thickness));
+    const double relative = rounding_error(m->rates, thickness);
+    /* to the wear a time is no more sensitive than this and itself */
+    const double of_wear = m->rates->wear_error * (sensitivity + time);
+    const double error = rate * (time_error + relative * time +
+                                 (m->rates->error + relative) * sensitivity + of_wear) +
+                         4 * DBL_EPSILON * thickness;
+    return (wt_estimate){.value = fmax(thickness, 0), .numerical_error = error, .unit = "m"};
+}
+
+/* Far above the balance only wear counts: down to where formation begins to be felt, the thickness
+ * is linear in time. */
+static wt_status skip_pure_wear(march *m, double *length, wt_error *err)
+{
+    *length = 0;
+    if (m->direction > 0 || m->rates->wear == 0)
+        return WT_OK;
+    wt_estimate felt = {0};
+    if (m->rates->formation > 0) {
+        const wt_status status = layer_fixed_point(m->rates, log_negligible, &felt, err);
+        if (status != WT_OK)
+            return status;
+    }
+    *length = fmax(0, m->thickness - fmax(felt.value, m->target));
+    return WT_OK;
+}
+
+/* *linear: how far wear alone counts. */
+static wt_status march_begin(march *m, const layer_rates *rates, double start, wt_estimate *target,
+                             double *linear, wt_error *err)
+{
+    *m = (march){.rates = rates, .thickness = start};
+    wt_status status = WT_OK;
+    if (rates->own != NULL)
+        *target = (wt_estimate){.value = rates->own->target, .unit = "m"};
+    else
+        status = layer_fixed_point(rates, 0, target, err);
+    if (status == WT_OK)
+        status = rule_of(LOW_NODES, &m->low, err);
+    if (status == WT_OK)
+        status = rule_of(HIGH_NODES, &m->high, err);
+    m->target = target->value;
+    m->direction = net_rate(rates, start) > 0 ? 1 : -1;
+    if (m->direction < 0)
+        m->target = fmin(m->target, start);
+    return status == WT_OK ? skip_pure_wear(m, linear, err) : status;
+}
+
+wt_status layer_march(const layer_rates *rates, double start, const layer_instant *at, size_t n,
+                      wt_error *err)
+{
+    march m;
+    wt_estimate target;
+    double linear = 0;
+    wt_status status = march_begin(&m, rates, start, &target, &linear, err);
+    if (status != WT_OK)
+        return status;
+
+    size_t i = 0;
+    if (net_rate(rates, start) == 0) { /* nothing happens, or the balance itself */
+        for (; i < n; i++)
+            at[i].point->thickness = (wt_estimate){
+                .value = start, .numerical_error = target.numerical_error, .unit = "m"};
+        return status;
+    }
+    if (linear > 0) {
+        const double until = linear / rates->wear;
+        for (; i < n && at[i].time < until; i++)
+            at[i].point->thickness =
+                estimate_at(&m, start - rates->wear * at[i].time, at[i].time, 0, 0);
+        m.thickness = start - linear;
+        m.time = until;
+    }
+    for (; i < n && at[i].time == 0; i++)
+        at[i].point->thickness = (wt_estimate){.value = start, .unit = "m"};
+    while (i < n) {
+        double length = panel_length(&m);
+        if (!(length > 0))
+            break;
+        double error, sensitivity;
+        const double took = panel_take(&m, &length, &error, &sensitivity);
+        const double sum_error = m.time_error + error;
+        const double sum_sensitivity = m.sensitivity + sensitivity;
+        for (; i < n && at[i].time <= m.time + took; i++)
+            at[i].point->thickness = estimate_at(&m, panel_find(&m, length, took, at[i].time),
+                                                 at[i].time, sum_error, sum_sensitivity);
+        m.thickness += m.direction * length;
+        m.time += took;
+        m.time_error = sum_error;
+        m.sensitivity = sum_sensitivity;
+        if (!isfinite(m.time))
+            break;
+    }
+    for (; i < n; i++) { /* arrived */
+        at[i].point->thickness = (wt_estimate){.value = m.target, .unit = "m"};
+        at[i].point->thickness.numerical_error =
+            target.numerical_error + fabs(m.thickness - m.target);
+    }
+    return status;
+}
+
+/* Time from `start` to `goal`, which is on the way of the march. */
+static double march_to(march *m, double goal, double linear)
+{
+    const double first = fmin(linear, m->thickness - goal);
+    if (linear > 0) {
+        m->thickness -= first;
+        m->time = first / m->rates->wear;
+    }
+    while (m->direction * (goal - m->thickness) > 0) {
+        double error, sensitivity;
+        const double left = m->direction * (goal - m->thickness);
+        double length = fmin(panel_length(m), left);
+        if (!(length > 0))
+            break;
+        m->time += panel_take(m, &length, &error, &sensitivity);
+        m->time_error += error;
+        m->sensitivity += sensitivity;
+        m->thickness = length >= left ? goal : m->thickness + m->direction * length;
+    }
+    return m->time;
+}
+
+wt_status layer_march_time(const layer_rates *rates, double start, wt_estimate goal,
+                           wt_estimate *time, wt_error *err)
+{
+    *time = (wt_estimate){.unit = "s"};
+    if (start == goal.value)
+        return WT_OK;
+    *time = (wt_estimate){.value = HUGE_VAL, .unit = "s"};
+    const double rate = net_rate(rates, start), there = net_rate(rates, goal.value);
+    const bool grows = goal.value > start;
+    if (!isfinite(goal.value) || (grows ? !(rate > 0 && there > 0) : !(rate < 0 && there < 0)))
+        return WT_OK;
+    march m;
+    wt_estimate target;
+    double linear = 0;
+    const wt_status status = march_begin(&m, rates, start, &target, &linear, err);
+    if (status == WT_OK) {
+        const double relative = rounding_error(rates, fmax(start, goal.value));
+        time->value = march_to(&m, goal.value, linear);
+        time->numerical_error = m.time_error + relative * time->value +
+                                (rates->error + relative) * m.sensitivity +
+                                rates->wear_error * (m.sensitivity + time->value) +
+                                (goal.numerical_error + 4 * DBL_EPSILON * start) / fabs(there);
+    }
+    return status;
+}

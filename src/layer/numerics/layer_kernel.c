@@ -1,0 +1,253 @@
+/* Rates of formation, Qf(d) = int_d^inf Omega dz / Lambda, and of wear, Qw = k sigma0 v, and the
+ * thickness at which one is a given multiple of the other. Omega is w / U_c, or that of an
+ * activated closure.
+ *
+ * SPDX-License-Identifier: GPL-3.0-or-later
+ */
+#include "core/base/shared_params.h"
+#include "layer/numerics/layer_feedback_rate.h"
+
+#include "core/math/root.h"
+
+#include <float.h>
+#include <math.h>
+
+wt_layer_parameters wt_layer_defaults(void)
+{
+    return (wt_layer_parameters){.critical_energy = (double)NAN,
+                                 .damage = 1,
+                                 .duty = 1,
+                                 .severity_exponent = 1,
+                                 .closure = WT_CLOSURE_ENERGY,
+                                 .activation = {.attempt = WT_ATTEMPT_HBAR,
+                                                .barrier = (double)NAN,
+                                                .volume = (double)NAN,
+                                                .temperature = (double)NAN,
+                                                .area_ratio = 1}};
+}
+
+static const wt_param rows[] = {
+    LAYER_ROWS(wt_layer_parameters, NULL),
+    {PARAM("severity-power", wt_layer_parameters, severity_power, WT_Q_NONE, AT_LEAST(0)),
+     .flags = PARAM_ONLY_C, .help = "power at which the specific wear rate doubles, W/m^2"},
+    LAYER_SEVERITY_EXPONENT(wt_layer_parameters),
+    LAYER_CLOSURE(wt_layer_parameters),
+    LAYER_ACTIVATION_ROWS(wt_layer_parameters, activation., activation.),
+    {PARAM("activation-temperature", wt_layer_parameters, activation.temperature, WT_Q_TEMPERATURE,
+           ABOVE(0)),
+     .unset = "", .flags = PARAM_ONLY_C, .help = "of the rubber"},
+    {PARAM("area-ratio", wt_layer_parameters, activation.area_ratio, WT_Q_NONE, ABOVE_TO(0, 1)),
+     .flags = PARAM_ONLY_C, .help = "real over nominal contact area"},
+    {PARAM("critical-energy", wt_layer_parameters, critical_energy, WT_Q_ENERGY_DENSITY, ABOVE(0)),
+     .flags = PARAM_ONLY_C, .help = "energy per volume that modifies the rubber"},
+    {PARAM("pressure", wt_layer_parameters, pressure, WT_Q_PRESSURE, AT_LEAST(0)),
+     .flags = PARAM_ONLY_C, .help = "nominal pressure"},
+    {PARAM("velocity", wt_layer_parameters, velocity, WT_Q_VELOCITY, AT_LEAST(0)),
+     .flags = PARAM_ONLY_C, .help = "of sliding"},
+};
+PARAM_TABLE(wt_layer_params, wt_layer_parameters, rows, wt_layer_defaults, NO_PARTS)
+
+/* What the chosen closure cannot do without. */
+static wt_status closure_check(const wt_layer_parameters *p, wt_error *err)
+{
+    const bool activated = p->closure == WT_CLOSURE_ACTIVATED;
+    const wt_activation *a = &p->activation;
+    if (activated && (isnan(a->barrier) || isnan(a->volume) || isnan(a->temperature)))
+        return wt_fail(err, WT_E_MISSING,
+                       "the activated closure of a layer needs a barrier, an activation volume "
+                       "and a temperature");
+    if (!activated || !a->ageing || p->incubation)
+        return WT_OK;
+    wt_fail(err, WT_E_ARG, "the balance of rates knows no ageing, which goes on at every depth");
+    wt_error_place(err, "ageing");
+    wt_error_advice(err, "leave out ageing, or no-incubation: the transport of damage has it");
+    return WT_E_ARG;
+}
+
+void layer_rates_clear(layer_rates *rates)
+{
+    activation_free(rates->activated);
+    rates->activated = NULL;
+}
+
+/* What the closure makes of the energy. */
+static wt_status rates_close(layer_rates *r, const wt_layer_parameters *p, wt_error *err)
+{
+    r->error = r->source->numerical_error;
+    if (p->closure == WT_CLOSURE_ENERGY) {
+        r->log_power = r->power > 0 ? log(r->power) : 0;
+        r->threshold = log(p->critical_energy) + log(p->damage);
+        r->formation = p->duty * (r->power / p->critical_energy / p->damage);
+        return WT_OK;
+    }
+    r->threshold = log(p->damage);
+    if (p->activation.ageing)
+        r->background = wt_activation_background(&p->activation) / p->damage;
+    if (!(r->power > 0) || !(p->velocity > 0))
+        return WT_OK;
+    const wt_status status =
+        activation_new(r->source, &p->activation, p->velocity, &r->activated, err);
+    if (status != WT_OK || r->activated == NULL)
+        return status;
+    r->log_power = activation_log_tail(r->activated, 0);
+    r->formation = p->duty * exp(r->log_power - r->threshold);
+    r->error = activation_error(r->activated);
+    return WT_OK;
+}
+
+double layer_wear_rate(const wt_layer_parameters *p, double power)
+{
+    return p->severity_power > 0
+               ? p->specific_wear_rate * (1 + pow(power / p->severity_power, p->severity_exponent))
+               : p->specific_wear_rate;
+}
+
+/* What of the relative error of the power is in the wear: m x / (1 + x), x = (power / E_c)^m. */
+static double wear_follows(const wt_layer_parameters *p, double power)
+{
+    if (!(p->severity_power > 0) || !(power > 0))
+        return 0;
+    return p->severity_exponent / (1 + pow(power / p->severity_power, -p->severity_exponent));
+}
+
+wt_status layer_rates_make(const wt_energy_source *source, const wt_layer_parameters *parameters,
+                           layer_rates *rates, wt_error *err)
+{
+    *rates = (layer_rates){0};
+    if (parameters == NULL)
+        return wt_fail(err, WT_E_ARG, "a layer needs its parameters");
+    wt_status status = energy_check(source, err);
+    if (status == WT_OK) {
+        wt_layer_parameters checked = *parameters;
+        if (checked.closure == WT_CLOSURE_ACTIVATED)
+            checked.critical_energy = 1; /* which it has not */
+        status = param_check(wt_layer_params(), &checked, err);
+    }
+    if (status == WT_OK)
+        status = closure_check(parameters, err);
+    if (status != WT_OK)
+        return status;
+    const wt_layer_parameters *p = parameters;
+    layer_rates r = {.source = source, .duty = p->duty, .without_errors = p->without_errors};
+    if (!energy_range(source, &r.q_min, &r.q_max))
+        r.q_min = 0;
+    for (size_t i = 0; i < source->n; i++)
+        r.power += source->power[i];
+    status = rates_close(&r, p, err);
+    r.wear = p->duty * layer_wear_rate(p, r.power) * p->pressure * p->velocity;
+    r.wear_error = wear_follows(p, r.power) * source->numerical_error;
+    /* of a wave the density goes with q, and its bends with the cube */
+    const double bends = r.power * r.q_max * r.q_max * r.q_max;
+    if (status == WT_OK && (!isfinite(r.formation) || !isfinite(r.wear) || !isfinite(bends))) {
+        status = wt_fail(err, WT_E_RANGE, "formation or wear of a layer is faster than any number");
+        wt_error_found(err, "formation %g m/s, wear %g m/s", r.formation, r.wear);
+        wt_error_advice(err, "check the units: 1 mm^3/(N m) is 1e-9 m^2/N");
+    }
+    if (status != WT_OK) {
+        layer_rates_clear(&r);
+        return status;
+    }
+    r.log_ratio = r.formation == 0 ? -HUGE_VAL : log(r.formation / r.wear);
+    if (r.formation > 0 && r.wear > 0 && isinf(r.log_ratio))
+        r.log_ratio = log(r.formation) - log(r.wear);
+    *rates = r;
+    return WT_OK;
+}
+
+double rates_log_density(const layer_rates *rates, double depth)
+{
+    return rates->activated != NULL ? activation_log_density(rates->activated, depth)
+                                    : energy_log_density(rates->source, depth);
+}
+
+double rates_log_tail(const layer_rates *rates, double depth)
+{
+    return rates->activated != NULL ? activation_log_tail(rates->activated, depth)
+                                    : energy_log_tail(rates->source, depth);
+}
+
+double rates_log_gain(const layer_rates *rates, double depth, double length)
+{
+    return rates->activated != NULL ? activation_log_gain(rates->activated, depth, length)
+                                    : energy_log_gain(rates->source, depth, length);
+}
+
+energy_course rates_course(const layer_rates *rates, double depth, double length, double reach)
+{
+    return rates->activated != NULL
+               ? activation_course(rates->activated, depth, length, reach)
+               : energy_course_at(rates->source, rates->q_min, depth, length, reach);
+}
+
+double layer_formation(const layer_rates *rates, double thickness)
+{
+    if (rates->own != NULL)
+        return exp(layer_own_log(rates->own, thickness));
+    if (rates->formation == 0)
+        return 0;
+    const double fall = rates_log_tail(rates, thickness) - rates->log_power;
+    const double lowest = -700; /* e^x of it is a number; of a fast formation there is more */
+    return fall > lowest ? rates->formation * exp(fall) : exp(log(rates->formation) + fall);
+}
+
+double layer_decay(const layer_rates *rates, double thickness)
+{
+    if (rates->own != NULL)
+        return fabs(layer_own_slope(rates->own, thickness));
+    if (rates->formation == 0)
+        return 0;
+    return exp(rates_log_density(rates, thickness) - rates_log_tail(rates, thickness));
+}
+
+/* ---- fixed point ----------------------------------------------------------------------------- */
+
+typedef struct balance_root {
+    const layer_rates *rates;
+    double level; /* ln(Qf / Qf(0)) wanted */
+} balance_root;
+
+static double balance_function(double depth, void *user)
+{
+    const balance_root *b = user;
+    return rates_log_tail(b->rates, depth) - b->rates->log_power - b->level;
+}
+
+/* How far the root moves when the logarithm of Qf moves by `error`. */
+static double root_error(balance_root *b, double root, double error)
+{
+    const double kappa = layer_decay(b->rates, root);
+    const double reach = fmax(kappa > 0 ? error / kappa : 0, 2 * DBL_EPSILON * root);
+    return root_reach(balance_function, b, root, error, reach, DBL_MIN);
+}
+
+wt_status layer_fixed_point(const layer_rates *rates, double log_scale, wt_estimate *thickness,
+                            wt_error *err)
+{
+    *thickness = (wt_estimate){.unit = "m"};
+    double excess = rates->log_ratio - log_scale; /* ln(Qf(0) / (scale Qw)) */
+    const double error = 8 * DBL_EPSILON * (1 + fabs(excess) + fabs(rates->log_power)) +
+                         rates->error + rates->wear_error;
+    const bool none = !(excess > 0);
+    if (none && !rates->without_errors) /* how thick it might be all the same */
+        excess += error;
+    if (rates->without_errors)
+        thickness->numerical_error = (double)NAN;
+    if (!(excess > 0))
+        return WT_OK;
+    if (isinf(excess)) {
+        thickness->value = (double)INFINITY;
+        return WT_OK;
+    }
+    balance_root b = {.rates = rates, .level = -excess};
+    double high = excess / (2 * rates->q_min);
+    while (balance_function(high, &b) > 0)
+        high *= 2;
+    double root = 0;
+    const wt_status status = root_find(balance_function, &b, 0, high, 0, &root, err);
+    if (status != WT_OK)
+        return status;
+    thickness->value = none ? 0 : root;
+    if (!rates->without_errors)
+        thickness->numerical_error = none ? root : root_error(&b, root, error);
+    return WT_OK;
+}

@@ -1,0 +1,380 @@
+/* The table of where a layer exists: balance thickness and what it does to friction against the
+ * power that modifies the rubber, over velocities and pressures, by the values themselves and, for
+ * the errors, by replicates. SPDX-License-Identifier: GPL-3.0-or-later */
+#include "job/cost.h"
+#include "layer/monte_carlo.h"
+
+#include "core/base/array.h"
+#include "core/base/clocale.h"
+#include "core/math/root.h"
+#include "core/table/table_rows.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* To so much of a velocity an edge is found; of a replicate, which scatters by far more. */
+static const double edge_close = 1e-9, replicate_close = 1e-4;
+
+TABLE_ROW(existence, EXISTENCE, double pressure, velocity; wt_estimate power, ratio, thickness;
+          double share; wt_estimate friction, with_layer, change;)
+TABLE_KEYS(existence, EXISTENCE, double pressure;
+           wt_estimate from_velocity, to_velocity, from_power, to_power;
+           double from_velocity_low, from_velocity_high, to_velocity_low, to_velocity_high,
+           from_power_low, from_power_high, to_power_low, to_power_high;
+           const char *words, *known, *errors, *moduli;)
+
+/* ---- at one velocity and pressure ------------------------------------------------------------ */
+
+enum { AT_POWER, AT_RATIO, AT_THICKNESS, AT_FRICTION, AT_WITH_LAYER, AT_CHANGE, N_AT };
+typedef struct existence_at {
+    double value[N_AT], numerical[N_AT];
+} existence_at;
+
+/* Power, R and thickness there, and the friction on bare rubber; friction NULL: not asked for. */
+static wt_status balance_at(const layer_scene *scene, layer_spot spot, wt_layer_balance *balance,
+                            layer_friction *friction, wt_error *err)
+{
+    layer_energy energy = {.source = {.n = 0}};
+    wt_layer_parameters p;
+    wt_status status = layer_look(scene, spot, &energy, &p, friction, err);
+    if (status != WT_OK)
+        return status;
+    p.balance_only = true;
+    p.without_errors = friction == NULL || scene->replicate != WT_NO_REPLICATE;
+    status = wt_layer_balance_compute(&energy.source, &p, balance, err);
+    layer_energy_clear(&energy);
+    return status;
+}
+
+static double known_error(const layer_friction *f)
+{
+    return isnan(f->total) ? f->hysteresis_error : f->total_error;
+}
+
+static wt_status add_layer(const layer_scene *scene, layer_spot spot, bool total, existence_at *at,
+                           wt_error *err)
+{
+    layer_friction with;
+    const double thickness = at->value[AT_THICKNESS], bare = at->value[AT_FRICTION];
+    spot.layer = layer_under(scene, thickness).layer;
+    const wt_status status = layer_friction_at(scene, spot, &with, err);
+    if (status != WT_OK)
+        return status;
+    at->value[AT_WITH_LAYER] = total ? with.total : with.hysteresis;
+    at->value[AT_CHANGE] = at->value[AT_WITH_LAYER] / bare - 1;
+    at->numerical[AT_WITH_LAYER] = known_error(&with);
+    at->numerical[AT_CHANGE] =
+        (at->numerical[AT_WITH_LAYER] +
+         at->numerical[AT_FRICTION] * fabs(at->value[AT_WITH_LAYER] / bare)) /
+        bare;
+    return WT_OK;
+}
+
+static wt_status look_at(const layer_scene *scene, layer_spot spot, existence_at *at, wt_error *err)
+{
+    wt_layer_balance b;
+    layer_friction f;
+    const wt_status status = balance_at(scene, spot, &b, &f, err);
+    if (status != WT_OK)
+        return status;
+    const double unknown = (double)NAN;
+    *at = (existence_at){
+        {b.surface_power, b.ratio, b.thickness.value, layer_friction_known(&f), unknown, unknown},
+        {unknown, fabs(b.ratio) * b.ratio_error, b.thickness.numerical_error, known_error(&f),
+         unknown, unknown}};
+    if (isnan(scene->modulus_ratio) || !isfinite(b.thickness.value))
+        return WT_OK;
+    return add_layer(scene, spot, !isnan(f.total), at, err);
+}
+
+/* ---- edges ----------------------------------------------------------------------------------- */
+
+enum { FROM, TO, ENDS };
+typedef struct edges {
+    const layer_scene *scene;
+    wt_status status; /* of a root */
+    wt_error *err;
+    double velocity[ENDS], power[ENDS]; /* first and last, NaN: beyond the list */
+    size_t n;
+    char words[256];
+} edges;
+
+static double log_ratio_at(double log_velocity, void *user)
+{
+    edges *e = user;
+    layer_spot spot = layer_here();
+    wt_layer_balance b = {.ratio = (double)NAN};
+    spot.velocity = exp(log_velocity);
+    if (e->status == WT_OK)
+        e->status = balance_at(e->scene, spot, &b, NULL, e->err);
+    return b.ratio > 0 ? log(b.ratio) : -HUGE_VAL;
+}
+
+/* The edge between two velocities, and the power there. */
+static void add_edge(edges *e, double low, double high, bool begins)
+{
+    double at;
+    const bool replicate = e->scene->replicate != WT_NO_REPLICATE;
+    const wt_status status = root_find(log_ratio_at, e, log(low), log(high),
+                                       replicate ? replicate_close : edge_close, &at, e->err);
+    e->status = e->status == WT_OK ? status : e->status;
+    layer_spot spot = layer_here();
+    wt_layer_balance b;
+    spot.velocity = exp(at);
+    if (e->status == WT_OK)
+        e->status = balance_at(e->scene, spot, &b, NULL, e->err);
+    if (e->status != WT_OK)
+        return;
+    const size_t used = strlen(e->words);
+    clocale_print(e->words + used, sizeof e->words - used, "%s%s %.4g m/s (%.4g W/m^2)",
+                  used > 0 ? ", " : "", begins ? "from" : "up to", spot.velocity, b.surface_power);
+    const size_t k = begins ? FROM : TO;
+    if (!begins || e->n == 0) {
+        e->velocity[k] = spot.velocity;
+        e->power[k] = b.surface_power;
+    }
+    if (begins) /* what ends before is not the last */
+        e->velocity[TO] = e->power[TO] = (double)NAN;
+    e->n++;
+}
+
+/* At the nominal pressure. */
+static edges find_edges(const layer_scene *scene, wt_error *err)
+{
+    const double unset = (double)NAN;
+    edges e = {.scene = scene, .err = err, .velocity = {unset, unset}, .power = {unset, unset}};
+    const wt_sliding *s = scene->sliding;
+    double before = log_ratio_at(log(s->velocity[0]), &e);
+    bool any = before > 0;
+    for (size_t i = 1; e.status == WT_OK && i < s->n_velocity; i++) {
+        const double now = log_ratio_at(log(s->velocity[i]), &e);
+        if ((now > 0) != (before > 0))
+            add_edge(&e, s->velocity[i - 1], s->velocity[i], now > 0);
+        any = any || now > 0;
+        before = now;
+    }
+    if (e.status == WT_OK && e.n == 0)
+        snprintf(e.words, sizeof e.words, "%s",
+                 any ? "at every velocity of the list" : "at no velocity of the list");
+    return e;
+}
+
+/* ---- by one set of values -------------------------------------------------------------------- */
+
+typedef struct existence_task {
+    layer_draws draws;
+    wt_sliding sliding; /* its velocities from the least on */
+    double *velocity;   /* [n_velocity] */
+    size_t blocks, n;   /* pressures, rows */
+    edges edges;
+    existence_at *at; /* [n] */
+    char known[400], errors[560];
+} existence_task;
+
+static layer_spot spot_of(const existence_task *task, size_t row)
+{
+    layer_spot spot = layer_here();
+    const wt_sliding *s = &task->sliding;
+    spot.velocity = s->velocity[row % s->n_velocity];
+    spot.pressure = s->n_pressures > 0 ? s->pressures[row / s->n_velocity] : s->pressure.value;
+    return spot;
+}
+
+static wt_status look_at_rows(const existence_task *task, const layer_scene *scene,
+                              existence_at *at, wt_error *err)
+{
+    wt_status status = WT_OK;
+    for (size_t i = 0; status == WT_OK && i < task->n; i++)
+        status = look_at(scene, spot_of(task, i), &at[i], err);
+    return status;
+}
+
+/* ---- replicates ------------------------------------------------------------------------------ */
+
+/* Numbers of a replicate; those of a row follow. Edges as logarithms. */
+enum { SOLVED, LN_VELOCITY, LN_POWER = LN_VELOCITY + ENDS, N_NUMBERS = LN_POWER + ENDS };
+
+/* A share of replicates without an edge that leaves the ends of an interval of 95 % where they
+ * are. */
+static const double most_lost = 0.025;
+
+static wt_status one_replicate(const void *user, size_t i, double *out, wt_error *err)
+{
+    const existence_task *task = user;
+    wt_layer_job job;
+    layer_scene scene;
+    edges found = {.status = WT_OK};
+    const size_t rows = i < LAYER_ROW_REPLICATES ? task->n : 0;
+    existence_at *at = malloc((task->n + 1) * sizeof *at);
+    wt_status status = at != NULL ? layer_draws_scene(&task->draws, i, &job, &scene, err)
+                                  : wt_fail(err, WT_E_MEMORY, "out of memory");
+    if (status == WT_OK) {
+        found = find_edges(&scene, err);
+        status = found.status;
+    }
+    if (status == WT_OK && rows > 0)
+        status = look_at_rows(task, &scene, at, err);
+    out[SOLVED] = 1;
+    for (size_t k = 0; k < ENDS; k++) {
+        out[LN_VELOCITY + k] = log(found.velocity[k]);
+        out[LN_POWER + k] = log(found.power[k]);
+    }
+    for (size_t k = 0; k < N_AT * task->n; k++)
+        out[N_NUMBERS + k] =
+            status == WT_OK && rows > 0 ? at[k / N_AT].value[k % N_AT] : (double)NAN;
+    free(at);
+    return status;
+}
+
+/* Of the first n replicates, as a share, those for which a number is above a limit; NaN without
+ * any. */
+static double share_above(const replicates *r, size_t n, size_t k, double limit)
+{
+    size_t solved = 0, above = 0;
+    for (size_t i = 0; i < n && i < r->n; i++) {
+        const double *const out = r->value + i * r->stride;
+        solved += out[SOLVED] > 0;
+        above += out[SOLVED] > 0 && out[k] > limit;
+    }
+    return solved > 0 ? (double)above / (double)solved : (double)NAN;
+}
+
+/* Of the replicates that have an edge, how many are too few for an interval; words of those that
+ * have none where the values have one, or the other way round. */
+static bool edge_known(existence_task *task, size_t end)
+{
+    const replicates *r = &task->draws.replicates;
+    const double with = share_above(r, r->n, LN_VELOCITY + end, -HUGE_VAL);
+    const bool there = !isnan(task->edges.velocity[end]);
+    const double lost = there ? 1 - with : with;
+    const size_t used = strlen(task->known);
+    if (!(lost > most_lost))
+        return true;
+    clocale_print(task->known + used, sizeof task->known - used,
+                  "%s: in %.3g %% of the replicates there is %s %s edge between the velocities of "
+                  "the list; more velocities, or smaller errors of what is drawn, would settle it",
+                  used > 0 ? "" : "cannot say", 100 * lost, there ? "no" : "a",
+                  end == FROM ? "first" : "last");
+    return false;
+}
+
+/* ---- the table ------------------------------------------------------------------------------- */
+
+static wt_estimate estimate_of(const existence_at *at, const double *error, size_t k)
+{
+    return (wt_estimate){at->value[k], error[k], at->numerical[k], NULL};
+}
+
+static void add_rows(const existence_task *task, table_writer *t)
+{
+    const replicates *r = &task->draws.replicates;
+    for (size_t i = 0; i < task->n; i++) {
+        const existence_at *at = &task->at[i];
+        const layer_spot spot = spot_of(task, i);
+        const size_t first = N_NUMBERS + N_AT * i;
+        const double *const e = r->error + first;
+        if (i % task->sliding.n_velocity == 0)
+            table_block(t);
+        TABLE_ADD(existence, t, spot.pressure, spot.velocity, estimate_of(at, e, AT_POWER),
+                  estimate_of(at, e, AT_RATIO), estimate_of(at, e, AT_THICKNESS),
+                  share_above(r, LAYER_ROW_REPLICATES, first + AT_RATIO, 1),
+                  estimate_of(at, e, AT_FRICTION), estimate_of(at, e, AT_WITH_LAYER),
+                  estimate_of(at, e, AT_CHANGE));
+    }
+}
+
+static wt_interval no_interval(double value)
+{
+    return (wt_interval){value, (double)NAN, (double)NAN, (double)NAN};
+}
+
+static wt_status make_table(existence_task *task, wt_table **table, wt_error *err)
+{
+    const replicates *r = &task->draws.replicates;
+    wt_interval velocity[ENDS], power[ENDS];
+    for (size_t k = 0; k < ENDS; k++) {
+        velocity[k] = layer_interval(&task->draws, LN_VELOCITY + k, task->edges.velocity[k]);
+        power[k] = layer_interval(&task->draws, LN_POWER + k, task->edges.power[k]);
+        if (!edge_known(task, k)) {
+            velocity[k] = no_interval(task->edges.velocity[k]);
+            power[k] = no_interval(task->edges.power[k]);
+        }
+    }
+    if (task->known[0] == '\0')
+        snprintf(task->known, sizeof task->known, "%s",
+                 r->n > 0 ? "yes: nearly all replicates have the same edges"
+                          : "not tested: no replicates are drawn");
+    layer_draws_say(&task->draws, task->errors, sizeof task->errors);
+    table_writer t = table_begin(&existence_schema, err);
+    add_rows(task, &t);
+    existence_keys keys = {.pressure = task->sliding.pressure.value,
+                           .from_velocity_low = velocity[FROM].low,
+                           .from_velocity_high = velocity[FROM].high,
+                           .to_velocity_low = velocity[TO].low,
+                           .to_velocity_high = velocity[TO].high,
+                           .from_power_low = power[FROM].low,
+                           .from_power_high = power[FROM].high,
+                           .to_power_low = power[TO].low,
+                           .to_power_high = power[TO].high,
+                           .words = task->edges.words,
+                           .known = task->known,
+                           .errors = task->errors,
+                           .moduli = task->draws.moduli};
+    wt_estimate *const ends[] = {&keys.from_velocity, &keys.to_velocity, &keys.from_power,
+                                 &keys.to_power};
+    const wt_interval *const of[] = {&velocity[FROM], &velocity[TO], &power[FROM], &power[TO]};
+    for (size_t k = 0; k < 2 * ENDS; k++) {
+        *ends[k] = layer_alone(of[k]->value);
+        ends[k]->standard_error = of[k]->standard_error;
+    }
+    existence_set_keys(&t, &keys);
+    return table_end(&t, table);
+}
+
+/* The same with its velocities from the least on, between which edges are looked for. */
+static wt_status order_velocities(existence_task *task, const wt_sliding *sliding, wt_error *err)
+{
+    const size_t n = sliding->n_velocity;
+    task->blocks = sliding->n_pressures > 0 ? sliding->n_pressures : 1;
+    task->n = n * task->blocks;
+    task->velocity = malloc((n + 1) * sizeof *task->velocity);
+    task->at = malloc((task->n + 1) * sizeof *task->at);
+    if (task->velocity == NULL || task->at == NULL)
+        return wt_fail(err, WT_E_MEMORY, "out of memory");
+    memcpy(task->velocity, sliding->velocity, n * sizeof *task->velocity);
+    numbers_sort(task->velocity, n);
+    task->sliding = *sliding;
+    task->sliding.velocity = task->velocity;
+    return WT_OK;
+}
+
+wt_status wt_existence_make(const wt_sliding *sliding, const wt_layer_job *job,
+                            const wt_layer_known *known, const wt_job *work, wt_table **table,
+                            wt_error *err)
+{
+    if (sliding == NULL || job == NULL || work == NULL || table == NULL)
+        return wt_fail(err, WT_E_ARG, "no existence of a layer to make");
+    existence_task task = {.n = 0};
+    wt_status status = order_velocities(&task, sliding, err);
+    if (status == WT_OK)
+        status =
+            layer_draws_open(&task.draws, &task.sliding, job, known, work, "existence", true, err);
+    if (status == WT_OK) {
+        task.edges = find_edges(&task.draws.values, err);
+        status = task.edges.status;
+    }
+    if (status == WT_OK)
+        status = look_at_rows(&task, &task.draws.values, task.at, err);
+    if (status == WT_OK)
+        status = replicates_draw(&task.draws.replicates, N_NUMBERS + N_AT * task.n, one_replicate,
+                                 &task, err);
+    if (status == WT_OK)
+        status = make_table(&task, table, err);
+    cost_say(work, (cost_summary){.items = (double)(task.blocks * (1 + task.draws.replicates.n)),
+                                  .tolerance_asked = work->tolerance});
+    layer_draws_clear(&task.draws);
+    free(task.velocity);
+    free(task.at);
+    return status;
+}

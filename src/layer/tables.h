@@ -1,0 +1,151 @@
+/* The columns and keys of what a layer is beyond its thickness at constant load: bands, running-in,
+ * a layer that acts back, where there is one. Included by tables.h alone. SPDX-License-Identifier:
+ * GPL-3.0-or-later */
+#ifndef WT_LAYER_TABLES_H
+#define WT_LAYER_TABLES_H
+
+#define LAYER_BANDS_COLUMNS(X)                                                                     \
+    X(LAYER_BANDS_TIME, AS(time), "time since the start", SI(TIME))                                \
+    X(LAYER_BANDS_LOAD, AS(load), "load that lasts then, from 1 on", NUMBER)                       \
+    X(LAYER_BANDS_WORN, AS(worn), "depth worn off until then", SI(LENGTH))                         \
+    X(LAYER_BANDS_BAND, AS(band), "band, the deepest is 1; 0: nothing is modified", NUMBER)        \
+    COLUMN_AND_NEW_ERRORS(X, LAYER_BANDS_UPPER, "upper",                                           \
+                          "depth of its upper edge; 0: the surface", SI(LENGTH), SHOWS(upper))     \
+    COLUMN_AND_NEW_ERRORS(X, LAYER_BANDS_LOWER, "lower", "depth of its lower edge", SI(LENGTH),    \
+                          SHOWS(lower))                                                            \
+    X(LAYER_BANDS_SHARE, AS(share),                                                                \
+      "share of the replicates with as many bands then, of which the errors are", NUMBER,          \
+      OPTIONAL)
+#define LAYER_BANDS_KEYS(X)                                                                        \
+    X(LAYER_BANDS_KEY_LOADS, AS(loads), TEXT, LABEL("Loads"))                                      \
+    X(LAYER_BANDS_KEY_EVENTS, AS(events), TEXT, LABEL("How the modified rubber comes about"),      \
+      OPTIONAL)                                                                                    \
+    X(LAYER_BANDS_KEY_METHOD, AS(method), TEXT, LABEL("By"))                                       \
+    X(LAYER_BANDS_KEY_FIRST, "first_appearance", SI(TIME), SHOWS(first),                           \
+      LABEL("Time at which rubber is first modified"), OPTIONAL)                                   \
+    X(LAYER_BANDS_KEY_FIRST_LOW, "first_appearance_low", SI(TIME), SHOWS(first_low),               \
+      LABEL("Its 95 % interval from"), OPTIONAL)                                                   \
+    X(LAYER_BANDS_KEY_FIRST_HIGH, "first_appearance_high", SI(TIME), SHOWS(first_high),            \
+      LABEL("to"), OPTIONAL)                                                                       \
+    X(LAYER_BANDS_KEY_KNOWN, "first_appearance_known", TEXT, SHOWS(known),                         \
+      LABEL("Whether it is known within the errors"), OPTIONAL)                                    \
+    X(LAYER_BANDS_KEY_THICKNESS, "last_thickness", SI(LENGTH), SHOWS(thickness),                   \
+      LABEL("Depth of the modified rubber at the last time"), OPTIONAL)                            \
+    X(LAYER_BANDS_KEY_ERRORS, AS(errors), TEXT, LABEL("Standard errors include"), OPTIONAL)
+
+#define RUNNING_IN_COLUMNS(X)                                                                      \
+    X(RUNNING_IN_TIME, AS(time), "time since the start", SI(TIME))                                 \
+    COLUMN_AND_NEW_ERRORS(X, RUNNING_IN_THICKNESS, "thickness", "thickness of the modified layer", \
+                          SI(LENGTH), SHOWS(thickness))                                            \
+    COLUMN_AND_NEW_ERRORS(X, RUNNING_IN_HYSTERESIS, "hysteresis",                                  \
+                          "hysteresis friction with this layer", NUMBER, SHOWS(hysteresis))        \
+    COLUMN_AND_NEW_ERRORS(X, RUNNING_IN_AREA_RATIO, "area_ratio",                                  \
+                          "real over nominal contact area with it", NUMBER, SHOWS(area_ratio))     \
+    COLUMN_AND_NEW_ERROR(X, RUNNING_IN_SHEAR_STRESS, "shear_stress",                               \
+                         "shear stress of the real contact with it", SI(PRESSURE),                 \
+                         SHOWS(shear_stress))                                                      \
+    COLUMN_AND_NEW_ERRORS(X, RUNNING_IN_FRICTION, "friction",                                      \
+                          "friction coefficient; without a shear stress nan", NUMBER,              \
+                          SHOWS(friction))
+#define RUNNING_IN_KEYS(X)                                                                         \
+    X(RUNNING_IN_KEY_VELOCITY, AS(velocity), SI(VELOCITY), LABEL("Velocity"))                      \
+    X(RUNNING_IN_KEY_MODULUS_RATIO, AS(modulus_ratio), NUMBER,                                     \
+      LABEL("Modulus of the layer over that of the bulk"), OPTIONAL)                               \
+    X(RUNNING_IN_KEY_BARE, "bare_friction", NUMBER, SHOWS(bare),                                   \
+      LABEL("Friction coefficient at the start"))                                                  \
+    X(RUNNING_IN_KEY_BALANCE, "balance_friction", NUMBER, SHOWS(balance),                          \
+      LABEL("Friction coefficient at balance"))                                                    \
+    X(RUNNING_IN_KEY_THICKNESS, "balance_thickness", SI(LENGTH), SHOWS(thickness),                 \
+      LABEL("Layer thickness at balance"))                                                         \
+    X(RUNNING_IN_KEY_SETTLED, AS(settled), SI(TIME),                                               \
+      LABEL("Time after which 5 % of the change of friction are left"))                            \
+    X(RUNNING_IN_KEY_SETTLED_LOW, AS(settled_low), SI(TIME), LABEL("Its 95 % interval from"),      \
+      OPTIONAL)                                                                                    \
+    X(RUNNING_IN_KEY_SETTLED_HIGH, AS(settled_high), SI(TIME), LABEL("to"), OPTIONAL)              \
+    X(RUNNING_IN_KEY_KNOWN, "settled_known", TEXT, SHOWS(known),                                   \
+      LABEL("Whether it is known within the errors"), OPTIONAL)                                    \
+    X(RUNNING_IN_KEY_SHEAR, AS(shear), TEXT, LABEL("Shear stress of the layer"))                   \
+    X(RUNNING_IN_KEY_BACK, AS(back), TEXT, LABEL("Layer and energy"))                              \
+    X(RUNNING_IN_KEY_ERRORS, AS(errors), TEXT, LABEL("Standard errors include"))                   \
+    X(RUNNING_IN_KEY_MODULI, "layer_moduli", TEXT, SHOWS(moduli), LABEL("Moduli of the layer"),    \
+      OPTIONAL)
+
+#define LAYER_BALANCES_COLUMNS(X)                                                                  \
+    X(LAYER_BALANCES_KIND, AS(kind),                                                               \
+      "balance, or fold: where two balances meet as the specific wear rate changes", TEXT)         \
+    COLUMN_AND_NEW_ERRORS(X, LAYER_BALANCES_THICKNESS, "thickness",                                \
+                          "thickness of the modified layer", SI(LENGTH), SHOWS(thickness))         \
+    X(LAYER_BALANCES_STABLE, AS(stable),                                                           \
+      "stable or unstable; of a fold above or below: where the pair is gone", TEXT)                \
+    COLUMN_AND_NEW_ERROR(                                                                          \
+        X, LAYER_BALANCES_MAP_SLOPE, "map_slope",                                                  \
+        "change of the balance thickness with that of the layer that the energy sees", NUMBER,     \
+        SHOWS(map_slope))                                                                          \
+    COLUMN_AND_NEW_ERROR(X, LAYER_BALANCES_EIGENVALUE, "eigenvalue",                               \
+                         "rate at which a deviation grows", SI(RATE), SHOWS(eigenvalue))           \
+    COLUMN_AND_NEW_ERROR(X, LAYER_BALANCES_WEAR_RATE, "wear_rate", "specific wear rate",           \
+                         SI(WEAR_RATE), SHOWS(wear_rate))                                          \
+    COLUMN_AND_NEW_ERRORS(X, LAYER_BALANCES_HYSTERESIS, "hysteresis",                              \
+                          "hysteresis friction with this layer", NUMBER, SHOWS(hysteresis))        \
+    COLUMN_AND_NEW_ERRORS(X, LAYER_BALANCES_AREA_RATIO, "area_ratio",                              \
+                          "real over nominal contact area with it", NUMBER, SHOWS(area_ratio))     \
+    COLUMN_AND_NEW_ERRORS(X, LAYER_BALANCES_FRICTION, "friction",                                  \
+                          "friction coefficient; without a shear stress nan", NUMBER,              \
+                          SHOWS(friction))
+#define LAYER_BALANCES_KEYS(X)                                                                     \
+    X(LAYER_BALANCES_KEY_ONE_WAY, "one_way_thickness", SI(LENGTH), SHOWS(one_way),                 \
+      LABEL("Balance if the layer did not act back"))                                              \
+    X(LAYER_BALANCES_KEY_RATIO, "bare_formation_wear_ratio", NUMBER, SHOWS(ratio),                 \
+      LABEL("Formation over wear on a bare surface, R"))                                           \
+    X(LAYER_BALANCES_KEY_MODULUS_RATIO, AS(modulus_ratio), NUMBER, LABEL("Modulus ratio"),         \
+      OPTIONAL)                                                                                    \
+    X(LAYER_BALANCES_KEY_LOW, AS(low), SI(LENGTH), LABEL("Looked for from"))                       \
+    X(LAYER_BALANCES_KEY_HIGH, AS(high), SI(LENGTH), LABEL("Looked for up to"))                    \
+    X(LAYER_BALANCES_KEY_WORDS, AS(words), TEXT, LABEL("A layer that acts back on its energy"))    \
+    X(LAYER_BALANCES_KEY_AGREEMENT, AS(agreement), TEXT,                                           \
+      LABEL("Whether their number is known within the errors"), OPTIONAL)                          \
+    X(LAYER_BALANCES_KEY_ERRORS, AS(errors), TEXT, LABEL("Standard errors include"), OPTIONAL)     \
+    X(LAYER_BALANCES_KEY_MODULI, "layer_moduli", TEXT, SHOWS(moduli),                              \
+      LABEL("Moduli of the layer"), OPTIONAL)
+
+#define EXISTENCE_COLUMNS(X)                                                                       \
+    X(EXISTENCE_PRESSURE, AS(pressure), "nominal pressure", SI(PRESSURE))                          \
+    X(EXISTENCE_VELOCITY, AS(velocity), "sliding velocity", SI(VELOCITY))                          \
+    COLUMN_AND_NEW_ERROR(X, EXISTENCE_POWER, "power", "power per area that modifies the rubber",   \
+                         UNIT("W/m^2"), SHOWS(power))                                              \
+    COLUMN_AND_NEW_ERRORS(X, EXISTENCE_RATIO, "ratio",                                             \
+                          "formation rate over wear rate, R; no layer at 1 and below", NUMBER,     \
+                          SHOWS(ratio))                                                            \
+    COLUMN_AND_NEW_ERRORS(X, EXISTENCE_THICKNESS, "thickness",                                     \
+                          "thickness of the layer at balance", SI(LENGTH), SHOWS(thickness))       \
+    X(EXISTENCE_SHARE, AS(share), "share of the replicates that have a layer", NUMBER, OPTIONAL)   \
+    COLUMN_AND_NEW_ERRORS(                                                                         \
+        X, EXISTENCE_FRICTION, "friction",                                                         \
+        "friction without a layer: total, or hysteresis where no shear stress is known", NUMBER,   \
+        SHOWS(friction))                                                                           \
+    COLUMN_AND_NEW_ERRORS(X, EXISTENCE_WITH_LAYER, "with_layer", "the same with this layer",       \
+                          NUMBER, SHOWS(with_layer))                                               \
+    COLUMN_AND_NEW_ERRORS(X, EXISTENCE_CHANGE, "change",                                           \
+                          "relative change of friction by the layer", NUMBER, SHOWS(change))
+#define EXISTENCE_ENDS(X, ID, name, unit)                                                          \
+    X(ID##_LOW, AS(name##_low), unit, LABEL("Its 95 % interval from"), OPTIONAL)                   \
+    X(ID##_HIGH, AS(name##_high), unit, LABEL("to"), OPTIONAL)
+#define EXISTENCE_KEYS(X)                                                                          \
+    X(EXISTENCE_KEY_PRESSURE, AS(pressure), SI(PRESSURE), LABEL("Nominal pressure"))               \
+    X(EXISTENCE_KEY_FROM_VELOCITY, AS(from_velocity), SI(VELOCITY),                                \
+      LABEL("There is a layer from the velocity"))                                                 \
+    EXISTENCE_ENDS(X, EXISTENCE_KEY_FROM_VELOCITY, from_velocity, SI(VELOCITY))                    \
+    X(EXISTENCE_KEY_TO_VELOCITY, AS(to_velocity), SI(VELOCITY), LABEL("up to the velocity"))       \
+    EXISTENCE_ENDS(X, EXISTENCE_KEY_TO_VELOCITY, to_velocity, SI(VELOCITY))                        \
+    X(EXISTENCE_KEY_FROM_POWER, AS(from_power), UNIT("W/m^2"), LABEL("That is from the power"))    \
+    EXISTENCE_ENDS(X, EXISTENCE_KEY_FROM_POWER, from_power, UNIT("W/m^2"))                         \
+    X(EXISTENCE_KEY_TO_POWER, AS(to_power), UNIT("W/m^2"), LABEL("up to the power"))               \
+    EXISTENCE_ENDS(X, EXISTENCE_KEY_TO_POWER, to_power, UNIT("W/m^2"))                             \
+    X(EXISTENCE_KEY_WORDS, AS(words), TEXT, LABEL("Where a layer exists"))                         \
+    X(EXISTENCE_KEY_KNOWN, AS(known), TEXT,                                                        \
+      LABEL("Whether the edges are known within the errors"), OPTIONAL)                            \
+    X(EXISTENCE_KEY_ERRORS, AS(errors), TEXT, LABEL("Standard errors include"), OPTIONAL)          \
+    X(EXISTENCE_KEY_MODULI, "layer_moduli", TEXT, SHOWS(moduli), LABEL("Moduli of the layer"),     \
+      OPTIONAL)
+
+#endif

@@ -1,0 +1,453 @@
+/* ZIP archives with every size checked before it is believed. Layout: APPNOTE.TXT of the ZIP
+ * format, sections 4.3 and 4.5.3. Maps have half a million entries, so an entry takes no more here
+ * than its name and where it is.
+ *
+ * SPDX-License-Identifier: GPL-3.0-or-later
+ */
+#include "read/bytes/zip.h"
+
+#include "core/math/splitmix64.h"
+#include "read/bytes/bytes.h"
+
+#include <libdeflate.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/random.h>
+
+/* Deflate cannot pack more tightly than 1032 : 1 (zlib, "Maximum compression factor"); the rest
+ * allows for entries of a few bytes. */
+#define MAX_RATIO 1032u
+#define RATIO_SLACK 64u
+
+#define LOCAL_SIZE ((size_t)30)
+#define CENTRAL_SIZE ((size_t)46)
+#define END_SIZE ((size_t)22)
+#define LOCATOR64_SIZE ((size_t)20)
+#define END64_SIZE ((size_t)56)
+#define COMMENT_MAX ((size_t)65535)
+/* Bytes of all names. */
+#define NAMES_MAX ((1u << 30) - 1)
+/* The directory is read in such pieces; a record of it is no longer. */
+#define PIECE ((size_t)256 * 1024)
+#define FLAG_ENCRYPTED 1u
+
+enum archive_packing { STORED, DEFLATED, ENCRYPTED, UNKNOWN };
+
+struct zip_entry {
+    uint64_t offset;                 /* of the local header */
+    uint32_t packed, size, sum;      /* size UINT32_MAX: too large to be read */
+    unsigned name : 30, packing : 2; /* in names; archive_packing */
+};
+
+/* Where the directory stands. */
+typedef struct directory {
+    wt_input *input;
+    uint64_t offset, size, n;
+    bool wide; /* n counts all records; else it has 16 bits, which some programs let run over */
+} directory;
+
+static wt_status damaged(wt_error *err, const char *found)
+{
+    (void)wt_fail(err, WT_E_CORRUPT, "the ZIP archive cannot be opened");
+    wt_error_found(err, "%s", found);
+    wt_error_advice(err, "copy the file again from the instrument");
+    return WT_E_CORRUPT;
+}
+
+/* ---- the directory ------------------------------------------------------------------------ */
+
+/* The record at the end of a large archive; *d is left alone if there is none. */
+static wt_status find_end64(const zip_archive *a, size_t end, directory *d, wt_error *err)
+{
+    unsigned char record[END64_SIZE];
+    if (end < LOCATOR64_SIZE)
+        return WT_OK;
+    wt_status status = wt_input_at(a->input, end - LOCATOR64_SIZE, record, LOCATOR64_SIZE, err);
+    if (status != WT_OK || le32(record) != 0x07064b50)
+        return status;
+    const uint64_t at = le64(record + 8);
+    if (at > end - LOCATOR64_SIZE || end - LOCATOR64_SIZE - at < END64_SIZE)
+        return damaged(err, "a directory outside of the file");
+    status = wt_input_at(a->input, (size_t)at, record, END64_SIZE, err);
+    if (status == WT_OK && le32(record) != 0x06064b50)
+        return damaged(err, "no end of the directory");
+    d->n = le64(record + 32);
+    d->size = le64(record + 40);
+    d->offset = le64(record + 48);
+    d->wide = true;
+    return status;
+}
+
+/* WT_E_CORRUPT if there is no directory in the file: it may have been cut off. Bytes behind its
+ * end, which a copy by blocks leaves, are nothing. */
+static wt_status find_directory(zip_archive *a, directory *d, wt_error *err)
+{
+    const size_t length = a->length;
+    const size_t n = length < END_SIZE + COMMENT_MAX ? length : END_SIZE + COMMENT_MAX;
+    unsigned char *const last = malloc(n + 1);
+    if (last == NULL)
+        return wt_fail(err, WT_E_MEMORY, "no memory for the archive");
+    wt_status status = wt_input_at(a->input, length - n, last, n, err);
+    size_t at = n < END_SIZE ? 0 : n - END_SIZE + 1;
+    while (status == WT_OK && at > 0 &&
+           (le32(last + at - 1) != 0x06054b50 || le16(last + at + 19) > n - (at - 1) - END_SIZE))
+        at--;
+    if (status == WT_OK && at == 0) {
+        a->odd = "the end of the archive is missing";
+        status = damaged(err, "no directory at its end");
+    } else if (status == WT_OK) {
+        const unsigned char *const end = last + at - 1;
+        *d = (directory){a->input, le32(end + 16), le32(end + 12), le16(end + 10), false};
+        if (d->n == UINT16_MAX || d->size == UINT32_MAX || d->offset == UINT32_MAX)
+            status = find_end64(a, length - n + at - 1, d, err);
+    }
+    free(last);
+    if (status == WT_OK &&
+        (d->offset > length || d->size > length - d->offset || d->n > d->size / CENTRAL_SIZE ||
+         d->size / CENTRAL_SIZE > UINT32_MAX / 2))
+        return damaged(err, "a directory outside of the file");
+    return status;
+}
+
+/* Sizes and offsets that 32 bits do not hold stand in an extra field, those of them alone. */
+static bool read_extra(const unsigned char *extra, size_t length, uint64_t *size, uint64_t *packed,
+                       uint64_t *offset)
+{
+    uint64_t *const wide[] = {size, packed, offset};
+    for (size_t at = 0; at + 4 <= length;) {
+        const size_t n = le16(extra + at + 2);
+        if (n > length - at - 4)
+            return false;
+        size_t used = 0;
+        for (size_t i = 0; le16(extra + at) == 1 && i < 3; i++) {
+            if (*wide[i] != UINT32_MAX)
+                continue;
+            if (n - used < sizeof(uint64_t))
+                return false;
+            *wide[i] = le64(extra + at + 4 + used);
+            used += sizeof(uint64_t);
+        }
+        at += 4 + n;
+    }
+    return true;
+}
+
+static wt_status take_name(zip_archive *a, const unsigned char *name, size_t length, wt_error *err)
+{
+    /* A name ends with its first zero, as it would for anybody who uses it. */
+    const size_t n = strnlen((const char *)name, length);
+    if (a->names_length + n + 1 > a->names_room) {
+        const size_t room = 2 * a->names_room + n + 4096;
+        char *const names = room < NAMES_MAX ? realloc(a->names, room) : NULL;
+        if (names == NULL)
+            return wt_fail(err, WT_E_MEMORY, "no memory for the archive");
+        a->names = names;
+        a->names_room = room;
+    }
+    memcpy(a->names + a->names_length, name, n);
+    a->names[a->names_length + n] = '\0';
+    a->names_length += n + 1;
+    return WT_OK;
+}
+
+static unsigned packing_of(unsigned flags, unsigned method)
+{
+    return (flags & FLAG_ENCRYPTED) != 0 ? ENCRYPTED
+           : method == 0                 ? STORED
+           : method == 8                 ? DEFLATED
+                                         : UNKNOWN;
+}
+
+static wt_status take_record(zip_archive *a, const unsigned char *r, size_t name, size_t extra,
+                             wt_error *err)
+{
+    uint64_t size = le32(r + 24), packed = le32(r + 20), offset = le32(r + 42);
+    if (!read_extra(r + CENTRAL_SIZE + name, extra, &size, &packed, &offset) || offset > a->length)
+        return damaged(err, "an entry outside of the file");
+    if (size > UINT32_MAX || packed > UINT32_MAX)
+        size = packed = UINT32_MAX;
+    a->entries[a->n] = (zip_entry){.offset = offset,
+                                   .packed = (uint32_t)packed,
+                                   .size = (uint32_t)size,
+                                   .sum = le32(r + 16),
+                                   .name = (unsigned)a->names_length & NAMES_MAX,
+                                   .packing = packing_of(le16(r + 8), le16(r + 10)) & 3u};
+    const wt_status status = take_name(a, r + CENTRAL_SIZE, name, err);
+    a->n += status == WT_OK;
+    return status;
+}
+
+/* Whether the records that were read are as many as the directory says. */
+static bool all_read(const zip_archive *a, const directory *d)
+{
+    return d->wide ? a->n == d->n : a->n % (UINT16_MAX + 1) == d->n;
+}
+
+/* Reads on to the end of the directory, whatever it says of their number. */
+static wt_status read_directory(zip_archive *a, const directory *d, wt_error *err)
+{
+    wt_status status = WT_OK;
+    uint64_t at = 0;
+    bool ended = false;
+    unsigned char *const piece = malloc(PIECE);
+    a->entries = calloc((size_t)(d->size / CENTRAL_SIZE) + 1, sizeof *a->entries);
+    if (piece == NULL || a->entries == NULL)
+        status = wt_fail(err, WT_E_MEMORY, "no memory for the archive");
+    for (size_t n = 0, used = 0; status == WT_OK && !ended;) {
+        const unsigned char *const r = piece + used;
+        const size_t left = n - used;
+        const size_t name = left >= CENTRAL_SIZE ? le16(r + 28) : 0;
+        const size_t extra = left >= CENTRAL_SIZE ? le16(r + 30) : 0;
+        const size_t whole =
+            CENTRAL_SIZE + name + extra + (left >= CENTRAL_SIZE ? le16(r + 32) : 0);
+        if (left < whole && at + n == d->size) {
+            ended = true;
+        } else if (left < whole) {
+            at += used;
+            n = d->size - at < PIECE ? (size_t)(d->size - at) : PIECE;
+            used = 0;
+            status = wt_input_at(d->input, (size_t)(d->offset + at), piece, n, err);
+        } else if (le32(r) != 0x02014b50) {
+            ended = true; /* a signature may stand behind the records */
+        } else {
+            status = take_record(a, r, name, extra, err);
+            used += whole;
+        }
+    }
+    free(piece);
+    if (status == WT_OK && !all_read(a, d))
+        return damaged(err, "a directory that is damaged or cut off");
+    return status;
+}
+
+/* The complete entries of an archive whose end is missing. */
+static wt_status rebuild(zip_archive *a, wt_error *err)
+{
+    const unsigned char *bytes = NULL;
+    unsigned char *made = NULL;
+    size_t length = 0;
+    directory d = {.wide = true};
+    wt_error ignored = WT_ERROR_INIT;
+    wt_status status = wt_input_bytes(a->input, &bytes, &length, err);
+    if (status == WT_OK)
+        status = archive_rebuild(bytes, length, &made, &d.size, &d.n, err);
+    if (status == WT_OK && d.n == 0)
+        status = WT_E_CORRUPT; /* that there is no directory has been said */
+    if (status == WT_OK)
+        status = wt_input_open_memory(made, d.size, "directory", &d.input, &ignored);
+    if (status == WT_OK)
+        status = read_directory(a, &d, err);
+    wt_input_close(d.input);
+    free(made);
+    return status;
+}
+
+/* ---- names --------------------------------------------------------------------------------- */
+
+const char *archive_name(const zip_archive *archive, size_t i)
+{
+    return archive->names + archive->entries[i].name;
+}
+
+/* The place of a name, or the free one where it belongs. */
+static size_t place_of(const zip_archive *a, const char *name)
+{
+    uint64_t hash = a->seed, word;
+    for (size_t n = strlen(name), i = 0; i < n; i += sizeof word) {
+        word = 0;
+        memcpy(&word, name + i, n - i < sizeof word ? n - i : sizeof word);
+        hash = mix64(hash ^ word);
+    }
+    size_t at = (size_t)hash & (a->n_places - 1);
+    while (a->places[at] != 0 && strcmp(archive_name(a, a->places[at] - 1), name) != 0)
+        at = (at + 1) & (a->n_places - 1);
+    return at;
+}
+
+static wt_status place_names(zip_archive *a, wt_error *err)
+{
+    /* Not to be foreseen: names that were made to fall on one place would cost their square. */
+    if (getrandom(&a->seed, sizeof a->seed, GRND_NONBLOCK) != (ssize_t)sizeof a->seed)
+        a->seed = (uint64_t)(uintptr_t)a;
+    a->n_places = 16;
+    while (a->n_places < 2 * a->n)
+        a->n_places *= 2;
+    a->places = calloc(a->n_places, sizeof *a->places);
+    if (a->places == NULL)
+        return wt_fail(err, WT_E_MEMORY, "no memory for the names of the archive");
+    for (size_t k = 0; k < a->n; k++) {
+        const size_t at = place_of(a, archive_name(a, k));
+        if (a->places[at] == 0)
+            a->places[at] = (uint32_t)k + 1; /* the first of equal names */
+    }
+    return WT_OK;
+}
+
+bool archive_find(const zip_archive *archive, const char *name, size_t *i)
+{
+    const size_t at = place_of(archive, name);
+    if (archive->places[at] == 0)
+        return false;
+    *i = archive->places[at] - 1;
+    return true;
+}
+
+/* ---- opening ------------------------------------------------------------------------------ */
+
+wt_status archive_open(wt_input *input, zip_archive **archive, wt_error *err)
+{
+    directory d;
+    zip_archive *const a = calloc(1, sizeof *a);
+    if (a == NULL)
+        return wt_fail(err, WT_E_MEMORY, "no memory for the archive");
+    a->input = input;
+    wt_status status = window_open(&a->window, input, err);
+    a->length = a->window.size;
+    if (status == WT_OK)
+        status = find_directory(a, &d, err);
+    if (status == WT_OK)
+        status = read_directory(a, &d, err);
+    if (status == WT_E_CORRUPT) {
+        if (a->odd == NULL)
+            a->odd = "the directory of the archive is damaged";
+        a->n = a->names_length = 0;
+        free(a->entries);
+        a->entries = NULL;
+        status = rebuild(a, err);
+    }
+    if (status == WT_OK && a->n == 0)
+        status = wt_fail(err, WT_E_CORRUPT, "the ZIP archive is empty");
+    if (status == WT_OK)
+        status = place_names(a, err);
+    if (status == WT_OK)
+        *archive = a;
+    else
+        archive_close(a);
+    return status;
+}
+
+void archive_close(zip_archive *archive)
+{
+    if (archive == NULL)
+        return;
+    libdeflate_free_decompressor(archive->unpacker);
+    window_close(&archive->window);
+    free(archive->entries);
+    free(archive->names);
+    free(archive->places);
+    free(archive);
+}
+
+/* ---- entries ------------------------------------------------------------------------------ */
+
+static wt_status entry_fail(const zip_archive *archive, size_t i, wt_error *err, wt_status status,
+                            const char *message)
+{
+    wt_fail(err, status, "%s", message);
+    wt_error_place(err, "%s", archive_name(archive, i));
+    return status;
+}
+
+wt_status archive_size(const zip_archive *archive, size_t i, size_t *size, wt_error *err)
+{
+    const zip_entry *const e = &archive->entries[i];
+    if (e->packing == ENCRYPTED)
+        return entry_fail(archive, i, err, WT_E_UNSUPPORTED, "archive entry is encrypted");
+    if (e->packing == UNKNOWN)
+        return entry_fail(archive, i, err, WT_E_UNSUPPORTED,
+                          "archive entry is packed by another method than deflate");
+    if (e->size == UINT32_MAX)
+        return entry_fail(archive, i, err, WT_E_UNSUPPORTED, "archive entry has 4 GiB or more");
+    if (e->size > (uint64_t)e->packed * MAX_RATIO + RATIO_SLACK) {
+        entry_fail(archive, i, err, WT_E_CORRUPT, "archive entry declares an impossible size");
+        wt_error_found(err, "%u bytes out of %u", (unsigned)e->size, (unsigned)e->packed);
+        return WT_E_CORRUPT;
+    }
+    *size = e->size;
+    return WT_OK;
+}
+
+static bool make_room(byte_buffer *buffer, size_t size)
+{
+    if (size <= buffer->capacity)
+        return true;
+    unsigned char *const grown = realloc(buffer->data, size);
+    if (grown == NULL)
+        return false;
+    buffer->data = grown;
+    buffer->capacity = size;
+    return true;
+}
+
+/* Gets the bytes as they stand in the file, as many as the directory says; until the next call. */
+static wt_status read_packed(zip_archive *a, size_t i, const unsigned char **packed, wt_error *err)
+{
+    const zip_entry *const e = &a->entries[i];
+    const size_t offset = (size_t)e->offset, left = a->length - offset;
+    const size_t whole = LOCAL_SIZE + strlen(archive_name(a, i)) + e->packed; /* or a little more */
+    if (left < LOCAL_SIZE)
+        return entry_fail(a, i, err, WT_E_CORRUPT, "archive entry lies outside of the file");
+    wt_status status = window_bytes(&a->window, offset, whole < left ? whole : left, packed, err);
+    if (status != WT_OK)
+        return status;
+    if (le32(*packed) != 0x04034b50)
+        return entry_fail(a, i, err, WT_E_CORRUPT, "archive entry cannot be opened");
+    const size_t start = LOCAL_SIZE + (size_t)le16(*packed + 26) + (size_t)le16(*packed + 28);
+    if (start > left || e->packed > left - start)
+        return entry_fail(a, i, err, WT_E_CORRUPT, "archive entry lies outside of the file");
+    return window_bytes(&a->window, offset + start, e->packed, packed, err);
+}
+
+static wt_status unpack(zip_archive *a, size_t i, const unsigned char *packed, byte_buffer *buffer,
+                        wt_error *err)
+{
+    const zip_entry *const e = &a->entries[i];
+    if (a->unpacker == NULL && (a->unpacker = libdeflate_alloc_decompressor()) == NULL)
+        return entry_fail(a, i, err, WT_E_MEMORY, "no memory for an archive entry");
+    switch (libdeflate_deflate_decompress(a->unpacker, packed, e->packed, buffer->data, e->size,
+                                          NULL)) {
+    case LIBDEFLATE_SUCCESS:
+        return WT_OK;
+    case LIBDEFLATE_SHORT_OUTPUT:
+    case LIBDEFLATE_INSUFFICIENT_SPACE:
+        return entry_fail(a, i, err, WT_E_CORRUPT,
+                          "archive entry is not of the size that it declares");
+    case LIBDEFLATE_BAD_DATA:
+        break;
+    }
+    return entry_fail(a, i, err, WT_E_CORRUPT, "archive entry cannot be unpacked");
+}
+
+wt_status archive_read(zip_archive *archive, size_t i, size_t limit, byte_buffer *buffer,
+                       wt_error *err)
+{
+    size_t size = 0;
+    const unsigned char *packed = NULL;
+    const zip_entry *const e = &archive->entries[i];
+    wt_status status = archive_size(archive, i, &size, err);
+    if (status != WT_OK)
+        return status;
+    if (size > limit) {
+        entry_fail(archive, i, err, WT_E_CORRUPT, "archive entry is too large for what it is");
+        wt_error_expected(err, "at most %zu bytes", limit);
+        wt_error_found(err, "%zu bytes", size);
+        return WT_E_CORRUPT;
+    }
+    if (e->packing == STORED && e->packed != e->size)
+        return entry_fail(archive, i, err, WT_E_CORRUPT,
+                          "archive entry is not of the size that it declares");
+    if (!make_room(buffer, size + 1))
+        return entry_fail(archive, i, err, WT_E_MEMORY, "no memory for an archive entry");
+    status = read_packed(archive, i, &packed, err);
+    if (status == WT_OK && e->packing == STORED)
+        memcpy(buffer->data, packed, size);
+    else if (status == WT_OK)
+        status = unpack(archive, i, packed, buffer, err);
+    if (status == WT_OK && libdeflate_crc32(0, buffer->data, size) != e->sum) {
+        entry_fail(archive, i, err, WT_E_CORRUPT, "archive entry cannot be unpacked");
+        wt_error_found(err, "a checksum that does not agree");
+        return WT_E_CORRUPT;
+    }
+    buffer->length = size;
+    return status;
+}

@@ -1,0 +1,427 @@
+/* Force curves from what a reader finds: one place for all formats.
+ *
+ * SPDX-License-Identifier: GPL-3.0-or-later
+ */
+#include "read/force_assembler.h"
+
+#include "core/base/array.h"
+#include "core/base/resource_error.h"
+#include "core/data/force_curve.h"
+#include "read/bytes/samples.h"
+#include "read/force_consistency.h"
+#include "read/metadata.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+wt_status force_open(const force_stream *stream, const struct file_reader *self, wt_input *input,
+                     const wt_read_options *options, wt_parselog *log, wt_force_source **source,
+                     wt_error *err)
+{
+    wt_force_source *s = calloc(1, stream->size);
+    if (s == NULL)
+        return wt_fail(err, WT_E_MEMORY, "no memory to read the file");
+    s->stream = stream;
+    s->name = wt_input_name(input);
+    s->options = *options;
+    s->log = log;
+    wt_status status = stream->open(s, self, input, err);
+    if (status == WT_OK)
+        *source = s;
+    else
+        wt_force_close(s);
+    return status;
+}
+
+wt_status wt_force_next(wt_force_source *source, wt_force_curve *curve, wt_error *err)
+{
+    wt_force_curve_reset(curve);
+    shortage_forget();
+    wt_status status = shortage_end(source->stream->next(source, curve, err), err);
+    if (status != WT_OK && status != WT_END) {
+        const size_t index = curve->index;
+        wt_force_curve_reset(curve);
+        curve->index = index;
+        wt_error_file(err, source->name);
+    }
+    return status;
+}
+
+void force_seek(wt_force_source *source, size_t index)
+{
+    if (source->stream->seek != NULL)
+        source->stream->seek(source, index);
+}
+
+void wt_force_close(wt_force_source *source)
+{
+    if (source == NULL)
+        return;
+    if (source->stream->close != NULL)
+        source->stream->close(source);
+    free(source);
+}
+
+size_t wt_force_count(const wt_force_source *source)
+{
+    return source->n_curves;
+}
+
+bool force_wants_segment(const wt_force_source *source, wt_segment_kind kind)
+{
+    return (source->options.segments & WT_SEGMENT_BIT(kind)) != 0;
+}
+
+/* ---- what a quantity is made of ----------------------------------------------------------- */
+
+double force_positive(double value)
+{
+    return value > 0 && isfinite(value) ? value : (double)NAN;
+}
+
+const force_signal *force_find_signal(const force_facts *facts, wt_quantity quantity)
+{
+    for (size_t i = 0; i < facts->n_signals; i++)
+        if (facts->signals[i].quantity == quantity)
+            return &facts->signals[i];
+    return NULL;
+}
+
+void force_add_signal(force_facts *facts, force_signal signal)
+{
+    if (force_find_signal(facts, signal.quantity) == NULL)
+        facts->signals[facts->n_signals++] = signal;
+}
+
+void force_offer(force_facts *facts, wt_quantity quantity)
+{
+    for (size_t i = 0; i < facts->n_offers; i++)
+        if (facts->offers[i] == quantity)
+            return;
+    facts->offers[facts->n_offers++] = quantity;
+}
+
+/* From the detector to the force: the sensitivity leads from the first to the second, the spring
+ * constant from there to the last. */
+static const wt_quantity chain[] = {WT_Q_DEFLECTION_VOLTAGE, WT_Q_DEFLECTION, WT_Q_FORCE};
+enum { CHAIN = sizeof chain / sizeof *chain };
+
+/* Place in the chain, CHAIN if it has none. */
+static size_t chain_place(wt_quantity quantity)
+{
+    size_t i = 0;
+    while (i < CHAIN && chain[i] != quantity)
+        i++;
+    return i;
+}
+
+/* The signal itself, else the nearest of the chain. But what the user gives replaces a link, so
+ * that what comes behind it is made anew from what comes before; unless that is another channel,
+ * which need not be of one measurement. */
+static const force_signal *origin_signal(const force_facts *facts, const wt_read_options *options,
+                                         wt_quantity wanted)
+{
+    const double given[] = {options->sensitivity, options->spring_constant};
+    const force_signal *own = force_find_signal(facts, wanted), *found = NULL;
+    const size_t place = chain_place(wanted);
+    if (place == CHAIN)
+        return own;
+    for (size_t i = 0; i < place && found == NULL; i++)
+        if (!isnan(given[i]))
+            found = force_find_signal(facts, chain[i]);
+    if (found != NULL && (own == NULL || own->channel == found->channel))
+        return found;
+    found = own;
+    for (size_t i = place; i-- > 0 && found == NULL;)
+        found = force_find_signal(facts, chain[i]);
+    for (size_t i = place + 1; i < CHAIN && found == NULL; i++)
+        found = force_find_signal(facts, chain[i]);
+    return found;
+}
+
+static wt_cantilever cantilever_used(const wt_cantilever *file, const wt_read_options *options)
+{
+    wt_cantilever used = {.spring_constant = options->spring_constant,
+                          .sensitivity = options->sensitivity,
+                          .spring_constant_given = !isnan(options->spring_constant),
+                          .sensitivity_given = !isnan(options->sensitivity)};
+    if (!used.spring_constant_given)
+        used.spring_constant = file->spring_constant;
+    if (!used.sensitivity_given)
+        used.sensitivity = file->sensitivity;
+    return used;
+}
+
+/* Fails with the options that would help. */
+static wt_status fail_uncalibrated(const force_signal *signal, const wt_cantilever *used,
+                                   const char *place, wt_error *err)
+{
+    const bool no_constant = isnan(used->spring_constant);
+    const bool no_sensitivity =
+        isnan(used->sensitivity) && signal->quantity == WT_Q_DEFLECTION_VOLTAGE;
+    const bool both = no_constant && no_sensitivity;
+    wt_fail(err, WT_E_MISSING, "the file does not say the %s",
+            both          ? "spring constant and deflection sensitivity"
+            : no_constant ? "spring constant"
+                          : "deflection sensitivity");
+    wt_error_place(err, "%s", place != NULL ? place : "");
+    wt_error_advice(err, "give %s%s%s", no_constant ? "--spring-constant 0.1N/m" : "",
+                    both ? " and " : "", no_sensitivity ? "--sensitivity 120nm/V" : "");
+    return WT_E_MISSING;
+}
+
+/* ---- columns ------------------------------------------------------------------------------ */
+
+typedef struct force_column {
+    wt_quantity quantity;
+    const force_signal *signal; /* NULL: the time, from the duration */
+    force_linear scaling;       /* from the numbers of the channel to the quantity */
+} force_column;
+
+/* The columns that a segment gets. */
+typedef struct force_plan {
+    force_column columns[WT_Q_COUNT];
+    size_t n;
+} force_plan;
+
+static wt_status cannot_make(const wt_force_source *source, const force_facts *facts,
+                             wt_quantity wanted, const force_signal *signal,
+                             const wt_cantilever *used, wt_error *err)
+{
+    if (wanted == WT_Q_DEFLECTION_VOLTAGE) {
+        wt_parselog_add(source->log, WT_NOTE, source->name, facts->place,
+                        "no %s: the file's own calibration is not known", wt_quantity_id(wanted));
+        return WT_OK;
+    }
+    wt_error missing = WT_ERROR_INIT;
+    wt_status status = fail_uncalibrated(signal, used, facts->place, &missing);
+    if (source->options.want == WT_Q_ALL) {
+        wt_parselog_add(source->log, WT_WARNING, source->name, facts->place, "no %s: %s; %s",
+                        wt_quantity_id(wanted), missing.message, missing.advice);
+        return WT_OK;
+    }
+    if (err != NULL)
+        *err = missing;
+    return status;
+}
+
+/* A given value that finds nothing to replace must not pass in silence. */
+static void note_kept(const wt_force_source *source, const force_facts *facts,
+                      const force_signal *signal)
+{
+    const wt_read_options *o = &source->options;
+    const bool force = signal->quantity == WT_Q_FORCE;
+    const char *column = wt_quantity_id(signal->quantity);
+    if (signal->quantity == WT_Q_DEFLECTION_VOLTAGE)
+        return;
+    if (!isnan(o->sensitivity) && !(facts->cantilever.sensitivity > 0))
+        wt_parselog_add(source->log, WT_WARNING, source->name, NULL,
+                        "the file does not say its sensitivity, so the given one cannot replace "
+                        "it in a column of %s",
+                        column);
+    if (force && !isnan(o->spring_constant) && !(facts->cantilever.spring_constant > 0))
+        wt_parselog_add(source->log, WT_WARNING, source->name, NULL,
+                        "the file does not say its spring constant, so the given one cannot "
+                        "replace it in a column of %s",
+                        column);
+}
+
+/* Adds the column of a quantity, if there is anything that it can be made of. */
+static wt_status plan_column(const wt_force_source *source, const force_facts *facts,
+                             wt_quantity wanted, force_plan *plan, wt_error *err)
+{
+    const force_signal *signal = origin_signal(facts, &source->options, wanted);
+    if (signal == NULL && (wanted != WT_Q_TIME || !isfinite(facts->start + facts->duration))) {
+        if (wanted == WT_Q_TIME)
+            wt_parselog_add(source->log, WT_WARNING, source->name, facts->place,
+                            "no duration: the time is left out");
+        return WT_OK;
+    }
+    if (signal != NULL && signal->problem != NULL) {
+        wt_parselog_add(source->log, WT_WARNING, source->name, facts->place,
+                        "channel %s left out: %s", signal->name, signal->problem);
+        return WT_OK;
+    }
+    force_linear scaling = signal != NULL ? signal->to_si : (force_linear){1, 0};
+    if (chain_place(wanted) < CHAIN) {
+        const wt_cantilever used = cantilever_used(&facts->cantilever, &source->options);
+        const double factor =
+            deflection_factor(signal->quantity, wanted, &facts->cantilever, &used);
+        if (isnan(factor))
+            return cannot_make(source, facts, wanted, signal, &used, err);
+        if (wanted != WT_Q_DEFLECTION_VOLTAGE)
+            note_kept(source, facts, signal);
+        scaling = (force_linear){factor * scaling.multiplier, factor * scaling.offset};
+    }
+    plan->columns[plan->n].quantity = wanted;
+    plan->columns[plan->n].signal = signal;
+    plan->columns[plan->n++].scaling = scaling;
+    return WT_OK;
+}
+
+/* One order of the columns, whatever that of the file. */
+static size_t place_of(wt_quantity quantity)
+{
+    static const wt_quantity order[] = {WT_Q_TIME,  WT_Q_HEIGHT,     WT_Q_MEASURED_HEIGHT,
+                                        WT_Q_FORCE, WT_Q_DEFLECTION, WT_Q_DEFLECTION_VOLTAGE};
+    size_t i = 0;
+    while (i < COUNT_OF(order) && order[i] != quantity)
+        i++;
+    return i < COUNT_OF(order) ? i : COUNT_OF(order) + (size_t)quantity;
+}
+
+static void sort_columns(force_plan *plan)
+{
+    for (size_t i = 1; i < plan->n; i++)
+        for (size_t k = i;
+             k > 0 && place_of(plan->columns[k].quantity) < place_of(plan->columns[k - 1].quantity);
+             k--) {
+            const force_column column = plan->columns[k];
+            plan->columns[k] = plan->columns[k - 1];
+            plan->columns[k - 1] = column;
+        }
+}
+
+/* Whether a given sensitivity replaces that of the file, or makes a column. */
+static bool takes_sensitivity(const force_facts *facts, const force_plan *plan)
+{
+    bool takes = facts->cantilever.sensitivity > 0;
+    for (size_t i = 0; i < plan->n; i++)
+        takes = takes || (plan->columns[i].signal != NULL &&
+                          plan->columns[i].signal->quantity == WT_Q_DEFLECTION_VOLTAGE);
+    return takes;
+}
+
+static bool is_wanted(const wt_read_options *options, const force_facts *facts,
+                      wt_quantity quantity)
+{
+    if ((options->want & WT_Q_BIT(quantity)) == 0)
+        return false;
+    if (!options->one_height || quantity != WT_Q_HEIGHT)
+        return true;
+    const force_signal *sensor = force_find_signal(facts, WT_Q_MEASURED_HEIGHT);
+    return (options->want & WT_Q_BIT(WT_Q_MEASURED_HEIGHT)) == 0 || sensor == NULL ||
+           sensor->problem != NULL;
+}
+
+/* Of every format: what is no finite number, as it was stored or by its scaling, is missing. The
+ * words are without a count, so that the log has one line for a map. */
+static wt_status fill_channel(wt_force_source *source, const force_facts *facts,
+                              const force_column *column, size_t n, double *values, wt_error *err)
+{
+    const wt_status status =
+        source->stream->decode(source, column->signal, column->scaling, n, values, err);
+    if (status == WT_OK && samples_mend(values, n) > 0)
+        wt_parselog_add(source->log, WT_WARNING, source->name, facts->place,
+                        "samples of %s are missing: not measured, or no finite number",
+                        column->signal->name);
+    return status;
+}
+
+wt_status force_add_segment(wt_force_source *source, const force_facts *facts,
+                            wt_force_curve *curve, wt_error *err)
+{
+    const wt_cantilever used = cantilever_used(&facts->cantilever, &source->options);
+    const size_t n = facts->n_points;
+    force_plan plan = {.n = 0};
+    wt_status status = WT_OK;
+    /* A segment that says nothing of it leaves what those before it said, and took. */
+    const bool taken = curve->n_segments > 0 && curve->cantilever.sensitivity_given;
+    if (!isnan(used.spring_constant) || !isnan(used.sensitivity))
+        curve->cantilever = used;
+    if (n == 0)
+        return WT_OK;
+    contradiction_given(source, facts);
+    status = contradiction_constant(source, facts, force_find_signal(facts, WT_Q_FORCE),
+                                    force_find_signal(facts, WT_Q_DEFLECTION), err);
+    for (size_t i = 0; i < facts->n_offers && status == WT_OK; i++)
+        if (is_wanted(&source->options, facts, facts->offers[i]))
+            status = plan_column(source, facts, facts->offers[i], &plan, err);
+    if (status != WT_OK)
+        return status;
+    sort_columns(&plan);
+    if (used.sensitivity_given && !taken && !takes_sensitivity(facts, &plan)) {
+        curve->cantilever.sensitivity = (double)NAN;
+        curve->cantilever.sensitivity_given = false;
+    }
+    wt_segment *segment = wt_force_curve_add_segment(curve, facts->kind, n, plan.n);
+    if (segment == NULL)
+        return wt_fail(err, WT_E_MEMORY, "no memory for a segment of %zu samples", n);
+    segment->index = facts->index;
+    segment->duration = facts->duration;
+    segment->velocity = facts->velocity;
+    segment->frequency = facts->frequency > 0 ? facts->frequency : (double)NAN;
+    segment->setpoint = facts->setpoint * deflection_factor(facts->setpoint_quantity, WT_Q_FORCE,
+                                                            &facts->cantilever, &used);
+    (void)samples_mend(&segment->setpoint, 1);
+    for (size_t i = 0; i < plan.n && status == WT_OK; i++) {
+        const force_signal *signal = plan.columns[i].signal;
+        wt_channel *channel = &segment->channels[i];
+        channel->quantity = plan.columns[i].quantity;
+        snprintf(channel->name, sizeof channel->name, "%s", signal != NULL ? signal->name : "time");
+        snprintf(channel->unit, sizeof channel->unit, "%s", signal != NULL ? signal->unit : "s");
+        if (signal == NULL)
+            sample_times(facts->start, facts->duration, n, channel->values);
+        else
+            status = fill_channel(source, facts, &plan.columns[i], n, channel->values, err);
+    }
+    if (status == WT_OK)
+        contradiction_heights(source, facts, segment);
+    return status;
+}
+
+bool force_place(long columns, long rows, bool back_and_forth, size_t number, wt_force_curve *curve)
+{
+    if (columns == 0 || number / (size_t)columns >= (size_t)rows)
+        return false;
+    const long row = (long)(number / (size_t)columns), column = (long)(number % (size_t)columns);
+    curve->grid_x = back_and_forth && row % 2 == 1 ? columns - 1 - column : column;
+    curve->grid_y = row;
+    return true;
+}
+
+/* ---- for info ----------------------------------------------------------------------------- */
+
+/* The signal that the quantity is made of, NULL if it cannot be made. */
+static const force_signal *signal_made_of(const force_facts *facts, const wt_read_options *options,
+                                          wt_quantity quantity)
+{
+    const wt_cantilever used = cantilever_used(&facts->cantilever, options);
+    const force_signal *signal = origin_signal(facts, options, quantity);
+    if (signal == NULL || chain_place(quantity) == CHAIN)
+        return signal;
+    return isnan(deflection_factor(signal->quantity, quantity, &facts->cantilever, &used)) ? NULL
+                                                                                           : signal;
+}
+
+wt_quantity force_read_as(const force_facts *facts, const wt_read_options *options,
+                          const void *channel)
+{
+    for (size_t i = 0; i < facts->n_offers; i++) {
+        const force_signal *signal = signal_made_of(facts, options, facts->offers[i]);
+        if (signal != NULL && signal->channel == channel)
+            return facts->offers[i];
+    }
+    return WT_Q_NONE;
+}
+
+void force_describe_calibration(const force_facts *facts, const wt_read_options *options,
+                                const char *spring_constant_source, const char *sensitivity_source,
+                                table_writer *list)
+{
+    static const char given[] = "given by the user";
+    const wt_cantilever used = cantilever_used(&facts->cantilever, options);
+    const force_signal *signal = origin_signal(facts, options, WT_Q_FORCE);
+    wt_error missing = WT_ERROR_INIT;
+    facts_number(list, "spring constant", used.spring_constant, "N/m",
+                 used.spring_constant_given ? given : spring_constant_source);
+    facts_number(list, "deflection sensitivity", used.sensitivity, "m/V",
+                 used.sensitivity_given ? given : sensitivity_source);
+    /* both are needed: the tip is at the height less the deflection */
+    if (signal != NULL && (signal_made_of(facts, options, WT_Q_FORCE) == NULL ||
+                           (isnan(used.spring_constant) && signal->quantity == WT_Q_FORCE &&
+                            signal_made_of(facts, options, WT_Q_DEFLECTION) == NULL))) {
+        fail_uncalibrated(signal, &used, NULL, &missing);
+        facts_add(list, "missing", "", missing.advice, "%s", missing.message);
+    }
+}

@@ -1,0 +1,127 @@
+/* What a file says twice and not alike: the spring constant against force and deflection, the
+ * height of the piezo against that of its sensor.
+ *
+ * SPDX-License-Identifier: GPL-3.0-or-later
+ */
+#include "read/force_consistency.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+enum { SAMPLES_MIN = 4 };
+/* Rounded constants and heights are as near as this; a piezo that creeps or bends is not. */
+static const double constants_agree = 0.02, heights_agree = 0.05;
+/* A calibration is not off by this; a unit is. */
+static const double far_off = 3;
+/* Below it the samples tell no slope. */
+static const double share_least = 0.9;
+
+/* Slope of y over x and the share of the variance of y that it explains; samples that are missing
+ * in either are left out. */
+static double fitted_slope(const double *x, const double *y, size_t n, double *share)
+{
+    double sx = 0, sy = 0, sxx = 0, sxy = 0, syy = 0, m = 0;
+    for (size_t i = 0; i < n; i++)
+        if (isfinite(x[i]) && isfinite(y[i])) {
+            sx += x[i];
+            sy += y[i];
+            m++;
+        }
+    for (size_t i = 0; i < n; i++)
+        if (isfinite(x[i]) && isfinite(y[i])) {
+            sxx += (x[i] - sx / m) * (x[i] - sx / m);
+            sxy += (x[i] - sx / m) * (y[i] - sy / m);
+            syy += (y[i] - sy / m) * (y[i] - sy / m);
+        }
+    *share = sxx > 0 && syy > 0 ? sxy * sxy / (sxx * syy) : 0;
+    return sxy / sxx;
+}
+
+static bool is_usable(const force_signal *signal)
+{
+    return signal != NULL && signal->problem == NULL;
+}
+
+wt_status contradiction_constant(wt_force_source *source, const force_facts *facts,
+                                 const force_signal *force, const force_signal *bend, wt_error *err)
+{
+    const double own = facts->cantilever.spring_constant;
+    const double k = own > 0 ? own : source->options.spring_constant;
+    const size_t n = facts->n_points;
+    double share = 0;
+    if (source->constant_checked || !is_usable(force) || !is_usable(bend) ||
+        force->channel == bend->channel || !(k > 0) || n < SAMPLES_MIN)
+        return WT_OK;
+    double *values = calloc(2 * n, sizeof *values);
+    if (values == NULL)
+        return wt_fail(err, WT_E_MEMORY, "no memory for %zu samples", n);
+    wt_status status = source->stream->decode(source, bend, bend->to_si, n, values, err);
+    if (status == WT_OK)
+        status = source->stream->decode(source, force, force->to_si, n, values + n, err);
+    const double seen = status == WT_OK ? fitted_slope(values, values + n, n, &share) : 0;
+    free(values);
+    if (share < share_least)
+        return status;
+    source->constant_checked = true;
+    if (fabs(seen / k - 1) > constants_agree + 1 - share)
+        wt_parselog_add(source->log, WT_WARNING, source->name, facts->place,
+                        "force and deflection of the file mean a spring constant of %.4g N/m, %s "
+                        "%.4g N/m",
+                        seen, own > 0 ? "the file says" : "given is", k);
+    return status;
+}
+
+static void say_given(const wt_force_source *source, const char *what, const char *unit,
+                      double given, double own, double scale)
+{
+    if (!(own > 0) || isnan(given) || fabs(given / own - 1) <= constants_agree)
+        return;
+    const bool far = fmax(given / own, own / given) > far_off;
+    wt_parselog_add(source->log, far ? WT_WARNING : WT_NOTE, source->name, NULL,
+                    "the %s given, %.4g %s, takes the place of that of the file, %.4g %s%s", what,
+                    scale * given, unit, scale * own, unit,
+                    far ? ": is its unit the right one?" : "");
+}
+
+void contradiction_given(wt_force_source *source, const force_facts *facts)
+{
+    if (source->given_checked)
+        return;
+    source->given_checked = true;
+    say_given(source, "spring constant", "N/m", source->options.spring_constant,
+              facts->cantilever.spring_constant, 1);
+    say_given(source, "deflection sensitivity", "nm/V", source->options.sensitivity,
+              facts->cantilever.sensitivity, 1e9);
+}
+
+static double value_range(const double *values, size_t n)
+{
+    double low = (double)INFINITY, high = -(double)INFINITY;
+    for (size_t i = 0; i < n; i++) {
+        low = fmin(low, values[i]);
+        high = fmax(high, values[i]);
+    }
+    return high - low;
+}
+
+void contradiction_heights(wt_force_source *source, const force_facts *facts,
+                           const wt_segment *segment)
+{
+    if (source->heights_checked || segment->kind != WT_SEGMENT_APPROACH ||
+        segment->n_points < SAMPLES_MIN)
+        return;
+    const wt_channel *const height = wt_segment_channel(segment, WT_Q_HEIGHT),
+                            *const measured = wt_segment_channel(segment, WT_Q_MEASURED_HEIGHT);
+    if (height == NULL || measured == NULL)
+        return;
+    const double piezo = value_range(height->values, segment->n_points);
+    const double sensor = value_range(measured->values, segment->n_points);
+    if (!(piezo > 0) || !(sensor > 0))
+        return;
+    source->heights_checked = true;
+    if (fabs(piezo - sensor) > heights_agree * sensor)
+        wt_parselog_add(source->log, WT_NOTE, source->name, facts->place,
+                        "the height of the piezo changes by %.4g um, that of its sensor by %.4g "
+                        "um; the sensor is used",
+                        1e6 * piezo, 1e6 * sensor);
+}

@@ -1,0 +1,285 @@
+/* Compound files: a chain of sectors for each stream, the next of each sector in a table (FAT).
+ * Every number of the file is checked where it is used; a chain has no more steps than the file
+ * has sectors.
+ *
+ * SPDX-License-Identifier: GPL-3.0-or-later
+ */
+#include "read/packed/ole2.h"
+
+#include "read/bytes/bytes.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+/* [MS-CFB] 2.2 and 2.6: places in the header and in an entry of the folder. */
+enum {
+    HEADER = 512,
+    HEADER_SHIFT = 30,
+    HEADER_SMALL_SHIFT = 32,
+    HEADER_FOLDER = 48,
+    HEADER_SMALL_MOST = 56,
+    HEADER_SMALL_TABLE = 60,
+    HEADER_MORE = 68,
+    HEADER_TABLE = 76,
+    IN_HEADER = (HEADER - HEADER_TABLE) / 4,
+    ENTRY = 128,
+    ENTRY_NAME_LENGTH = 64,
+    ENTRY_KIND = 66,
+    ENTRY_LEFT = 68,
+    ENTRY_RIGHT = 72,
+    ENTRY_CHILD = 76,
+    ENTRY_START = 116,
+    ENTRY_SIZE = 120,
+    KIND_STREAM = 2,
+    SMALL_SHIFT = 6
+};
+/* Numbers of sectors above this one are marks: the end of a chain, a free one. */
+#define LAST_SECTOR 0xFFFFFFFAu
+
+typedef struct compound {
+    const unsigned char *bytes;
+    size_t length, sector, n_sectors;
+    uint32_t *table; /* [n_table] sectors that hold the table of sectors */
+    size_t n_table;
+    unsigned char *folder, *small, *small_table;
+    size_t folder_length, small_length, small_table_length;
+} compound;
+
+bool compound_is(const unsigned char *bytes, size_t length)
+{
+    static const unsigned char signature[8] = {0xd0, 0xcf, 0x11, 0xe0, 0xa1, 0xb1, 0x1a, 0xe1};
+    return length >= sizeof signature && memcmp(bytes, signature, sizeof signature) == 0;
+}
+
+static wt_status damaged(wt_error *err)
+{
+    wt_fail(err, WT_E_CORRUPT, "the file is damaged or its end is missing");
+    wt_error_found(err, "an old Excel or Word file; a chain of its sectors leads out of it");
+    wt_error_advice(err, "copy the file again; or save it as .xlsx, CSV or text");
+    return WT_E_CORRUPT;
+}
+
+static wt_status no_memory(wt_error *err)
+{
+    return wt_fail(err, WT_E_MEMORY, "no memory for a spreadsheet");
+}
+
+/* The bytes of a sector that are there, which of the last one may be few; NULL: none. */
+static const unsigned char *sector_at(const compound *c, uint32_t i, size_t *n)
+{
+    if (i >= c->n_sectors)
+        return NULL;
+    const size_t at = (i + (size_t)1) * c->sector, left = c->length - at;
+    *n = left < c->sector ? left : c->sector;
+    return c->bytes + at;
+}
+
+/* The sector behind that one. False: the file does not say it. */
+static bool next_sector(const compound *c, uint32_t i, uint32_t *next)
+{
+    const size_t per = c->sector / 4, place = 4 * (i % per);
+    size_t n = 0;
+    const unsigned char *at = i / per < c->n_table ? sector_at(c, c->table[i / per], &n) : NULL;
+    if (at == NULL || place + 4 > n)
+        return false;
+    *next = le32(at + place);
+    return true;
+}
+
+/* Where the table stands: its first sectors in the header, the others in a chain. */
+static wt_status find_table(compound *c, wt_error *err)
+{
+    const size_t per = c->sector / 4 - 1;
+    uint32_t more = le32(c->bytes + HEADER_MORE);
+    c->table = malloc((c->n_sectors + IN_HEADER) * sizeof *c->table);
+    if (c->table == NULL)
+        return no_memory(err);
+    for (size_t i = 0; i < IN_HEADER; i++) {
+        const uint32_t sector = le32(c->bytes + HEADER_TABLE + 4 * i);
+        if (sector > LAST_SECTOR)
+            return WT_OK;
+        c->table[c->n_table++] = sector;
+    }
+    while (more <= LAST_SECTOR) {
+        size_t n = 0;
+        const unsigned char *at = sector_at(c, more, &n);
+        if (at == NULL || n < c->sector)
+            return damaged(err);
+        for (size_t i = 0; i < per; i++) {
+            const uint32_t sector = le32(at + 4 * i);
+            if (sector > LAST_SECTOR)
+                return WT_OK;
+            if (c->n_table >= c->n_sectors)
+                return damaged(err);
+            c->table[c->n_table++] = sector;
+        }
+        more = le32(at + 4 * per);
+    }
+    return WT_OK;
+}
+
+/* The first `most` bytes of a chain, or all (SIZE_MAX); to be freed. */
+static wt_status read_chain(const compound *c, uint32_t sector, size_t most, unsigned char **chain,
+                            size_t *n, wt_error *err)
+{
+    const size_t room = most < c->length ? most : c->length;
+    size_t used = 0, steps = 0;
+    unsigned char *to = malloc(room > 0 ? room : 1);
+    bool good = to != NULL;
+    while (good && used < most && sector <= LAST_SECTOR) {
+        size_t length = 0;
+        const unsigned char *at = sector_at(c, sector, &length);
+        good = at != NULL && steps++ < c->n_sectors;
+        if (!good)
+            break;
+        const size_t take = length < room - used ? length : room - used;
+        memcpy(to + used, at, take);
+        used += take;
+        if (used < most)
+            good = length == c->sector && next_sector(c, sector, &sector);
+    }
+    good = good && (most == SIZE_MAX || used == most);
+    *n = used;
+    if (good) {
+        *chain = to;
+        return WT_OK;
+    }
+    const wt_status status = to == NULL ? no_memory(err) : damaged(err);
+    free(to);
+    return status;
+}
+
+/* The same of a stream whose small sectors stand in the stream of the root. */
+static wt_status read_small(const compound *c, uint32_t sector, size_t most, unsigned char **chain,
+                            size_t *n, wt_error *err)
+{
+    const size_t unit = (size_t)1 << SMALL_SHIFT;
+    if (most > c->small_length)
+        return damaged(err);
+    unsigned char *to = malloc(most > 0 ? most : 1);
+    if (to == NULL)
+        return no_memory(err);
+    size_t used = 0;
+    while (used < most) {
+        const size_t left = most - used, take = left < unit ? left : unit;
+        if (sector > c->small_length / unit || sector * unit + take > c->small_length)
+            break;
+        memcpy(to + used, c->small + sector * unit, take);
+        used += take;
+        if (used < most && 4 * ((size_t)sector + 1) > c->small_table_length)
+            break;
+        if (used < most)
+            sector = le32(c->small_table + 4 * (size_t)sector);
+    }
+    *n = used;
+    if (used == most) {
+        *chain = to;
+        return WT_OK;
+    }
+    free(to);
+    return damaged(err);
+}
+
+static const unsigned char *entry_at(const compound *c, uint32_t i)
+{
+    return i < c->folder_length / ENTRY ? c->folder + i * (size_t)ENTRY : NULL;
+}
+
+/* Names are UTF-16LE and end with a zero, which the length counts. */
+static bool has_name(const unsigned char *entry, const char *name)
+{
+    const size_t n = strlen(name);
+    if (le16(entry + ENTRY_NAME_LENGTH) != 2 * (n + 1))
+        return false;
+    for (size_t i = 0; i < n; i++) {
+        const uint16_t letter = le16(entry + 2 * i);
+        const uint16_t wanted = (uint16_t)(unsigned char)name[i];
+        const uint16_t other = letter >= 'A' && letter <= 'Z' ? letter + ('a' - 'A') : letter;
+        const uint16_t lower = wanted >= 'A' && wanted <= 'Z' ? wanted + ('a' - 'A') : wanted;
+        if (other != lower)
+            return false;
+    }
+    return true;
+}
+
+/* The entries of the root folder are a tree; entries of folders in it are not looked at, for an
+ * embedded object has streams of the same names. *found is NULL if there is none. */
+static wt_status find_entry(const compound *c, const char *name, const unsigned char **found,
+                            wt_error *err)
+{
+    const size_t n = c->folder_length / ENTRY;
+    uint32_t *waiting = malloc((n + 1) * sizeof *waiting);
+    bool *seen = calloc(n + 1, sizeof *seen);
+    const bool good = waiting != NULL && seen != NULL;
+    size_t n_waiting = 0;
+    *found = NULL;
+    if (good && n > 0 && le32(c->folder + ENTRY_CHILD) < n) {
+        waiting[n_waiting++] = le32(c->folder + ENTRY_CHILD);
+        seen[waiting[0]] = true;
+    }
+    while (n_waiting > 0 && *found == NULL) {
+        const unsigned char *entry = entry_at(c, waiting[--n_waiting]);
+        if (entry[ENTRY_KIND] == KIND_STREAM && has_name(entry, name))
+            *found = entry;
+        for (size_t side = ENTRY_LEFT; side <= ENTRY_RIGHT; side += ENTRY_RIGHT - ENTRY_LEFT) {
+            const uint32_t i = le32(entry + side);
+            if (i >= n || seen[i])
+                continue;
+            seen[i] = true;
+            waiting[n_waiting++] = i;
+        }
+    }
+    free(seen);
+    free(waiting);
+    return good ? WT_OK : no_memory(err);
+}
+
+/* Version 3 has rubbish in the upper half of a size. */
+static size_t size_of(const compound *c, const unsigned char *entry)
+{
+    const uint64_t size = le64(entry + ENTRY_SIZE);
+    const uint64_t said = c->sector == HEADER ? size & 0xFFFFFFFFu : size;
+    return said < SIZE_MAX ? (size_t)said : SIZE_MAX - 1;
+}
+
+static wt_status read_entry(compound *c, const unsigned char *entry, unsigned char **stream,
+                            size_t *n, wt_error *err)
+{
+    const size_t size = size_of(c, entry);
+    const uint32_t start = le32(entry + ENTRY_START);
+    if (size >= le32(c->bytes + HEADER_SMALL_MOST))
+        return read_chain(c, start, size, stream, n, err);
+    wt_status status = read_chain(c, le32(c->folder + ENTRY_START), size_of(c, c->folder),
+                                  &c->small, &c->small_length, err);
+    if (status == WT_OK)
+        status = read_chain(c, le32(c->bytes + HEADER_SMALL_TABLE), SIZE_MAX, &c->small_table,
+                            &c->small_table_length, err);
+    return status == WT_OK ? read_small(c, start, size, stream, n, err) : status;
+}
+
+wt_status compound_stream(const unsigned char *bytes, size_t length, const char *const *names,
+                          size_t n_names, unsigned char **stream, size_t *n, wt_error *err)
+{
+    compound c = {.bytes = bytes, .length = length};
+    const unsigned char *entry = NULL;
+    if (length < HEADER)
+        return damaged(err);
+    const unsigned shift = le16(bytes + HEADER_SHIFT);
+    if ((shift != 9 && shift != 12) || le16(bytes + HEADER_SMALL_SHIFT) != SMALL_SHIFT)
+        return damaged(err);
+    c.sector = (size_t)1 << shift;
+    c.n_sectors = length > c.sector ? (length - c.sector + c.sector - 1) / c.sector : 0;
+    wt_status status = find_table(&c, err);
+    if (status == WT_OK)
+        status =
+            read_chain(&c, le32(bytes + HEADER_FOLDER), SIZE_MAX, &c.folder, &c.folder_length, err);
+    for (size_t i = 0; i < n_names && status == WT_OK && entry == NULL; i++)
+        status = find_entry(&c, names[i], &entry, err);
+    if (status == WT_OK)
+        status = entry != NULL ? read_entry(&c, entry, stream, n, err) : WT_E_NOT_FOUND;
+    free(c.small_table);
+    free(c.small);
+    free(c.folder);
+    free(c.table);
+    return status;
+}

@@ -1,0 +1,24 @@
+/* Records of parameters of reading that another structure has too.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef WT_READ_READ_PARAMS_H
+#define WT_READ_READ_PARAMS_H
+
+#include "core/base/param.h"
+#include "weartrack/read.h"
+
+/* An indentation and a case may state their errors, which are those of a group of files and not
+ * used by reading. test: of the member, or NULL. */
+#define SPRING_CONSTANT(type, where, test)                                                         \
+    {                                                                                              \
+        PARAM("spring-constant", type, spring_constant, WT_Q_SPRING_CONSTANT, ABOVE(0)),           \
+            .check = (test), .value = "K", .unset = "that of the files", .flags = (where),         \
+            .help = "spring constant of the cantilever, such as 0.1N/m"                            \
+    }
+#define SENSITIVITY(type, where, test)                                                             \
+    {                                                                                              \
+        PARAM("sensitivity", type, sensitivity, WT_Q_SENSITIVITY, ABOVE(0)),                       \
+            .check = (test), .value = "S", .unset = "that of the files", .flags = (where),         \
+            .help = "deflection sensitivity (InvOLS), such as 120nm/V"                             \
+    }
+
+#endif

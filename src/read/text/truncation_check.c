@@ -1,0 +1,131 @@
+/* What speaks for a file that was cut off: a last line without its line end, a last row that is not
+ * as whole as those before it, a table without the line that ends it.
+ *
+ * SPDX-License-Identifier: GPL-3.0-or-later
+ */
+#include "read/text/text_scanner.h"
+
+#include "core/base/number.h"
+
+/* How a cell is written. */
+typedef struct cell_form {
+    bool number, point, exponent;
+    size_t length, digits, exponent_digits;
+} cell_form;
+
+static cell_form form_of(text_span cell, char decimal)
+{
+    cell_form form = {.length = cell.length};
+    form.number = cell.length > 0 && number_prefix(cell.text, cell.length, decimal) == cell.length;
+    for (size_t i = 0; form.number && i < cell.length; i++) {
+        const char c = cell.text[i];
+        if (c >= '0' && c <= '9')
+            ++*(form.exponent ? &form.exponent_digits : &form.digits);
+        form.point = form.point || c == decimal;
+        form.exponent = form.exponent || c == 'e' || c == 'E';
+    }
+    return form;
+}
+
+static size_t least(size_t a, size_t b)
+{
+    return a < b ? a : b;
+}
+
+/* Whether a column that is read has no cell in the row. */
+static bool lacks_cells(const text_scanner *s)
+{
+    const text_table *const t = s->table;
+    size_t last = 0;
+    for (size_t c = 0; c < t->n_columns; c++)
+        last = t->columns[c].cell > last ? t->columns[c].cell : last;
+    return s->row.n <= last;
+}
+
+void cut_watch(text_scanner *s)
+{
+    last_cells *const l = &s->last;
+    const bool lacks = lacks_cells(s);
+    const text_span cell = s->row.n > 0 ? s->row.cells[s->row.n - 1] : (text_span){"", 0};
+    const cell_form form = form_of(cell, s->table->decimal);
+    s->last_is_short = lacks && l->short_rows == 0 && s->table->n_rows > 0;
+    l->short_rows += lacks;
+    if (lacks)
+        wt_parselog_add(s->log, WT_NOTE, s->file->name, line_place(s->i + 1).words,
+                        "row with fewer cells than columns; the missing ones are empty");
+    l->cells_min = s->table->n_rows == 0 ? s->row.n : least(l->cells_min, s->row.n);
+    l->empty = l->empty || cell.length == 0;
+    if (cell.length == 0)
+        return;
+    const bool first = l->n++ == 0;
+    l->shortest = first ? form.length : least(l->shortest, form.length);
+    l->longest = form.length > l->longest ? form.length : l->longest;
+    l->digits_min = first ? form.digits : least(l->digits_min, form.digits);
+    if (form.exponent)
+        l->exponent_min =
+            l->exponents ? least(l->exponent_min, form.exponent_digits) : form.exponent_digits;
+    l->points = l->points || form.point;
+    l->exponents = l->exponents || form.exponent;
+}
+
+/* A number that has lost its end is as short as the shortest, or shorter, or without its point or
+ * its exponent. One without a point whose neighbours have different lengths may be a tenth of what
+ * it was, and is not believed. With a point, what may be lost are decimals. */
+bool cut_is_whole(const text_scanner *s)
+{
+    const last_cells *const l = &s->last;
+    if (s->table->n_rows == 0)
+        return !lacks_cells(s);
+    if (s->row.n < l->cells_min || s->row.n == 0)
+        return false;
+    const text_span cell = s->row.cells[s->row.n - 1];
+    const cell_form form = form_of(cell, s->table->decimal);
+    if (cell.length == 0 || l->n == 0)
+        return l->empty;
+    if (form.length < l->shortest)
+        return false;
+    if (!form.number)
+        return true;
+    if (!form.point && (l->points || l->shortest != l->longest || form.length != l->longest))
+        return false;
+    return form.digits >= l->digits_min &&
+           (!l->exponents || (form.exponent && form.exponent_digits >= l->exponent_min));
+}
+
+void cut_check_end(text_scanner *s)
+{
+    if (s->unclosed)
+        wt_parselog_add(s->log, WT_WARNING, s->file->name, line_place(s->i).words,
+                        "the line that ends a table is not there: the file was cut off, and rows "
+                        "are missing");
+    s->unclosed = false;
+}
+
+void cut_finish(text_scanner *s)
+{
+    const text_place place = line_place(s->i);
+    const line_end end = s->i > 0 ? feed_line_end(s->file->feed, s->i - 1) : END_WHOLE;
+    if (end == END_HALF) {
+        wt_parselog_add(s->log, WT_WARNING, s->file->name, place.words,
+                        "the last line has half a line end: the file was cut off there, and what "
+                        "follows is missing");
+    } else if (end == END_NONE) {
+        if (s->cut == CUT_ROW_DROPPED)
+            wt_parselog_add(s->log, WT_WARNING, s->file->name, place.words,
+                            "the last line has no line end and is no whole row: the file was cut "
+                            "off; the row is left out, and rows may be missing behind it");
+        else
+            wt_parselog_add(s->log, WT_WARNING, s->file->name, place.words,
+                            "the last line has no line end: if the file was cut off there, %s "
+                            "missing; if it is whole, a line end put behind it says so",
+                            s->cut == CUT_ROW_KEPT ? "rows, or digits of its last number, are"
+                                                   : "what follows is");
+    } else if (s->last_is_short) {
+        s->table->n_rows--;
+        s->n_rows -= s->n_rows > 0;
+        wt_parselog_add(s->log, WT_WARNING, s->file->name, place.words,
+                        "the last row has fewer cells than all others: the file was cut off; the "
+                        "row is left out, and rows may be missing behind it");
+    }
+    cut_check_end(s);
+}

@@ -1,0 +1,141 @@
+/* Measurements in this program's own HDF5 files, weartrack-hdf5(5), as `weartrack convert` writes
+ * them. The tables are those of the text stream, so they are read by its description.
+ *
+ * SPDX-License-Identifier: GPL-3.0-or-later
+ */
+#include "core/store/store.h"
+#include "read/bytes/input.h"
+#include "read/metadata.h"
+#include "read/text/text.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+/* The root's attributes, the version among them, stand right behind the signature. */
+static recognition detect(const file_reader *self, file_peek *peek)
+{
+    (void)self;
+    return recognised(PEEK_BEGINS(peek, HDF5_SIGNATURE) && PEEK_HOLDS(peek, "weartrack") &&
+                          !PEEK_HOLDS(peek, STORE_MAP_ATTRIBUTE "\0"),
+                      90);
+}
+
+/* Results (a master curve, moduli) have columns of the same names and are no measurements. Beside
+ * the spectrum of a measured surface its "roughness" is that once more. */
+static bool is_measured(const wt_result *result, const char *name)
+{
+    if (strcmp(name, "roughness") == 0 && wt_result_find(result, "power_spectrum") != NULL)
+        return false;
+    static const char *const names[] = {"force_curve/", "image/", "sweep", "roughness",
+                                        "power_spectrum"};
+    for (size_t i = 0; i < sizeof names / sizeof *names; i++)
+        if (strncmp(name, names[i], strlen(names[i])) == 0)
+            return true;
+    return false;
+}
+
+/* What is not read is not lost in silence; what is said of the tables themselves is no loss. */
+static void warn_of_others(wt_parselog *log, const char *name, const wt_result *result)
+{
+    char names[160] = "";
+    size_t n = 0, used = 0;
+    for (size_t i = 0; i < wt_result_n_tables(result); i++) {
+        const char *table = wt_table_name(wt_result_table(result, i));
+        if (is_measured(result, table) || strcmp(table, "notes") == 0 ||
+            strcmp(table, "failures") == 0)
+            continue;
+        n++;
+        if (used < sizeof names)
+            used += (size_t)snprintf(names + used, sizeof names - used, "%s%s", n > 1 ? ", " : "",
+                                     table);
+    }
+    if (n > 0)
+        wt_parselog_add(log, WT_WARNING, name, NULL,
+                        "tables that are no measurements are left out, %zu (%s%s); `weartrack "
+                        "table` writes them",
+                        n, names, used < sizeof names ? "" : "...");
+}
+
+static wt_status read_result(wt_input *input, wt_result **result, wt_error *err)
+{
+    const unsigned char *bytes = NULL;
+    size_t length = 0;
+    const wt_status status = wt_input_bytes(input, &bytes, &length, err);
+    return status == WT_OK ? wt_store_read_memory(bytes, length, wt_input_name(input), result, err)
+                           : status;
+}
+
+/* The tables of measurements of the file, as a text stream in memory. */
+static wt_status as_text(const file_reader *self, wt_input *input, wt_parselog *log,
+                         wt_input **text, wt_error *err)
+{
+    wt_result *result = NULL;
+    FILE *stream = NULL;
+    char *bytes = NULL;
+    size_t length = 0, n_measured = 0;
+    (void)self;
+    wt_status status = read_result(input, &result, err);
+    if (status != WT_OK)
+        return status;
+    stream = open_memstream(&bytes, &length);
+    if (stream == NULL)
+        status = wt_fail(err, WT_E_MEMORY, "no memory for the tables of the file");
+    for (size_t i = 0; i < wt_result_n_tables(result) && status == WT_OK; i++) {
+        const wt_table *table = wt_result_table(result, i);
+        if (!is_measured(result, wt_table_name(table)))
+            continue;
+        n_measured++;
+        status = wt_stream_write(stream, table, NULL, err);
+    }
+    if (stream != NULL && fclose(stream) != 0 && status == WT_OK)
+        status = wt_fail(err, WT_E_MEMORY, "no memory for the tables of the file");
+    if (status == WT_OK && n_measured == 0) {
+        status = wt_fail(err, WT_E_EMPTY, "no force curve, sweep, spectrum or image in it");
+        wt_error_expected(err, "what `weartrack convert` writes of measurements");
+        wt_error_advice(err, "`weartrack table --list` shows what is in it");
+        if (wt_result_n_tables(result) > 0)
+            wt_error_found(err, "other tables, the first is \"%s\"",
+                           wt_table_name(wt_result_table(result, 0)));
+    }
+    if (status == WT_OK)
+        warn_of_others(log, wt_input_name(input), result);
+    wt_result_free(result);
+    if (status == WT_OK)
+        return input_own(bytes, length, wt_input_name(input), text, err);
+    free(bytes);
+    return status;
+}
+
+static wt_status describe(const file_reader *self, wt_input *input, const wt_read_options *options,
+                          wt_parselog *log, table_writer *facts)
+{
+    wt_result *result = NULL;
+    bool measured = false;
+    wt_status status = read_result(input, &result, facts->err);
+    if (status != WT_OK)
+        return status;
+    for (size_t i = 0; i < wt_result_n_tables(result); i++) {
+        const wt_table *table = wt_result_table(result, i);
+        char item[128];
+        snprintf(item, sizeof item, "table %s", wt_table_name(table));
+        facts_add(facts, item, "", "", "%zu rows", wt_table_n_rows(table));
+        measured = measured || is_measured(result, wt_table_name(table));
+    }
+    wt_result_free(result);
+    return measured ? text_describe_made(self, input, options, log, facts) : WT_OK;
+}
+
+const file_reader reader_stored = {
+    .info = {.id = "weartrack-hdf5",
+             .title = "weartrack-hdf5(5): sweeps, spectra, images and force curves of this program",
+             .kinds = WT_KIND_FORCE | WT_KIND_SWEEP | WT_KIND_IMAGE | WT_KIND_SPECTRUM,
+             .verified = true,
+             .evidence = "the HDF5 file that this program writes",
+             .version = "1"},
+    READER_OF_CURVE_TEXT(as_text),
+    .detect = detect,
+    .read_sweep = text_read_sweep,
+    .read_images = text_read_images,
+    .read_spectrum = text_read_spectrum,
+    .describe = describe,
+};

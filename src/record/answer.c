@@ -1,0 +1,107 @@
+/* What is said of friction and wear as measured.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#include "case/answer/answer_context.h"
+#include "case/answer/format_number.h"
+
+#include <math.h>
+#include <string.h>
+
+/* Of the rows in which something slides, or is not known to rest; *n counts them. */
+static double extreme_friction(const table_view *v, double sign, size_t *n)
+{
+    double most = (double)NAN;
+    *n = 0;
+    for (size_t i = 0; i < v->n_rows; i++) {
+        if (record_get(v, i, RECORD_VELOCITY) == 0 || record_get(v, i, RECORD_ROTATION) == 0)
+            continue;
+        most = sign * fmax(sign * most, sign * record_get(v, i, RECORD_FRICTION));
+        ++*n;
+    }
+    return most;
+}
+
+void tell_record(telling *t, const table_view *v)
+{
+    const wt_estimate mu = record_value(v, RECORD_KEY_FRICTION);
+    size_t n;
+    const double least = extreme_friction(v, -1, &n), most = extreme_friction(v, 1, &n);
+    if (n == 0)
+        tell(t, "no friction of sliding: nothing slides");
+    else if (isnan(mu.value))
+        tell(t, "friction as measured at %zu conditions, %s", n,
+             words_of_pair(least, most, 4).text);
+    else
+        tell(t, "friction as measured %s", words_of_estimate(mu).text);
+    const double end = record_get(v, 0, RECORD_RUNNING_IN);
+    if (v->n_rows == 1 && !isnan(end))
+        tell(t, ", after a running-in of %.0f cycles", end);
+    else if (v->n_rows == 1)
+        tell(t, "; %s", record_text(v, 0, RECORD_RUNNING_IN_NOTE));
+    if (v->n_rows == 1 && record_text(v, 0, RECORD_NOTE)[0] != '\0')
+        tell(t, "; %s", record_text(v, 0, RECORD_NOTE));
+}
+
+/* The nominal pressure under a ball and its duty, of which wear need not tell anything. */
+static void tell_ball(telling *t, const table_view *v)
+{
+    double least = (double)NAN, most = (double)NAN;
+    for (size_t i = 0; i < v->n_rows; i++) {
+        least = fmin(least, wear_get(v, i, WEAR_PRESSURE));
+        most = fmax(most, wear_get(v, i, WEAR_PRESSURE));
+    }
+    if (isnan(least))
+        return;
+    const number_words low = words_of(least, "Pa"), high = words_of(most, "Pa");
+    tell(t, "; nominal pressure under the ball %s", low.text);
+    if (strcmp(low.text, high.text) != 0)
+        tell(t, " to %s", high.text);
+    else if (!isnan(wear_get(v, 0, WEAR_DUTY)))
+        tell(t, ", duty %.3g", wear_get(v, 0, WEAR_DUTY));
+}
+
+void tell_wear(telling *t, const table_view *v)
+{
+    const wt_estimate k = wear_value(v, WEAR_KEY_RATE);
+    if (isnan(k.value))
+        tell(t, "no specific wear rate: %s", wear_text(v, 0, WEAR_NOTE));
+    else
+        tell(t, "specific wear rate %s", words_of_positive(k).text);
+    tell_ball(t, v);
+}
+
+void answer_wear_of_layer(const answer_story *story, const char *question)
+{
+    const table_view *const layer = &story->found.layer;
+    if (story->wear.table == NULL || layer->table == NULL)
+        return;
+    const wt_estimate is = wear_value(&story->wear, WEAR_KEY_RATE),
+                      used = layer_value(layer, LAYER_KEY_WEAR_RATE);
+    if (!(is.value > 0) || !(used.value > 0))
+        return;
+    if (used.value == is.value)
+        answer_say(story, question, "thickness",
+                   "Its specific wear rate is the one measured by the records: %s.",
+                   words_of_positive(is).text);
+    else
+        answer_say(
+            story, question, "thickness",
+            "Its specific wear rate is the one given, %s; the one measured by the records is "
+            "%.3g times that: %s.",
+            words_of_value(used).text, is.value / used.value, words_of_positive(is).text);
+}
+
+void answer_record(const answer_story *story)
+{
+    char text[900];
+    telling t = {text, sizeof text, 0};
+    if (story->record.n_rows == 0)
+        return;
+    tell_record(&t, &story->record);
+    if (story->wear.n_rows > 0) {
+        tell(&t, "; ");
+        tell_wear(&t, &story->wear);
+    }
+    if (text[0] >= 'a' && text[0] <= 'z')
+        text[0] = (char)(text[0] - 'a' + 'A');
+    answer_say(story, "What was measured of friction?", "record", "%s.", text);
+}

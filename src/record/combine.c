@@ -1,0 +1,55 @@
+/* One number of several measurements of it. SPDX-License-Identifier: GPL-3.0-or-later */
+#include "record/record.h"
+
+#include <math.h>
+
+void several_add(several *s, wt_estimate e)
+{
+    s->n++;
+    const double off = e.value - s->mean;
+    s->mean += off / s->n;
+    s->squares += off * (e.value - s->mean);
+    s->own += e.standard_error * e.standard_error;
+}
+
+static double by_scatter_of(const several *s)
+{
+    return s->n > 1 ? s->squares / (s->n * (s->n - 1)) : 0;
+}
+
+double several_freedom(const several *s)
+{
+    const double by_errors = s->own / (s->n * s->n);
+    return s->n > 1 && (isnan(by_errors) || by_scatter_of(s) > by_errors) ? s->n - 1 : (double)NAN;
+}
+
+wt_estimate several_mean(const several *s, const char *unit)
+{
+    if (!(s->n > 0))
+        return (wt_estimate){(double)NAN, (double)NAN, 0, unit};
+    const double by_scatter = by_scatter_of(s), by_errors = s->own / (s->n * s->n);
+    /* an error that is not known leaves the scatter alone, which one measurement has none of */
+    if (isnan(by_errors) && s->n > 1)
+        return (wt_estimate){s->mean, sqrt(by_scatter), 0, unit};
+    return (wt_estimate){s->mean, isnan(by_errors) ? by_errors : sqrt(fmax(by_errors, by_scatter)),
+                         0, unit};
+}
+
+void wear_rates_end_run(wear_rates *rates)
+{
+    if (!(rates->run.n > 0))
+        return;
+    several_add(&rates->all, several_mean(&rates->run, "m^2/N"));
+    rates->freedom = several_freedom(&rates->run);
+    rates->run = (several){.n = 0};
+}
+
+wt_estimate wear_rates_mean(const wear_rates *rates)
+{
+    return several_mean(&rates->all, "m^2/N");
+}
+
+double wear_rates_freedom(const wear_rates *rates)
+{
+    return rates->all.n == 1 ? rates->freedom : several_freedom(&rates->all);
+}

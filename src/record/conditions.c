@@ -1,0 +1,155 @@
+/* Steps of a record: where velocity, load, pressure or temperature change to another value.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#include "record/record.h"
+
+#include <math.h>
+
+/* Another value, not the control of the instrument: friction of rubber goes with the logarithm of
+ * the velocity, and a tenth of it is no other place; glass transitions move 5 K in one decade. */
+static const double same_ratio = 0.1, same_temperature = 5; /* [K] */
+/* Cycles that a new value must last, and how far it must stand out of the scatter of the old one.
+ */
+enum { LASTING = 10, FEWEST = 3 };
+static const double outstanding = 5; /* standard errors */
+
+/* The rotation counts where no radius tells the velocity. */
+typedef enum condition {
+    VELOCITY,
+    ROTATION,
+    NORMAL_FORCE,
+    PRESSURE,
+    TEMPERATURE,
+    CONDITIONS
+} condition;
+
+static double value_of(const wt_cycle *c, condition which)
+{
+    const double values[CONDITIONS] = {c->velocity, c->rotation, c->normal_force, c->pressure,
+                                       c->temperature};
+    return values[which];
+}
+
+static double least_change(condition which, double value)
+{
+    return which == TEMPERATURE ? same_temperature : same_ratio * fabs(value);
+}
+
+typedef struct spread {
+    double n, mean, squares;
+} spread;
+
+static void add(spread *s, double value)
+{
+    if (isnan(value))
+        return;
+    s->n++;
+    const double off = value - s->mean;
+    s->mean += off / s->n;
+    s->squares += off * (value - s->mean);
+}
+
+static spread spread_of(const wt_cycle *cycles, size_t n, condition which)
+{
+    spread s = {0};
+    for (size_t i = 0; i < n; i++)
+        add(&s, value_of(&cycles[i], which));
+    return s;
+}
+
+/* Do the next cycles have another value than those before? */
+static bool changes(const spread *before, const spread *next, condition which)
+{
+    const double change = fabs(next->mean - before->mean);
+    if (!(before->n > 0) || !(next->n > 0) || change <= least_change(which, before->mean))
+        return false;
+    const double variance = (before->squares + next->squares) / fmax(before->n + next->n - 2, 1);
+    return change > outstanding * sqrt(variance * (1 / before->n + 1 / next->n));
+}
+
+/* The first cycle that is nearer to the new value than to the old one. */
+static size_t nearer(const wt_cycle *cycles, size_t i, size_t n, condition which, double old)
+{
+    const size_t from = i + LASTING < n ? i + LASTING / 2 : i;
+    const size_t end = from + LASTING < n ? from + LASTING : n;
+    const double next = spread_of(cycles + from, end - from, which).mean;
+    while (i < n &&
+           fabs(value_of(&cycles[i], which) - old) < fabs(value_of(&cycles[i], which) - next))
+        i++;
+    return i;
+}
+
+static bool rests(const wt_cycle *c)
+{
+    return c->velocity == 0 || (isnan(c->velocity) && c->rotation == 0);
+}
+
+size_t conditions_step(const wt_cycle *cycles, size_t n)
+{
+    spread before[CONDITIONS] = {{0}};
+    size_t end = 1;
+    while (end < n && cycles[end].step == cycles[0].step)
+        end++;
+    /* what stands still before sliding begins is a step, however short */
+    for (size_t still = 0; still < end && rests(&cycles[still]); still++)
+        if (still + 1 < end && !rests(&cycles[still + 1]))
+            return still + 1;
+    for (size_t i = 0; i < end; i++) {
+        const size_t next = i + LASTING < end ? LASTING : end - i;
+        for (condition c = VELOCITY; c < CONDITIONS && i >= FEWEST && next >= FEWEST; c++) {
+            const spread ahead = spread_of(cycles + i, next, c);
+            if (changes(&before[c], &ahead, c))
+                return nearer(cycles, i, end, c, before[c].mean);
+        }
+        for (condition c = VELOCITY; c < CONDITIONS; c++)
+            add(&before[c], value_of(&cycles[i], c));
+    }
+    return end;
+}
+
+static double mean_or_nan(const wt_cycle *cycles, size_t n, condition which)
+{
+    const spread s = spread_of(cycles, n, which);
+    return s.n > 0 ? s.mean : (double)NAN;
+}
+
+/* Path over time: laps of other numbers of samples are as long. */
+static double mean_velocity(const wt_cycle *cycles, size_t n)
+{
+    double path = 0, time = 0;
+    for (size_t i = 0; i < n; i++)
+        if (cycles[i].duration > 0 && !isnan(cycles[i].velocity)) {
+            path += cycles[i].velocity * cycles[i].duration;
+            time += cycles[i].duration;
+        }
+    return time > 0 ? path / time : mean_or_nan(cycles, n, VELOCITY);
+}
+
+record_conditions conditions_of(const wt_cycle *cycles, size_t n)
+{
+    return (record_conditions){mean_velocity(cycles, n), mean_or_nan(cycles, n, ROTATION),
+                               mean_or_nan(cycles, n, NORMAL_FORCE),
+                               mean_or_nan(cycles, n, PRESSURE),
+                               mean_or_nan(cycles, n, TEMPERATURE)};
+}
+
+bool conditions_rest(record_conditions at)
+{
+    return !(at.velocity > 0 || at.rotation > 0) && (at.velocity == 0 || at.rotation == 0);
+}
+
+/* What only one of them tells is not known to be alike. */
+static bool alike(double a, double b, condition which)
+{
+    if (isnan(a) || isnan(b))
+        return isnan(a) && isnan(b);
+    return fabs(a - b) <= least_change(which, fmax(fabs(a), fabs(b)));
+}
+
+bool conditions_alike(record_conditions a, record_conditions b)
+{
+    return alike(a.velocity, b.velocity, VELOCITY) &&
+           (!isnan(a.velocity) || alike(a.rotation, b.rotation, ROTATION)) &&
+           alike(a.normal_force, b.normal_force, NORMAL_FORCE) &&
+           alike(a.pressure, b.pressure, PRESSURE) &&
+           alike(a.temperature, b.temperature, TEMPERATURE);
+}

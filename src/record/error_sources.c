@@ -1,0 +1,244 @@
+/* Where the error of measured over predicted comes from, and what would make it smaller.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#include "record/validation.h"
+
+#include "core/base/array.h"
+#include "core/base/clocale.h"
+#include "core/table/table_rows.h"
+#include "record/numerics/agreement.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+TABLE_ROW(validation_sources, VALIDATION_SOURCES, const char *source, *remedy;
+          double error, share, needed_share, pull, pull_error;)
+
+/* What is drawn, in words. Two numbers of one source have the same words, and make one row. */
+static const struct {
+    flow_draw draw;
+    const char *words, *remedy;
+} drawn[] = {
+    {FLOW_DRAW_SHIFT_LAW, "shift law", "a DMA sweep at the temperature of the record"},
+    {FLOW_DRAW_PRESSURE, "pressure", "the load and the nominal area known better"},
+    {FLOW_DRAW_TEMPERATURE, "temperature", "the temperature in sliding measured"},
+    {FLOW_DRAW_SHEAR_STRESS, "shear stress",
+     "the shear stress measured on a smooth counter surface"},
+    {FLOW_DRAW_DENSITY, "roughness", "more scans of the counter surface"},
+    {FLOW_DRAW_SOFT_STORAGE, "softening with strain", "more strain sweeps"},
+    {FLOW_DRAW_SOFT_LOSS, "softening with strain", "more strain sweeps"},
+    {FLOW_DRAW_THICKNESS, "thickness of the layer", "the layer measured at more places"},
+    {FLOW_DRAW_RATIO, "modulus ratio", "more spots indented, one lever for bulk and track"},
+    {FLOW_DRAW_RATIO_SLOPE, "slope of the modulus ratio",
+     "bulk and track indented at rates further apart"},
+    {FLOW_DRAW_WEAR, "specific wear rate", "the track profiled or the sample weighed"},
+    {FLOW_DRAW_CRITICAL_ENERGY, "critical energy", "the layer measured at more places"},
+    {FLOW_DRAW_OBSERVED, "observed thickness", "the layer measured at more places"},
+};
+
+static size_t find_drawn(flow_draw draw)
+{
+    size_t i = 0;
+    while (i + 1 < COUNT_OF(drawn) && drawn[i].draw != draw)
+        i++;
+    return i;
+}
+
+const char *source_of_draw(flow_draw draw, const char **remedy)
+{
+    const size_t k = find_drawn(draw);
+    *remedy = drawn[k].remedy;
+    return drawn[k].words;
+}
+
+enum { MOST_SOURCES = COUNT_OF(drawn) + 3 }; /* and the material, the record, its scatter */
+
+typedef struct source {
+    const char *words, *remedy;
+    double variance, needed; /* of ln measured over predicted; of the shear stress needed */
+    double pull, left;       /* as the columns */
+} source;
+
+typedef struct source_list {
+    source of[MOST_SOURCES];
+    size_t n;
+    double all, all_needed;
+} source_list;
+
+static source *find_source(source_list *list, const char *words, const char *remedy)
+{
+    for (size_t i = 0; i < list->n; i++)
+        if (strcmp(list->of[i].words, words) == 0)
+            return &list->of[i];
+    source *const s = &list->of[list->n++];
+    *s = (source){.words = words, .remedy = remedy, .pull = (double)NAN, .left = (double)NAN};
+    return s;
+}
+
+/* ---- the variance by sources ----------------------------------------------------------------- */
+
+/* What the draws leave beside the numbers that are told apart. */
+static const char *words_of_rest(const wt_sliding *sliding, bool split)
+{
+    const bool with_surface = sliding->surface->modes_error != NULL;
+    const bool two = sliding->layer_rubber != NULL && sliding->layer_rubber->n_draws > 0;
+    if (!split)
+        return VALIDATION_OF_MATERIAL " and all else that is drawn";
+    if (with_surface)
+        return two ? VALIDATION_OF_MATERIAL ", that of the layer, scatter of the measured spectrum"
+                   : VALIDATION_OF_MATERIAL ", and scatter of the measured spectrum";
+    return two ? VALIDATION_OF_MATERIAL ", and that of the layer" : VALIDATION_OF_MATERIAL;
+}
+
+static void add_rest(source_list *list, const wt_sliding *sliding, bool split,
+                     const trial_parts *parts, const trial_parts *needed)
+{
+    const struct {
+        const char *words, *remedy;
+        double variance, needed;
+    } rest[] = {{words_of_rest(sliding, split),
+                 !split ? "more replicates, which tell the errors apart"
+                 : sliding->surface->modes_error != NULL
+                     ? "a second DMA run; more scans of the counter surface"
+                     : "a second DMA run; temperatures known better",
+                 parts->material, needed->material},
+                {"record", "longer records, or more of them", parts->record, needed->record},
+                {"scatter between the steps",
+                 "more records at each velocity: the steps scatter by more than their errors",
+                 parts->scatter, needed->scatter}};
+    for (size_t i = 0; i < COUNT_OF(rest); i++)
+        if (rest[i].variance > 0 || rest[i].needed > 0) {
+            source *const s = find_source(list, rest[i].words, rest[i].remedy);
+            s->variance = rest[i].variance;
+            s->needed = rest[i].needed;
+        }
+}
+
+static void list_sources(const validation *v, bool split, const trial_parts *parts,
+                         const trial_parts *needed, source_list *list)
+{
+    *list = (source_list){.all = parts->all, .all_needed = needed->all};
+    for (size_t u = 0; split && u < v->p.n_lines; u++) {
+        const size_t k = find_drawn(v->p.line[u]);
+        source *const s = find_source(list, drawn[k].words, drawn[k].remedy);
+        s->variance += parts->line[u];
+        s->needed += needed->line[u];
+    }
+    add_rest(list, v->job->sliding, split, parts, needed);
+}
+
+/* What the record makes of each drawn number, before it 0 +- 1: the value is noise about slope
+ * times what the number truly is off, the other way round. */
+static wt_status find_pulls(const validation *v, const trial *t, source_list *list, wt_error *err)
+{
+    agreement_data data = trial_data(t);
+    data.allowed = validation_allowed(v);
+    double *const weight = malloc((t->n + 1) * sizeof *weight);
+    wt_status status = weight == NULL ? wt_fail(err, WT_E_MEMORY, "out of memory") : WT_OK;
+    for (size_t u = 0; status == WT_OK && u < t->n_lines; u++) {
+        const double *const slope = t->slope + u * t->n;
+        const size_t k = find_drawn(v->p.line[u]);
+        double pull = 0, told = 0;
+        status = agreement_solve(&data, t->fit.scatter, slope, weight, err);
+        for (size_t i = 0; status == WT_OK && i < t->n; i++) {
+            pull += weight[i] * t->value[i];
+            told += weight[i] * slope[i];
+        }
+        source *const s = find_source(list, drawn[k].words, drawn[k].remedy);
+        if (!isnan(s->pull)) /* of two numbers: there is not one pull */
+            pull = told = (double)NAN;
+        s->pull = -pull;
+        s->left = sqrt(fmax(1 - told, 0));
+    }
+    free(weight);
+    return status;
+}
+
+/* ---- advice ---------------------------------------------------------------------------------- */
+
+static int by_variance(const void *a, const void *b)
+{
+    const source *x = a, *y = b;
+    return (x->variance < y->variance) - (x->variance > y->variance);
+}
+
+/* How many sources, the largest first, must go that the interval leaves the end of the margin that
+ * it holds; their number + 1: all of them are not enough. */
+static size_t count_to_settle(const validation *v, const trial *t, const source_list *list)
+{
+    const agreement *const fit = &t->fit;
+    const size_t at = fit->where;
+    const double off = fabs(fabs(fit->smooth[at]) - validation_margin(v)),
+                 wanted = off / agreement_quantile(fit->df[at]);
+    double left = list->all;
+    size_t n = 0;
+    while (n < list->n && sqrt(fmax(left, 0)) > wanted)
+        left -= list->of[n++].variance;
+    return sqrt(fmax(left, 0)) > wanted ? list->n + 1 : n;
+}
+
+/* More of them at once are no advice. */
+enum { MOST_NAMED = 2 };
+
+static void give_advice(const validation *v, const trial *t, const source_list *list,
+                        source_advice *advice)
+{
+    const source *const first = &list->of[0];
+    const double share = first->variance / list->all;
+    clocale_print(advice->narrows, sizeof advice->narrows, "%s: %.0f %% of the variance is the %s",
+                  first->remedy, 100 * share, first->words);
+    if (t->fit.verdict != AGREEMENT_OPEN)
+        return;
+    const size_t n = count_to_settle(v, t, list);
+    char words[200] = "";
+    for (size_t i = 0, used = 0; i < n && i < list->n && used < sizeof words; i++)
+        used += (size_t)snprintf(words + used, sizeof words - used, "%s%s", i > 0 ? ", " : "",
+                                 list->of[i].words);
+    if (n > MOST_NAMED)
+        clocale_print(advice->settles, sizeof advice->settles,
+                      "hardly anything, so near is the end of the margin; most would be had by %s",
+                      first->remedy);
+    else
+        clocale_print(advice->settles, sizeof advice->settles, "%s known better%s%s", words,
+                      n == 1 ? ": " : "", n == 1 ? first->remedy : "");
+}
+
+/* ---- the table ------------------------------------------------------------------------------- */
+
+static wt_status write_table(const source_list *list, const source_advice *advice, wt_table **table,
+                             wt_error *err)
+{
+    table_writer w = table_begin(&validation_sources_schema, err);
+    for (size_t i = 0; i < list->n; i++) {
+        const source *const s = &list->of[i];
+        TABLE_ADD(
+            validation_sources, &w, s->words, s->remedy, sqrt(s->variance), s->variance / list->all,
+            list->all_needed > 0 ? s->needed / list->all_needed : (double)NAN, s->pull, s->left);
+    }
+    validation_sources_set_text(&w, VALIDATION_SOURCES_KEY_ADVICE, advice->narrows);
+    return table_end(&w, table);
+}
+
+wt_status sources_make(const validation *v, source_advice *advice, wt_table **table, wt_error *err)
+{
+    const trial *const t = v->has_shear ? &v->ratio[v->layered] : &v->shear;
+    double *const row = malloc((t->n + 1) * sizeof *row);
+    source_list list;
+    *advice = (source_advice){.narrows = ""};
+    if (row == NULL)
+        return wt_fail(err, WT_E_MEMORY, "out of memory");
+    agreement_row(&t->fit, t->fit.where, row);
+    const trial_parts parts = trial_variance(t, row);
+    agreement_row(&v->shear.fit, 0, row);
+    const trial_parts needed = trial_variance(&v->shear, row);
+    free(row);
+    const bool split = t->split || v->p.n_draws == 0; /* without draws there is nothing to split */
+    list_sources(v, split, &parts, &needed, &list);
+    const wt_status status = v->has_shear && split ? find_pulls(v, t, &list, err) : WT_OK;
+    if (status != WT_OK)
+        return status;
+    qsort(list.of, list.n, sizeof *list.of, by_variance);
+    give_advice(v, t, &list, advice);
+    return write_table(&list, advice, table, err);
+}

@@ -1,0 +1,93 @@
+/* Figures of friction records: friction against cycle, velocity, load and temperature.
+ *
+ * SPDX-License-Identifier: GPL-3.0-or-later
+ */
+#include "report/drawing.h"
+
+#include "core/base/array.h"
+
+#include <math.h>
+
+/* Cycles, then the mean of the steady part of each step at the end of its running-in. */
+static void draw_record(figure_drawing *d)
+{
+    static const unsigned columns[] = {RECORD_RUNNING_IN, RECORD_FRICTION, RECORD_RUNNING_IN_LOW,
+                                       RECORD_RUNNING_IN_HIGH};
+    if (!drawing_data(d))
+        return;
+    drawing_axes(d);
+    const int ends = drawing_section(d, &d->tables->record, "end of the running-in", NULL, columns,
+                                     COUNT_OF(columns), COUNT_OF(columns));
+    drawing_curves(d, 0);
+    plot_item(d, ends,
+              "($1*x_unit):($2*y_unit):($3*x_unit):($4*x_unit) with xerrorbars ls 2 title "
+              "'%s'",
+              say(d->language, "end of the running-in"));
+    plot_end(d);
+}
+
+static void caption_record(figure_drawing *d)
+{
+    const table_view *const steps = &d->tables->record;
+    size_t without = 0;
+    for (size_t row = 0; row < steps->n_rows; row++)
+        without += isnan(record_get(steps, row, RECORD_RUNNING_IN)) ? 1 : 0;
+    text_say(&d->caption, " Steps: %zu.", steps->n_rows);
+    if (without > 0)
+        text_say(&d->caption, " Without an end of the running-in: %zu.", without);
+}
+
+/* In degrees Celsius, which a description of a curve cannot say: value, its error, the interval. */
+static void draw_temperature(figure_drawing *d)
+{
+    if (!drawing_data(d))
+        return;
+    drawing_axes(d);
+    plot_item(d, d->data[0], "($1+x_offset):2:4:5 with yerrorbars ls 1 notitle");
+    plot_end(d);
+}
+
+#define AGAINST(which, column, scale, label, words_)                                               \
+    {                                                                                              \
+        .name = "record_" which, .title = "Friction as measured, against " which,                  \
+        .table = &record_schema, .data_title = "steady part", .x = {column, scale, label},         \
+        .of_several = true, .y = {{RECORD_FRICTION, AXIS_NUMBER, "Friction coefficient μ"}},       \
+        .curves = {CURVE(RECORD_FRICTION, BARS, .style = 1, .with_errors = true)}, .words = words_ \
+    }
+
+const figure_description figures_record[] = {
+    {.name = "record",
+     .title = "Friction as measured",
+     .table = &record_cycles_schema,
+     .beside = "record",
+     .data_title = "cycles",
+     .x = {RECORD_CYCLES_CYCLE, AXIS_NUMBER, "Cycle"},
+     .y = {{RECORD_CYCLES_FRICTION, AXIS_NUMBER, "Friction coefficient μ"}},
+     .curves = {CURVE(RECORD_CYCLES_FRICTION, LINE, .style = 21, .title = "mean of a cycle")},
+     .nothing = "no friction coefficient is a number",
+     .words =
+         "Mean friction coefficient of every cycle, one line for each step of a record. The "
+         "marks stand at the end of the running-in, with its interval of 95 %, and at the mean "
+         "of the steady part behind it.",
+     .draw = draw_record,
+     .caption = caption_record},
+    AGAINST("velocity", RECORD_VELOCITY, AXIS_LOG, "Sliding velocity",
+            "Friction coefficient of the steady part of every step against the velocity of the "
+            "step, with its interval of 95 %."),
+    AGAINST("load", RECORD_NORMAL_FORCE, AXIS_LINEAR, "Normal force",
+            "Friction coefficient of the steady part of every step against the load of the step, "
+            "with its interval of 95 %."),
+    {.name = "record_temperature",
+     .title = "Friction as measured, against temperature",
+     .table = &record_schema,
+     .data_title = "steady part",
+     .x = {RECORD_TEMPERATURE, AXIS_LINEAR, "Temperature"},
+     .of_several = true,
+     .y = {{RECORD_FRICTION, AXIS_NUMBER, "Friction coefficient μ"}},
+     .curves = {CURVE(RECORD_FRICTION, OWN, .with_errors = true)},
+     .words =
+         "Friction coefficient of the steady part of every step against the temperature of the "
+         "step, with its interval of 95 %.",
+     .draw = draw_temperature},
+    {.name = NULL},
+};

@@ -1,0 +1,333 @@
+/* Friction while a layer grows. SPDX-License-Identifier: GPL-3.0-or-later */
+#include "record/layer_growth.h"
+#include "job/random_draws.h"
+#include "layer/feedback.h"
+#include "layer/layer_friction.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* Times in equal ratios: by damage transport so close that a layer which is there at once is placed
+ * to 2 %; the rate balance is smooth, and its line between two misses a thousandth. */
+enum { TIMES_TRANSPORT = 600, TIMES_RATES = 150 };
+/* Thicknesses that friction is computed at, with a curve through them, which misses less than a
+ * thousandth of its change. */
+enum { NODES = 32 };
+/* From a layer that the shortest wave hardly feels: of 1/q1, but of what is grown at least. */
+static const double thinnest = 0.02, least_part = 1e-3;
+
+typedef struct growing {
+    wt_sliding sliding; /* at the conditions of the record */
+    double velocity;
+    const wt_sliding *stated; /* the conditions of the case, at which a thickness was observed */
+    wt_layer_job job;         /* as stated, with the shear stress of the layer */
+    const wt_layer_known *known;
+    const wt_job *work;
+    bool transport; /* of damage; else by rates */
+    double *time;   /* [n] */
+    size_t n;
+} growing;
+
+/* ---- one draw -------------------------------------------------------------------------------- */
+
+/* The scene of a draw at the conditions of the record, whose job the caller keeps: its critical
+ * energy is that which makes an observed thickness at the conditions of the case. */
+static wt_status scene_of(const growing *g, size_t replicate, wt_drawn *drawn, wt_layer_job *job,
+                          layer_scene *scene, wt_error *err)
+{
+    const wt_layer_known *const known = g->known;
+    const uint64_t seed = g->work->seed;
+    *scene = (layer_scene){.sliding = g->stated,
+                           .job = &g->job,
+                           .work = g->work,
+                           .replicate = replicate,
+                           .modulus_ratio = (double)NAN};
+    const wt_status status = layer_job_calibrated(scene, job, err);
+    job->velocity = g->velocity;
+    job->time = NULL;
+    *scene = (layer_scene){.sliding = &g->sliding,
+                           .job = job,
+                           .work = g->work,
+                           .replicate = replicate,
+                           .drawn = drawn,
+                           .modulus_ratio =
+                               flow_draw_positive_t(known->modulus_ratio, known->modulus_ratio_df,
+                                                    seed, replicate, FLOW_DRAW_RATIO),
+                           .slope = sliding_layer_slope(known, seed, replicate)};
+    return status;
+}
+
+/* What a layer does to friction, and when it is how thick. */
+typedef struct one_draw {
+    layer_scene *scene;
+    wt_layer_parameters parameters;
+    wt_layer_point *points; /* [n] at the times */
+    double thickness, bare; /* in the end; friction without a layer */
+    friction_of_layer friction_of;
+} one_draw;
+
+static wt_status grow_back(const growing *g, one_draw *d, wt_error *err)
+{
+    wt_layer_loop loop;
+    const wt_status status = acts_back_find(d->scene, &loop, err);
+    if (status != WT_OK)
+        return status;
+    d->thickness = 0;
+    for (size_t i = loop.n_roots; i-- > 0;)
+        if (loop.root[i].stable)
+            d->thickness = loop.root[i].thickness;
+    return wt_layer_loop_history(acts_back_energy, d->scene, &loop, g->time, g->n, d->points, err);
+}
+
+static wt_status grow(const growing *g, one_draw *d, wt_error *err)
+{
+    wt_layer_parameters *const p = &d->parameters;
+    layer_energy energy = {.source = {.n = 0}};
+    wt_layer_balance balance;
+    wt_status status = layer_at(d->scene, layer_here(), &energy, p, err);
+    p->balance_only = true;
+    if (status == WT_OK)
+        status = wt_layer_balance_compute(&energy.source, p, &balance, err);
+    if (status == WT_OK)
+        d->thickness = balance.thickness.value;
+    p->without_errors = true;
+    if (status == WT_OK && g->job.acts_back)
+        status = grow_back(g, d, err);
+    else if (status == WT_OK && isfinite(d->thickness))
+        status = wt_layer_history(&energy.source, p, g->time, g->n, d->points, err);
+    layer_energy_clear(&energy);
+    if (status == WT_OK && !isfinite(d->thickness))
+        status = wt_fail(err, WT_E_RANGE, "the layer grows without end");
+    return status;
+}
+
+static wt_status find_friction(const growing *g, one_draw *d, wt_error *err)
+{
+    layer_friction bare;
+    double most = d->thickness;
+    for (size_t i = 0; i < g->n; i++)
+        most = fmax(most, d->points[i].thickness.value);
+    wt_status status = layer_friction_at(d->scene, layer_here(), &bare, err);
+    if (status != WT_OK)
+        return status;
+    d->bare = bare.total;
+    if (most > 0)
+        status = friction_of_layer_make(d->scene,
+                                        fmin(thinnest / g->sliding.surface->q1, least_part * most),
+                                        most, NODES, &d->friction_of, err);
+    return status;
+}
+
+static wt_status put_friction(const one_draw *d, double thickness, double *out, wt_error *err)
+{
+    layer_friction at = {.total = d->bare};
+    const wt_status status =
+        thickness > 0 ? friction_of_layer_at(&d->friction_of, thickness, &at, err) : WT_OK;
+    *out = at.total;
+    return status;
+}
+
+/* out: [GROWTH_NUMBERS + n] */
+static wt_status follow(const growing *g, layer_scene *scene, double *out, wt_error *err)
+{
+    const wt_layer_job *const job = scene->job;
+    one_draw d = {.scene = scene, .points = calloc(g->n, sizeof *d.points)};
+    wt_status status =
+        d.points == NULL ? wt_fail(err, WT_E_MEMORY, "out of memory") : grow(g, &d, err);
+    if (status == WT_OK)
+        status = find_friction(g, &d, err);
+    for (size_t i = 0; status == WT_OK && i < g->n; i++)
+        status = put_friction(&d, d.points[i].thickness.value, &out[GROWTH_NUMBERS + i], err);
+    if (status == WT_OK)
+        status = put_friction(&d, d.thickness, &out[GROWTH_END], err);
+    out[GROWTH_BARE] = d.bare;
+    out[GROWTH_WEAR] = d.parameters.specific_wear_rate;
+    out[GROWTH_ENERGY] =
+        job->closure == WT_CLOSURE_ENERGY ? d.parameters.critical_energy : (double)NAN;
+    friction_of_layer_clear(&d.friction_of);
+    free(d.points);
+    return status;
+}
+
+/* ---- the times ------------------------------------------------------------------------------- */
+
+/* Those that a layer is shown at, closer. */
+static wt_status choose_times(growing *g, growth *out, wt_error *err)
+{
+    layer_energy energy = {.source = {.n = 0}};
+    wt_layer_parameters p;
+    wt_layer_balance balance;
+    wt_layer_job job;
+    layer_scene scene;
+    double *shown = NULL;
+    size_t n = 0;
+    wt_status status = scene_of(g, WT_NO_REPLICATE, NULL, &job, &scene, err);
+    if (status == WT_OK)
+        status = layer_at(&scene, layer_here(), &energy, &p, err);
+    if (status == WT_OK)
+        status = wt_layer_balance_compute(&energy.source, &p, &balance, err);
+    layer_energy_clear(&energy);
+    if (status == WT_OK && balance.thickness.value <= 0 && !g->job.acts_back)
+        status = wt_fail(err, WT_E_RANGE, "no layer is predicted there: wear exceeds formation");
+    if (status == WT_OK)
+        status = layer_times_choose(&job, &balance, &shown, &n, err);
+    if (status == WT_OK) {
+        /* by rates a layer is there at once: from the thinnest that is felt on */
+        const double at_once = thinnest / g->sliding.surface->q1 / balance.formation_rate_zero,
+                     first = g->transport || !(at_once > 0) ? shown[0] : fmin(shown[0], at_once);
+        out->log_first = log(first);
+        out->log_step = log(shown[n - 1] / first) / (double)(g->n - 1);
+        for (size_t i = 0; i < g->n; i++)
+            g->time[i] = exp(out->log_first + (double)i * out->log_step);
+    }
+    free(shown);
+    return status;
+}
+
+/* ---- draws ----------------------------------------------------------------------------------- */
+
+typedef struct drawing {
+    growing g;
+    replicates *r;
+} drawing;
+
+static wt_status one_replicate(const void *user, size_t i, double *out, wt_error *err)
+{
+    const drawing *const d = user;
+    wt_layer_job job;
+    layer_scene scene;
+    const wt_status status = scene_of(&d->g, i, d->r->drawn, &job, &scene, err);
+    return status == WT_OK ? follow(&d->g, &scene, out, err) : status;
+}
+
+static replicates begin_replicates(const growing *g)
+{
+    replicates r = replicates_of(&g->sliding, g->work, "friction in running-in");
+    r.velocity = g->velocity;
+    layer_replicates_add(&r, &g->sliding, &g->job);
+    if (g->job.energy == WT_LAYER_HYSTERESIS)
+        replicates_add(&r, g->sliding.shear_stress.standard_error, FLOW_DRAW_SHEAR_STRESS,
+                       "shear stress");
+    replicates_add_layer(&r, &g->sliding, g->known, "modulus ratio of the layer");
+    return r;
+}
+
+static wt_status draw_all(const growing *g, growth *out, wt_error *err)
+{
+    replicates r = begin_replicates(g);
+    const drawing d = {*g, &r};
+    if (g->job.acts_back)
+        r.n = 0;
+    out->n_draws = r.n;
+    out->value = calloc((1 + r.n) * out->stride, sizeof *out->value);
+    out->course = calloc((1 + r.n) * out->n, sizeof *out->course);
+    wt_status status = out->value == NULL || out->course == NULL
+                           ? wt_fail(err, WT_E_MEMORY, "out of memory")
+                           : WT_OK;
+    wt_layer_job job;
+    layer_scene nominal;
+    if (status == WT_OK)
+        status = scene_of(g, WT_NO_REPLICATE, NULL, &job, &nominal, err);
+    if (status == WT_OK)
+        status = follow(g, &nominal, out->value, err);
+    if (status == WT_OK && r.n > 0)
+        status = replicates_draw(&r, out->stride, one_replicate, &d, err);
+    if (status == WT_OK && r.n > 0)
+        memcpy(out->value + out->stride, r.value, r.n * out->stride * sizeof *r.value);
+    memcpy(out->line, r.draw, sizeof out->line);
+    out->n_lines = r.n_draws;
+    snprintf(out->includes, sizeof out->includes, "%s", replicates_include(&r));
+    replicates_clear(&r);
+    return status;
+}
+
+static void find_courses(growth *g)
+{
+    for (size_t k = 0; k <= g->n_draws; k++) {
+        const double *const v = g->value + k * g->stride;
+        double most = 0;
+        for (size_t i = 0; i < g->n; i++) {
+            g->course[k * g->n + i] = v[GROWTH_NUMBERS + i] - v[GROWTH_END];
+            most = fmax(most, fabs(g->course[k * g->n + i]));
+        }
+        g->n_bare += isfinite(v[GROWTH_END]) && most <= 0;
+    }
+}
+
+static growing growing_of(const wt_sliding *sliding, const wt_layer_job *layer,
+                          const wt_layer_known *known, const measured_step *at, const wt_job *work)
+{
+    growing g = {.sliding = *sliding,
+                 .velocity = at->velocity,
+                 .stated = sliding,
+                 .job = *layer,
+                 .known = known,
+                 .work = work};
+    measured_conditions(at, &g.sliding);
+    g.job.shear = sliding_layer_shear_of(known);
+    return g;
+}
+
+wt_status growth_make(const wt_sliding *sliding, const wt_layer_job *layer,
+                      const wt_layer_known *known, const measured_step *at, const wt_job *work,
+                      growth *out, wt_error *err)
+{
+    wt_job own = *work;
+    own.drawn = NULL; /* of another temperature */
+    own.left_out = WT_EXTRAS;
+    growing g = growing_of(sliding, layer, known, at, &own);
+    g.transport = layer->incubation && !layer->acts_back;
+    g.n = g.transport ? TIMES_TRANSPORT : TIMES_RATES;
+    *out = (growth){.n = g.n, .stride = GROWTH_NUMBERS + g.n, .without_errors = layer->acts_back};
+    g.sliding.velocity = &g.velocity;
+    g.sliding.n_velocity = 1;
+    g.sliding.reference_velocity = g.velocity;
+    g.time = malloc(g.n * sizeof *g.time);
+    wt_status status = g.time == NULL ? wt_fail(err, WT_E_MEMORY, "out of memory") : WT_OK;
+    if (status == WT_OK)
+        status = choose_times(&g, out, err);
+    if (status == WT_OK)
+        status = draw_all(&g, out, err);
+    if (status == WT_OK)
+        find_courses(out);
+    free(g.time);
+    return status;
+}
+
+void growth_clear(growth *g)
+{
+    free(g->value);
+    free(g->course);
+    *g = (growth){.n = 0};
+}
+
+double growth_number_of(const growth *g, size_t k, growth_number number)
+{
+    return g->value[k * g->stride + (size_t)number];
+}
+
+course growth_course(const growth *g, size_t k)
+{
+    return (course){g->n, g->log_first, g->log_step, g->course + k * g->n};
+}
+
+double growth_friction(const growth *g, size_t k, double time)
+{
+    const course c = growth_course(g, k);
+    return growth_number_of(g, k, GROWTH_END) + course_at(&c, log(time));
+}
+
+double growth_scatter(const growth *g, growth_value *of, double time)
+{
+    double sum = 0, squares = 0, n = 0;
+    for (size_t k = 1; k <= g->n_draws; k++) {
+        const double x = of(g, k, time);
+        if (isfinite(x)) {
+            sum += x;
+            squares += x * x;
+            n++;
+        }
+    }
+    return n > 1 ? sqrt(fmax(squares - sum * sum / n, 0) / (n - 1)) : (double)NAN;
+}

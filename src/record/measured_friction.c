@@ -1,0 +1,187 @@
+/* Steps of records, ready to be predicted. SPDX-License-Identifier: GPL-3.0-or-later */
+#include "record/measured_friction.h"
+#include "friction/sliding_contact.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* Covariances go with the square of the steps: 500 take 2 MB each. */
+enum { MOST_STEPS = 500 };
+/* One preparation of the contact serves steps that differ by less: a quarter of a kelvin shifts
+ * filled rubber by a fortieth of a decade, and friction goes with the power 1/3 of the pressure at
+ * most. */
+static const double same_temperature = 0.25 /* [K] */, same_pressure = 0.01;
+/* Loads of one step are held to 10 %, see the steps of records. */
+static const double same_load = 1.1;
+
+static const char *why_not(const measured_step *s)
+{
+    if (!(s->velocity > 0))
+        return "nothing slides in it";
+    if (!(s->friction > 0))
+        return "no friction coefficient above 0";
+    if (!(s->error > 0) || !isfinite(s->error))
+        return "no standard error";
+    return "";
+}
+
+static bool is_used(const measured_step *s)
+{
+    return s->note[0] == '\0';
+}
+
+/* What is not known is alike, and behind all that is. */
+static int by_value(double a, double b)
+{
+    if (isnan(a) || isnan(b))
+        return (isnan(a) ? 1 : 0) - (isnan(b) ? 1 : 0);
+    return (a > b) - (a < b);
+}
+
+static int by_condition(const void *x, const void *y)
+{
+    const measured_step *a = x, *b = y;
+    int order = is_used(b) - is_used(a);
+    if (order == 0)
+        order = by_value(a->temperature, b->temperature);
+    if (order == 0)
+        order = by_value(a->pressure, b->pressure);
+    if (order == 0)
+        order = by_value(a->velocity, b->velocity);
+    if (order == 0)
+        order = by_value(a->friction, b->friction);
+    return order != 0 ? order : by_value(a->error, b->error);
+}
+
+/* Values that merely flicker become those of the first, so that they sort by velocity. */
+static void join_flicker(measured *m)
+{
+    for (size_t i = 0; i < m->n_all; i++)
+        for (size_t k = 0; k < i; k++) {
+            measured_step *const a = &m->step[k], *const b = &m->step[i];
+            if (fabs(a->temperature - b->temperature) < same_temperature)
+                b->temperature = a->temperature;
+            if (fabs(log(b->pressure / a->pressure)) < same_pressure)
+                b->pressure = a->pressure;
+        }
+}
+
+static void add_remark(char *remarks, size_t size, const char *words)
+{
+    const size_t used = strlen(remarks);
+    snprintf(remarks + used, size - used, "%s%s", used > 0 ? "; " : "", words);
+}
+
+void measured_remark(measured *m, const char *words)
+{
+    add_remark(m->remarks, sizeof m->remarks, words);
+}
+
+void measured_taken(const table_view *record, bool first_steps, char *remarks, size_t size)
+{
+    bool velocity = false, temperature = false, pressure = false;
+    double lightest = (double)INFINITY, heaviest = 0;
+    for (size_t i = 0; i < record->n_rows; i++) {
+        const double load = record_get(record, i, RECORD_NORMAL_FORCE);
+        if (first_steps && record_get(record, i, RECORD_STEP) != 1)
+            continue;
+        velocity |= isnan(record_get(record, i, RECORD_VELOCITY));
+        temperature |= isnan(record_get(record, i, RECORD_TEMPERATURE));
+        pressure |= isnan(record_get(record, i, RECORD_PRESSURE));
+        lightest = fmin(lightest, load); /* which leave out NaN */
+        heaviest = fmax(heaviest, load);
+    }
+    if (velocity)
+        add_remark(remarks, size,
+                   "the record does not say the velocity of every step: that of the case");
+    if (temperature)
+        add_remark(remarks, size,
+                   "the record does not say the temperature of every step: that of the case");
+    if (pressure)
+        add_remark(remarks, size,
+                   "the record does not say the nominal pressure of every step: that of the "
+                   "case");
+    if (pressure && heaviest > same_load * lightest)
+        add_remark(remarks, size,
+                   "the load changes between the steps, and the pressure with it: what the "
+                   "steps of another load say is not of the theory alone");
+}
+
+measured_step measured_step_of(const table_view *record, size_t row, const wt_sliding *sliding)
+{
+    const double velocity = record_get(record, row, RECORD_VELOCITY),
+                 temperature = record_get(record, row, RECORD_TEMPERATURE),
+                 pressure = record_get(record, row, RECORD_PRESSURE);
+    const bool rests = isnan(velocity) && record_get(record, row, RECORD_ROTATION) == 0;
+    measured_step s = {.velocity = rests             ? 0
+                                   : isnan(velocity) ? flow_reference_velocity(sliding)
+                                                     : velocity,
+                       .temperature = temperature > 0 ? temperature : sliding->temperature.value,
+                       .pressure = pressure > 0 ? pressure : sliding->pressure.value,
+                       .friction = record_get(record, row, RECORD_FRICTION),
+                       .error = record_get(record, row, RECORD_FRICTION_STANDARD_ERROR),
+                       .file = record_text(record, row, RECORD_FILE)};
+    s.measured = (wt_interval){s.friction, s.error, record_get(record, row, RECORD_FRICTION_LOW),
+                               record_get(record, row, RECORD_FRICTION_HIGH)};
+    s.note = why_not(&s);
+    return s;
+}
+
+void measured_conditions(const measured_step *step, wt_sliding *sliding)
+{
+    const wt_estimate stated = sliding->pressure;
+    const double relative = stated.standard_error / stated.value;
+    sliding->pressure = (wt_estimate){
+        step->pressure, isfinite(relative) ? relative * step->pressure : 0, 0, stated.unit};
+    sliding->temperature.value = step->temperature;
+}
+
+wt_status measured_make(const table_view *record, const wt_sliding *sliding, measured *m,
+                        wt_error *err)
+{
+    *m = (measured){.step = calloc(record->n_rows + 1, sizeof *m->step)};
+    if (m->step == NULL)
+        return wt_fail(err, WT_E_MEMORY, "out of memory");
+    for (size_t i = 0; i < record->n_rows; i++) {
+        measured_step *const s = &m->step[m->n_all++];
+        *s = measured_step_of(record, i, sliding);
+        m->n += is_used(s);
+    }
+    measured_taken(record, false, m->remarks, sizeof m->remarks);
+    join_flicker(m);
+    qsort(m->step, m->n_all, sizeof *m->step, by_condition);
+    if (m->n == 0) {
+        wt_fail(err, WT_E_EMPTY, "no step of the record has a friction coefficient with an error");
+        wt_error_advice(err, "longer records: the error comes of the scatter of the cycles");
+        return WT_E_EMPTY;
+    }
+    if (m->n > MOST_STEPS) {
+        wt_fail(err, WT_E_RANGE, "the records have too many steps");
+        wt_error_expected(err, "%d at most", MOST_STEPS);
+        wt_error_found(err, "%zu", m->n);
+        return WT_E_RANGE;
+    }
+    return WT_OK;
+}
+
+void measured_clear(measured *m)
+{
+    free(m->step);
+    *m = (measured){.step = NULL};
+}
+
+size_t measured_alike(const measured *m, size_t first)
+{
+    size_t n = 1;
+    const measured_step *const a = &m->step[first];
+    for (; first + n < m->n; n++) {
+        const measured_step *const b = &m->step[first + n];
+        const bool same = by_value(a->temperature, b->temperature) == 0 &&
+                          by_value(a->pressure, b->pressure) == 0;
+        if (!same)
+            break;
+    }
+    return n;
+}

@@ -1,0 +1,233 @@
+/* What a record says of the choices of the model: the likelihood of each row of the table what_if.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#include "record/validation.h"
+#include "study/what_if.h"
+
+#include "core/base/clocale.h"
+#include "core/table/table_rows.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* A share of the weight as an interval has it of the probability. */
+static const double most_of_it = 0.95;
+
+typedef struct choice_row {
+    const char *choice, *tried, *verdict;
+    double ratio, trend, log_likelihood, weight;
+    bool kept;
+    char note[256];
+} choice_row;
+TABLE_ROW_OF(validation_choices, VALIDATION_CHOICES, choice_row)
+
+/* ---- one row --------------------------------------------------------------------------------- */
+
+/* The prediction of a setting at the steps, with the thickness that the table has for it. */
+static wt_status predict(const validation *v, setting *s, double thickness, prediction *p,
+                         wt_error *err)
+{
+    wt_rubber refitted = {0};
+    wt_layer_known known =
+        v->layered ? *v->known : (wt_layer_known){.modulus_ratio = {1, 0, 0, NULL}};
+    wt_status status = WT_OK;
+    known.bulk_shear = s->known.bulk_shear;
+    if (!isnan(thickness))
+        known.thickness.value = thickness;
+    if (s->vertical != v->used.vertical) {
+        status = wt_rubber_refit(&s->rubber, s->vertical, &refitted, err);
+        s->rubber = refitted;
+        s->given = NULL;
+    }
+    s->sliding.rubber = s->given != NULL ? s->given : &s->rubber;
+    s->sliding.surface = &s->surface;
+    s->sliding.softness = s->has_softness ? &s->softness : NULL;
+    if (status == WT_OK)
+        status = prediction_make(&s->sliding, v->layered ? &known : NULL, &v->steps, v->work, false,
+                                 p, err);
+    wt_rubber_clear(&refitted);
+    return status;
+}
+
+/* Its ratio about the same covariance: what is drawn does to it what it does to the values used. */
+static wt_status judge(const validation *v, const prediction *p, choice_row *r, wt_error *err)
+{
+    const trial *const used = &v->ratio[v->layered];
+    const ratio_of of = {p, &v->steps, p->shear, v->layered};
+    agreement fit = {.n = 0};
+    agreement_data data = trial_data(used);
+    double *const value = malloc((data.n + 1) * sizeof *value);
+    wt_status status = value == NULL ? wt_fail(err, WT_E_MEMORY, "out of memory") : WT_OK;
+    for (size_t i = 0; status == WT_OK && i < data.n; i++) {
+        value[i] = ratio_value(&of, 0, i);
+        if (!isfinite(value[i]))
+            status = wt_fail(err, WT_E_RANGE, "friction is not predicted at every step");
+    }
+    data.value = value;
+    data.allowed = validation_allowed(v);
+    if (status == WT_OK)
+        status = agreement_likelihood(&data, used->fit.scatter, &r->log_likelihood, err);
+    if (status == WT_OK)
+        status = agreement_fit(&data, 0, &fit, err);
+    if (status == WT_OK) {
+        double mean = 0;
+        agreement_judge(&fit, validation_margin(v));
+        for (size_t i = 0; i < data.n; i++)
+            mean += v->mean.row[i] * value[i];
+        r->ratio = exp(mean);
+        r->trend = fit.terms > 1 ? expm1(fit.coefficient[1] / fit.span) : (double)NAN;
+        r->verdict = validation_verdict(fit.verdict);
+    }
+    agreement_clear(&fit);
+    free(value);
+    return status;
+}
+
+static wt_status compute_row(const validation *v, const table_view *what_if, size_t i, setting *s,
+                             choice_row *r, wt_error *err)
+{
+    wt_error why = WT_ERROR_INIT;
+    prediction p = {.part = NULL};
+    const double unknown = (double)NAN;
+    *r = (choice_row){.choice = what_if_text(what_if, i, WHAT_IF_CHOICE),
+                      .tried = what_if_text(what_if, i, WHAT_IF_TRIED),
+                      .verdict = "",
+                      .ratio = unknown,
+                      .trend = unknown,
+                      .log_likelihood = unknown};
+    const double thickness = what_if_get(what_if, i, WHAT_IF_THICKNESS);
+    wt_status status = WT_OK;
+    if (isinf(thickness) && v->layered)
+        status = wt_fail(&why, WT_E_RANGE, "the layer grows without end");
+    if (status == WT_OK)
+        status = predict(v, s, thickness, &p, &why);
+    if (status == WT_OK)
+        status = judge(v, &p, r, &why);
+    prediction_clear(&p);
+    if (status == WT_E_MEMORY || status == WT_E_INTERNAL)
+        return wt_fail(err, status, "a choice of the model could not be tried");
+    if (status != WT_OK)
+        snprintf(r->note, sizeof r->note, "%s", why.message);
+    return WT_OK;
+}
+
+/* ---- weights --------------------------------------------------------------------------------- */
+
+/* The fewest rows that hold most of the weight, the heaviest first. */
+static void keep_rows(choice_row *rows, size_t n)
+{
+    double sum = 0;
+    while (sum < most_of_it) {
+        choice_row *heaviest = NULL;
+        for (size_t i = 0; i < n; i++)
+            if (!rows[i].kept && (heaviest == NULL || rows[i].weight > heaviest->weight))
+                heaviest = &rows[i];
+        if (heaviest == NULL || !(heaviest->weight > 0))
+            return;
+        heaviest->kept = true;
+        sum += heaviest->weight;
+    }
+}
+
+static void weigh_rows(choice_row *rows, size_t n)
+{
+    double largest = -(double)INFINITY, sum = 0;
+    for (size_t i = 0; i < n; i++)
+        largest = fmax(largest, rows[i].log_likelihood); /* which leaves out NaN */
+    for (size_t i = 0; i < n; i++) {
+        const double l = rows[i].log_likelihood;
+        rows[i].weight = isnan(l) ? 0 : exp(l - largest);
+        sum += rows[i].weight;
+    }
+    for (size_t i = 0; i < n && sum > 0; i++)
+        rows[i].weight /= sum;
+}
+
+/* ---- ranges ---------------------------------------------------------------------------------- */
+
+static void extend(double range[2], double value)
+{
+    if (!isfinite(value))
+        return;
+    range[0] = fmin(range[0], value);
+    range[1] = fmax(range[1], value);
+}
+
+static void find_ranges(const table_view *what_if, const choice_row *rows, size_t n,
+                        choice_ranges *ranges)
+{
+    static const what_if_column columns[SETTING_NUMBERS] = {
+        [SETTING_HYSTERESIS] = WHAT_IF_HYSTERESIS,
+        [SETTING_AREA_RATIO] = WHAT_IF_AREA_RATIO,
+        [SETTING_FRICTION] = WHAT_IF_FRICTION,
+        [SETTING_THICKNESS] = WHAT_IF_THICKNESS,
+        [SETTING_WITH_LAYER] = WHAT_IF_WITH_LAYER};
+    for (size_t k = 0; k < SETTING_NUMBERS; k++) {
+        double *const all = ranges->all[k], *const kept = ranges->kept[k];
+        all[0] = all[1] = kept[0] = kept[1] = (double)NAN;
+        for (size_t i = 0; i < n; i++) {
+            const double value = what_if_get(what_if, i, columns[k]);
+            extend(all, value);
+            if (rows[i].kept)
+                extend(kept, value);
+        }
+    }
+}
+
+/* The best of all rows does not agree: then which is likelier says little. */
+static void say_narrowed(const choice_row *rows, size_t n, choice_ranges *ranges)
+{
+    size_t kept = 0, explained = 0, best = 0;
+    for (size_t i = 0; i < n; i++) {
+        kept += rows[i].kept;
+        explained += rows[i].kept && strcmp(rows[i].verdict, validation_verdict(AGREEMENT_NO)) != 0;
+        best = rows[i].weight > rows[best].weight ? i : best;
+    }
+    clocale_print(ranges->narrows, sizeof ranges->narrows,
+                  "%zu of %zu choices hold 95 %% of the weight; the likeliest is %s%s%s (%.2g)%s",
+                  kept, n, best == 0 ? "as used" : rows[best].choice, best == 0 ? "" : ": ",
+                  best == 0 ? "" : rows[best].tried, rows[best].weight,
+                  explained > 0 ? "" : "; but none of them agrees with the record");
+}
+
+/* ---- the table ------------------------------------------------------------------------------- */
+
+static wt_status write_table(const validation *v, const choice_row *rows, size_t n,
+                             const choice_ranges *ranges, wt_table **table, wt_error *err)
+{
+    table_writer t = table_begin(&validation_choices_schema, err);
+    for (size_t i = 0; i < n; i++)
+        validation_choices_add_row(&t, &rows[i]);
+    validation_choices_set_text(&t, VALIDATION_CHOICES_KEY_JUDGED,
+                                v->layered ? "friction with the layer"
+                                           : "friction without a layer");
+    validation_choices_set_text(&t, VALIDATION_CHOICES_KEY_NARROWS, ranges->narrows);
+    return table_end(&t, table);
+}
+
+wt_status choices_make(const validation *v, const table_view *what_if, choice_ranges *ranges,
+                       wt_table **table, wt_error *err)
+{
+    setting *settings = NULL;
+    size_t n = 0;
+    wt_status status = what_if_settings(&v->used, &settings, &n, err);
+    if (status == WT_OK && n != what_if->n_rows) { /* made with a layer, which is tried without */
+        free(settings);
+        return WT_OK;
+    }
+    choice_row *const rows = calloc(n + 1, sizeof *rows);
+    if (status == WT_OK && rows == NULL)
+        status = wt_fail(err, WT_E_MEMORY, "out of memory");
+    for (size_t i = 0; status == WT_OK && i < n; i++)
+        status = compute_row(v, what_if, i, &settings[i], &rows[i], err);
+    if (status == WT_OK) {
+        weigh_rows(rows, n);
+        keep_rows(rows, n);
+        find_ranges(what_if, rows, n, ranges);
+        say_narrowed(rows, n, ranges);
+        status = write_table(v, rows, n, ranges, table, err);
+    }
+    free(settings);
+    free(rows);
+    return status;
+}

@@ -1,0 +1,252 @@
+/* One prediction held against the record. SPDX-License-Identifier: GPL-3.0-or-later */
+#include "record/model_variant.h"
+
+#include "core/math/cholesky.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* As many draws for each slope that what they scatter by is small against the rest, as for the
+ * standard errors of the replicates. */
+enum { FOR_EACH = 5, MOST_COLUMNS = REPLICATES_MOST + 1 };
+
+/* ---- where the error comes from -------------------------------------------------------------- */
+
+typedef struct splitting {
+    const prediction *p;
+    trial *t;
+    double *z;     /* [n_draws * columns] 1, then the numbers that are drawn */
+    double *value; /* [n_draws * n] */
+    size_t columns, n_good;
+} splitting;
+
+/* The draws that have a solution, with the numbers they are made of. */
+static void collect_draws(splitting *s, trial_value *of, const void *user, uint64_t seed)
+{
+    const size_t n = s->t->n;
+    for (size_t k = 0; k < s->p->n_draws; k++) {
+        double *const value = s->value + s->n_good * n, *const z = s->z + s->n_good * s->columns;
+        bool good = true;
+        for (size_t i = 0; i < n; i++) {
+            value[i] = of(user, 1 + k, i);
+            good = good && isfinite(value[i]);
+        }
+        z[0] = 1;
+        for (size_t u = 1; u < s->columns; u++)
+            z[u] = flow_draw_normal(seed, k, s->p->line[u - 1]);
+        s->n_good += good;
+    }
+}
+
+/* Takes the lines out of the values, and keeps their slopes. */
+static bool take_lines(splitting *s)
+{
+    const size_t p = s->columns, n = s->t->n;
+    double normal[MOST_COLUMNS * MOST_COLUMNS] = {0};
+    for (size_t k = 0; k < s->n_good; k++)
+        for (size_t u = 0; u < p; u++)
+            for (size_t v = 0; v <= u; v++)
+                normal[u * p + v] += s->z[k * p + u] * s->z[k * p + v];
+    for (size_t i = 0; i < n; i++) {
+        double factor[MOST_COLUMNS * MOST_COLUMNS], b[MOST_COLUMNS] = {0};
+        memcpy(factor, normal, sizeof normal);
+        for (size_t k = 0; k < s->n_good; k++)
+            for (size_t u = 0; u < p; u++)
+                b[u] += s->z[k * p + u] * s->value[k * n + i];
+        if (!cholesky_solve(factor, p, p, 0, b))
+            return false;
+        for (size_t u = 1; u < p; u++)
+            s->t->slope[(u - 1) * n + i] = b[u];
+        for (size_t k = 0; k < s->n_good; k++)
+            for (size_t u = 0; u < p; u++)
+                s->value[k * n + i] -= b[u] * s->z[k * p + u];
+    }
+    return true;
+}
+
+static void take_mean(splitting *s)
+{
+    const size_t n = s->t->n;
+    for (size_t i = 0; i < n; i++) {
+        double mean = 0;
+        for (size_t k = 0; k < s->n_good; k++)
+            mean += s->value[k * n + i] / (double)s->n_good;
+        for (size_t k = 0; k < s->n_good; k++)
+            s->value[k * n + i] -= mean;
+    }
+}
+
+/* The numbers that are drawn are standard normal, so their part of the covariance follows from the
+ * slopes without scatter; of the rest it is that of the draws. */
+static wt_status find_covariance(splitting *s, wt_error *err)
+{
+    trial *const t = s->t;
+    const bool lines = s->n_good >= FOR_EACH * s->columns && take_lines(s);
+    t->split = lines;
+    if (!lines) {
+        s->columns = 1;
+        take_mean(s);
+    }
+    if (s->p->n_draws == 0) /* not asked for */
+        return WT_OK;
+    if (s->n_good <= s->columns)
+        return wt_fail(err, WT_E_RANGE,
+                       "of %zu replicates %zu have a friction: too few for the errors of the "
+                       "prediction",
+                       s->p->n_draws, s->n_good);
+    for (size_t i = 0; i < t->n; i++)
+        for (size_t j = 0; j < t->n; j++) {
+            double sum = 0;
+            for (size_t k = 0; k < s->n_good; k++)
+                sum += s->value[k * t->n + i] * s->value[k * t->n + j];
+            t->rest[i * t->n + j] = sum / (double)(s->n_good - s->columns);
+            t->common[i * t->n + j] = t->rest[i * t->n + j];
+            for (size_t u = 0; lines && u < t->n_lines; u++)
+                t->common[i * t->n + j] += t->slope[u * t->n + i] * t->slope[u * t->n + j];
+        }
+    return WT_OK;
+}
+
+static wt_status split_draws(const prediction *p, trial_value *of, const void *user, uint64_t seed,
+                             trial *t, wt_error *err)
+{
+    splitting s = {.p = p, .t = t, .columns = p->n_lines + 1};
+    s.z = malloc((p->n_draws + 1) * s.columns * sizeof *s.z);
+    s.value = malloc((p->n_draws + 1) * t->n * sizeof *s.value);
+    wt_status status =
+        s.z == NULL || s.value == NULL ? wt_fail(err, WT_E_MEMORY, "out of memory") : WT_OK;
+    if (status == WT_OK) {
+        collect_draws(&s, of, user, seed);
+        status = find_covariance(&s, err);
+    }
+    free(s.z);
+    free(s.value);
+    return status;
+}
+
+/* ---- the trial ------------------------------------------------------------------------------- */
+
+static wt_status allocate(trial *t, wt_error *err)
+{
+    double **const vectors[] = {&t->place, &t->value, &t->own},
+                   **const squares[] = {&t->common, &t->rest};
+    bool good = true;
+    for (size_t i = 0; i < sizeof vectors / sizeof *vectors; i++)
+        good = (*vectors[i] = calloc(t->n, sizeof(double))) != NULL && good;
+    for (size_t i = 0; i < sizeof squares / sizeof *squares; i++)
+        good = (*squares[i] = calloc(t->n * t->n, sizeof(double))) != NULL && good;
+    t->slope = calloc(t->n * (t->n_lines + 1), sizeof *t->slope);
+    return good && t->slope != NULL ? WT_OK : wt_fail(err, WT_E_MEMORY, "out of memory");
+}
+
+agreement_data trial_data(const trial *t)
+{
+    return (agreement_data){t->n, t->place, t->value, t->own, t->common, 0};
+}
+
+wt_status trial_make(const prediction *p, const measured *steps, trial_value *of, const void *user,
+                     const double *own, uint64_t seed, size_t most_terms, trial *t, wt_error *err)
+{
+    *t = (trial){.n = steps->n, .n_lines = p->n_lines};
+    wt_status status = allocate(t, err);
+    for (size_t i = 0; status == WT_OK && i < t->n; i++) {
+        t->place[i] = log10(steps->step[i].velocity);
+        t->value[i] = of(user, 0, i);
+        t->own[i] = own[i];
+        if (!isfinite(t->value[i]))
+            status = wt_fail(err, WT_E_RANGE, "the friction at %g m/s is not predicted",
+                             steps->step[i].velocity);
+    }
+    if (status == WT_OK)
+        status = split_draws(p, of, user, seed, t, err);
+    const agreement_data data = trial_data(t);
+    return status == WT_OK ? agreement_fit(&data, most_terms, &t->fit, err) : status;
+}
+
+void trial_clear(trial *t)
+{
+    free(t->place);
+    free(t->value);
+    free(t->own);
+    free(t->common);
+    free(t->slope);
+    free(t->rest);
+    agreement_clear(&t->fit);
+    *t = (trial){.n = 0};
+}
+
+/* ---- what is compared ------------------------------------------------------------------------ */
+
+double ratio_value(const void *user, size_t k, size_t step)
+{
+    const ratio_of *r = user;
+    return log(r->steps->step[step].friction /
+               prediction_total(r->p, k, r->layered, step, r->shear[k]));
+}
+
+wt_status trial_of_ratio(const ratio_of *of, uint64_t seed, trial *t, wt_error *err)
+{
+    double *const own = malloc((of->steps->n + 1) * sizeof *own);
+    *t = (trial){.n = 0};
+    if (own == NULL)
+        return wt_fail(err, WT_E_MEMORY, "out of memory");
+    for (size_t i = 0; i < of->steps->n; i++) {
+        const measured_step *const s = &of->steps->step[i];
+        own[i] = (s->error / s->friction) * (s->error / s->friction);
+    }
+    const wt_status status = trial_make(of->p, of->steps, ratio_value, of, own, seed, 0, t, err);
+    free(own);
+    return status;
+}
+
+static double by_shear(const ratio_of *r, size_t k, size_t step)
+{
+    return prediction_part_of(r->p, k, r->layered ? PART_BY_SHEAR_LAYER : PART_BY_SHEAR, step);
+}
+
+static double shear_value(const void *user, size_t k, size_t step)
+{
+    const ratio_of *r = user;
+    return (r->steps->step[step].friction - prediction_total(r->p, k, r->layered, step, 0)) /
+           by_shear(r, k, step);
+}
+
+wt_status trial_of_shear(const prediction *p, const measured *steps, bool layered, uint64_t seed,
+                         trial *t, wt_error *err)
+{
+    const ratio_of of = {p, steps, NULL, layered};
+    double *const own = malloc((steps->n + 1) * sizeof *own);
+    *t = (trial){.n = 0};
+    if (own == NULL)
+        return wt_fail(err, WT_E_MEMORY, "out of memory");
+    for (size_t i = 0; i < steps->n; i++) {
+        const double error = steps->step[i].error / by_shear(&of, 0, i);
+        own[i] = error * error;
+    }
+    const wt_status status = trial_make(p, steps, shear_value, &of, own, seed, 1, t, err);
+    free(own);
+    return status;
+}
+
+/* ---- parts of the variance ------------------------------------------------------------------- */
+
+trial_parts trial_variance(const trial *t, const double *row)
+{
+    trial_parts parts = {.all = 0};
+    for (size_t u = 0; u < t->n_lines; u++) {
+        double sum = 0;
+        for (size_t i = 0; i < t->n; i++)
+            sum += row[i] * t->slope[u * t->n + i];
+        parts.line[u] = sum * sum;
+        parts.all += parts.line[u];
+    }
+    for (size_t i = 0; i < t->n; i++) {
+        parts.record += row[i] * row[i] * t->own[i];
+        parts.scatter += row[i] * row[i] * t->fit.scatter;
+        for (size_t j = 0; j < t->n; j++)
+            parts.material += row[i] * t->rest[i * t->n + j] * row[j];
+    }
+    parts.all += parts.record + parts.scatter + parts.material;
+    return parts;
+}

@@ -1,0 +1,327 @@
+/* Measured against predicted, smooth over the velocity.
+ *
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#include "record/numerics/agreement.h"
+
+#include "core/base/array.h"
+#include "core/math/cholesky.h"
+#include "core/math/cholesky_dense.h"
+#include "core/math/students_t.h"
+
+#include <gsl/gsl_cdf.h>
+#include <gsl/gsl_linalg.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* ---- the curve ------------------------------------------------------------------------------- */
+
+/* How many velocities there are, and their ends. */
+static wt_status count_places(const agreement_data *d, size_t *n, double ends[2], wt_error *err)
+{
+    double *const sorted = malloc((d->n + 1) * sizeof *sorted);
+    if (sorted == NULL)
+        return wt_fail(err, WT_E_MEMORY, "out of memory");
+    memcpy(sorted, d->place, d->n * sizeof *sorted);
+    numbers_sort(sorted, d->n);
+    double last = sorted[0];
+    *n = 1;
+    for (size_t i = 1; i < d->n; i++)
+        if (sorted[i] - last > AGREEMENT_APART) {
+            ++*n;
+            last = sorted[i];
+        }
+    ends[0] = sorted[0];
+    ends[1] = sorted[d->n - 1];
+    free(sorted);
+    return WT_OK;
+}
+
+/* Term k of the curve at a place. */
+static double term(const agreement *a, double place, size_t k)
+{
+    const double u = (place - a->centre) / a->span;
+    return k == 0 ? 1 : k == 1 ? u : u * u;
+}
+
+/* The rows of `weight` for a scatter: (X W X)^-1 X W. False: the places do not tell all terms. */
+static bool find_weights(const agreement_data *d, agreement *a, double scatter)
+{
+    /* A term of which less than this is its own is told by rounding. */
+    const double least = 1e-12;
+    const size_t p = a->terms;
+    double normal[AGREEMENT_TERMS * AGREEMENT_TERMS] = {0};
+    for (size_t i = 0; i < d->n; i++)
+        for (size_t k = 0; k < p; k++)
+            for (size_t l = 0; l <= k; l++)
+                normal[k * p + l] +=
+                    a->at[k * d->n + i] * a->at[l * d->n + i] / (d->own[i] + scatter);
+    for (size_t i = 0; i < d->n; i++) {
+        double factor[AGREEMENT_TERMS * AGREEMENT_TERMS], x[AGREEMENT_TERMS];
+        memcpy(factor, normal, sizeof normal);
+        for (size_t k = 0; k < p; k++)
+            x[k] = a->at[k * d->n + i] / (d->own[i] + scatter);
+        if (!cholesky_solve(factor, p, p, least, x))
+            return false;
+        for (size_t k = 0; k < p; k++)
+            a->weight[k * d->n + i] = x[k];
+    }
+    return true;
+}
+
+static void find_smooth(const agreement_data *d, agreement *a)
+{
+    for (size_t k = 0; k < a->terms; k++) {
+        a->coefficient[k] = 0;
+        for (size_t i = 0; i < d->n; i++)
+            a->coefficient[k] += a->weight[k * d->n + i] * d->value[i];
+    }
+    for (size_t i = 0; i < d->n; i++) {
+        a->smooth[i] = 0;
+        for (size_t k = 0; k < a->terms; k++)
+            a->smooth[i] += a->coefficient[k] * a->at[k * d->n + i];
+    }
+}
+
+/* Variance at step i of what the prediction adds to value - smooth; `row` [n] is scratch. */
+static double residual_of_common(const agreement_data *d, const agreement *a, size_t i, double *row)
+{
+    double sum = 0;
+    agreement_row(a, i, row);
+    for (size_t k = 0; k < d->n; k++)
+        row[k] = (k == i ? 1 : 0) - row[k];
+    for (size_t k = 0; k < d->n; k++)
+        for (size_t l = 0; l < d->n; l++)
+            sum += row[k] * d->common[k * d->n + l] * row[l];
+    return fmax(sum, 0);
+}
+
+/* Squares that are left over those expected, less 1; below 0: there is scatter enough. `shape` is
+ * the variance that the prediction leaves of the residual of each step. */
+static double surplus(const agreement_data *d, agreement *a, double scatter, const double *shape)
+{
+    double sum = 0, expected = (double)(d->n - a->terms);
+    if (!find_weights(d, a, scatter))
+        return -1;
+    find_smooth(d, a);
+    for (size_t i = 0; i < d->n; i++) {
+        const double left = d->value[i] - a->smooth[i], variance = d->own[i] + scatter;
+        sum += left * left / variance;
+        expected += shape[i] / variance;
+    }
+    return sum / expected - 1;
+}
+
+/* Halvings of an interval that begins at the squares themselves: 1e-12 of them. */
+enum { HALVINGS = 40 };
+
+static void find_scatter(const agreement_data *d, agreement *a, const double *shape)
+{
+    double low = 0, high = 0;
+    a->scatter = 0;
+    if (d->n == a->terms || surplus(d, a, 0, shape) <= 0)
+        return;
+    for (size_t i = 0; i < d->n; i++)
+        high += (d->value[i] - a->smooth[i]) * (d->value[i] - a->smooth[i]);
+    for (int i = 0; i < HALVINGS; i++) {
+        const double middle = 0.5 * (low + high);
+        if (surplus(d, a, middle, shape) > 0)
+            low = middle;
+        else
+            high = middle;
+    }
+    a->scatter = 0.5 * (low + high);
+}
+
+/* Errors of the curve at all steps. `row`: [n] scratch. */
+static void find_errors(const agreement_data *d, agreement *a, double *row)
+{
+    for (size_t i = 0; i < d->n; i++) {
+        double variance = 0, scatter = 0;
+        agreement_row(a, i, row);
+        for (size_t k = 0; k < d->n; k++) {
+            scatter += row[k] * row[k] * a->scatter;
+            variance += row[k] * row[k] * (d->own[k] + a->scatter);
+            for (size_t l = 0; l < d->n; l++)
+                variance += row[k] * d->common[k * d->n + l] * row[l];
+        }
+        a->error[i] = sqrt(variance);
+        a->df[i] = agreement_df(variance, scatter, a->scatter_df);
+    }
+}
+
+static wt_status allocate(const agreement_data *d, agreement *a, wt_error *err)
+{
+    a->weight = calloc(a->terms * d->n, sizeof *a->weight);
+    a->smooth = calloc(d->n, sizeof *a->smooth);
+    a->error = calloc(d->n, sizeof *a->error);
+    a->df = calloc(d->n, sizeof *a->df);
+    a->at = calloc(a->terms * d->n, sizeof *a->at);
+    if (a->at == NULL || a->weight == NULL || a->smooth == NULL || a->error == NULL ||
+        a->df == NULL)
+        return wt_fail(err, WT_E_MEMORY, "out of memory");
+    for (size_t k = 0; k < a->terms; k++)
+        for (size_t i = 0; i < d->n; i++)
+            a->at[k * d->n + i] = term(a, d->place[i], k);
+    return WT_OK;
+}
+
+wt_status agreement_fit(const agreement_data *data, size_t most_terms, agreement *a, wt_error *err)
+{
+    *a = (agreement){.n = data->n};
+    size_t places = 0;
+    double ends[2] = {0, 0};
+    if (data->n == 0)
+        return wt_fail(err, WT_E_EMPTY, "no step to be compared");
+    wt_status status = count_places(data, &places, ends, err);
+    if (status != WT_OK)
+        return status;
+    a->terms = places < 3 ? 1 : places < 5 ? 2 : AGREEMENT_TERMS;
+    if (most_terms > 0 && a->terms > most_terms)
+        a->terms = most_terms;
+    a->centre = 0.5 * (ends[0] + ends[1]);
+    a->span = ends[1] > ends[0] ? 0.5 * (ends[1] - ends[0]) : 1;
+    a->scatter_df = (double)(data->n - a->terms);
+    double *const shape = calloc(data->n, sizeof *shape), *const row = calloc(data->n, sizeof *row);
+    status = shape == NULL || row == NULL ? wt_fail(err, WT_E_MEMORY, "out of memory")
+                                          : allocate(data, a, err);
+    if (status == WT_OK && !find_weights(data, a, 0))
+        status = wt_fail(err, WT_E_INTERNAL, "the velocities do not tell a curve");
+    for (size_t i = 0; status == WT_OK && i < data->n; i++)
+        shape[i] = residual_of_common(data, a, i, row);
+    if (status == WT_OK) {
+        find_scatter(data, a, shape);
+        (void)surplus(data, a, a->scatter, shape); /* the weights of that scatter */
+        find_errors(data, a, row);
+    }
+    free(shape);
+    free(row);
+    return status;
+}
+
+void agreement_clear(agreement *a)
+{
+    free(a->at);
+    free(a->weight);
+    free(a->smooth);
+    free(a->error);
+    free(a->df);
+    *a = (agreement){.n = 0};
+}
+
+void agreement_row(const agreement *a, size_t i, double *row)
+{
+    for (size_t k = 0; k < a->n; k++) {
+        row[k] = 0;
+        for (size_t t = 0; t < a->terms; t++)
+            row[k] += a->weight[t * a->n + k] * a->at[t * a->n + i];
+    }
+}
+
+/* ---- intervals ------------------------------------------------------------------------------- */
+
+double agreement_quantile(double df)
+{
+    return students_t_quantile(isfinite(df) ? df : (double)INFINITY);
+}
+
+double agreement_df(double variance, double scatter, double df)
+{
+    return scatter > 0 && df > 0 ? df * (variance / scatter) * (variance / scatter)
+                                 : (double)INFINITY;
+}
+
+/* Of an interval that holds at all steps at once. */
+static double simultaneous(const agreement *a, double df)
+{
+    const double terms = (double)a->terms, each = 0.05 / (2 * (double)a->n);
+    const double scheffe = isfinite(df) ? sqrt(terms * gsl_cdf_fdist_Pinv(0.95, terms, df))
+                                        : sqrt(gsl_cdf_chisq_Pinv(0.95, terms)),
+                 bonferroni =
+                     isfinite(df) ? gsl_cdf_tdist_Qinv(each, df) : gsl_cdf_ugaussian_Qinv(each);
+    return fmin(scheffe, bonferroni);
+}
+
+void agreement_ends(const agreement *a, size_t i, bool at_once, double ends[2])
+{
+    const double half =
+        (at_once ? simultaneous(a, a->df[i]) : agreement_quantile(a->df[i])) * a->error[i];
+    ends[0] = a->smooth[i] - half;
+    ends[1] = a->smooth[i] + half;
+}
+
+void agreement_judge(agreement *a, double margin)
+{
+    double farthest = -(double)INFINITY, beyond = 0;
+    a->verdict = AGREEMENT_YES;
+    a->where = 0;
+    for (size_t i = 0; i < a->n; i++) {
+        const double off = fabs(a->smooth[i]),
+                     reach = off + agreement_quantile(a->df[i]) * a->error[i],
+                     least = off - simultaneous(a, a->df[i]) * a->error[i] - margin;
+        if (least > beyond) {
+            a->verdict = AGREEMENT_NO;
+            a->where = i;
+            beyond = least;
+        }
+        if (a->verdict != AGREEMENT_NO && reach > farthest) {
+            farthest = reach;
+            a->where = i;
+            a->verdict = reach > margin ? AGREEMENT_OPEN : AGREEMENT_YES;
+        }
+    }
+}
+
+/* ---- likelihood ------------------------------------------------------------------------------ */
+
+/* The covariance of all; NULL without memory. */
+static gsl_matrix *covariance(const agreement_data *d, double scatter)
+{
+    gsl_matrix *const v = gsl_matrix_alloc(d->n, d->n);
+    for (size_t i = 0; v != NULL && i < d->n; i++)
+        for (size_t k = 0; k < d->n; k++) {
+            const double apart = (d->place[i] - d->place[k]) / AGREEMENT_LENGTH;
+            gsl_matrix_set(v, i, k,
+                           d->common[i * d->n + k] + d->allowed * exp(-0.5 * apart * apart) +
+                               (i == k ? d->own[i] + scatter : 0));
+        }
+    return v;
+}
+
+wt_status agreement_likelihood(const agreement_data *d, double scatter, double *likelihood,
+                               wt_error *err)
+{
+    const double of_each = log(2 * M_PI);
+    gsl_matrix *const v = covariance(d, scatter);
+    double *const x = malloc((d->n + 1) * sizeof *x);
+    const wt_status status =
+        v == NULL || x == NULL ? wt_fail(err, WT_E_MEMORY, "out of memory") : WT_OK;
+    *likelihood = (double)NAN;
+    if (status == WT_OK && dense_factor(v)) {
+        double sum = 0;
+        memcpy(x, d->value, d->n * sizeof *x);
+        dense_forward(v, x);
+        for (size_t i = 0; i < d->n; i++)
+            sum += x[i] * x[i] + 2 * log(gsl_matrix_get(v, i, i)) + of_each;
+        *likelihood = -0.5 * sum;
+    }
+    free(x);
+    gsl_matrix_free(v);
+    return status;
+}
+
+wt_status agreement_solve(const agreement_data *d, double scatter, const double *b, double *x,
+                          wt_error *err)
+{
+    gsl_matrix *const v = covariance(d, scatter);
+    if (v == NULL)
+        return wt_fail(err, WT_E_MEMORY, "out of memory");
+    const bool good = dense_factor(v);
+    gsl_vector_view out = gsl_vector_view_array(x, d->n);
+    for (size_t i = 0; i < d->n; i++)
+        x[i] = good ? b[i] : (double)NAN;
+    if (good)
+        gsl_linalg_cholesky_svx(v, &out.vector);
+    gsl_matrix_free(v);
+    return WT_OK;
+}

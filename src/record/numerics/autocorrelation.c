@@ -1,0 +1,201 @@
+/* Likelihood of slow scatter by Kalman's filter, and what is left when it is averaged.
+ *
+ * Harvey, Forecasting, structural time series models and the Kalman filter (1989), chapter 3.
+ *
+ * SPDX-License-Identifier: GPL-3.0-or-later
+ */
+#include "record/numerics/autocorrelation.h"
+
+#include <gsl/gsl_cdf.h>
+#include <gsl/gsl_sf_gamma.h>
+#include <math.h>
+#include <stdlib.h>
+
+static const double shortest = 0.5; /* steps */
+/* closer at the ends, where a little white or slow scatter changes much */
+static const double shares[SCATTER_SHARES] = {0, 0.02, 0.05, 0.1, 0.2, 0.4, 0.6, 0.8, 0.95, 1};
+
+/* Before a series is seen: how long slow scatter may be, of the series, and how likely each share
+ * is, in parts of all. Under a change: white, or any other. Of a mean: four white to one all slow
+ * and one partly slow, by share (1 - share) over the steps of the shares. */
+static const struct {
+    double longest, likely[SCATTER_SHARES];
+} expected[] = {
+    [SCATTER_UNDER_CHANGE] = {0.25, {9, 1, 1, 1, 1, 1, 1, 1, 1, 1}},
+    [SCATTER_OF_MEAN] = {1, {4000, 3, 12, 42, 148, 296, 297, 173, 29, 1000}},
+};
+
+scatter_law scatter_law_of(scatter_use use, size_t i, size_t n)
+{
+    const double most = fmax(expected[use].longest * (double)n, 2 * shortest),
+                 part = (double)(i / SCATTER_SHARES) / (SCATTER_LENGTHS - 1);
+    const double length = shortest * pow(most / shortest, part);
+    return (scatter_law){exp(-1 / length), shares[i % SCATTER_SHARES]};
+}
+
+double scatter_prior(scatter_use use, size_t i)
+{
+    const double *const likely = expected[use].likely;
+    double all = 0;
+    for (size_t k = 0; k < SCATTER_SHARES; k++)
+        all += likely[k];
+    return log(likely[i % SCATTER_SHARES] / all / SCATTER_LENGTHS);
+}
+
+scatter_sums scatter_begin(scatter_law law)
+{
+    return (scatter_sums){.law = law, .variance = law.share};
+}
+
+void scatter_add(scatter_sums *s, double y)
+{
+    scatter_add_beside(s, (double)s->n, y);
+}
+
+void scatter_add_beside(scatter_sums *s, double column, double y)
+{
+    const double value[3] = {1, column, y};
+    const double spread = s->variance + (1 - s->law.share), gain = s->variance / spread;
+    double off[3];
+    for (int i = 0; i < 3; i++) {
+        off[i] = value[i] - s->state[i];
+        s->state[i] = s->law.memory * (s->state[i] + gain * off[i]);
+    }
+    s->product[0] += off[0] * off[0] / spread;
+    s->product[1] += off[0] * off[1] / spread;
+    s->product[2] += off[1] * off[1] / spread;
+    s->product[3] += off[0] * off[2] / spread;
+    s->product[4] += off[1] * off[2] / spread;
+    s->product[5] += off[2] * off[2] / spread;
+    s->log_det += log(spread);
+    s->variance = s->law.memory * s->law.memory * s->variance * (1 - gain) +
+                  s->law.share * (1 - s->law.memory * s->law.memory);
+    s->n++;
+}
+
+scatter_fit scatter_solve(const scatter_sums *s, bool line)
+{
+    const double *const p = s->product;
+    const double mean = p[3] / p[0], about = p[5] - p[3] * mean;
+    if (!line)
+        return (scatter_fit){about, log(p[0]), mean, 1 / p[0]};
+    const double tt = p[2] - p[1] * p[1] / p[0], slope = (p[4] - p[1] * mean) / tt;
+    return (scatter_fit){about - slope * slope * tt, log(p[0]) + log(tt), slope, 1 / tt};
+}
+
+/* log_unit: ln of the square of what the second column is told in. */
+static double likelihood_of(const scatter_sums *s, bool line, double least, double log_unit)
+{
+    const scatter_fit f = scatter_solve(s, line);
+    const double df = (double)s->n - (line ? 2 : 1);
+    const double squares = fmax(f.squares, df * least);
+    const double information = f.log_information - log_unit;
+    return gsl_sf_lngamma(df / 2) - 0.5 * (df * log(M_PI * squares) + s->log_det + information);
+}
+
+double scatter_likelihood(const scatter_sums *s, bool line, double least)
+{
+    /* a slope over the whole of the points, so that it has the unit of y however many they are */
+    return likelihood_of(s, line, least, line ? 2 * log((double)s->n) : 0);
+}
+
+double scatter_likelihood_beside(const scatter_sums *s, double least)
+{
+    return likelihood_of(s, true, least, 0);
+}
+
+double scatter_of_mean(scatter_law law, size_t n)
+{
+    const double r = law.memory, m = (double)n;
+    const double slow =
+        (m * (1 + r) / (1 - r) - 2 * r * (1 - pow(r, m)) / ((1 - r) * (1 - r))) / (m * m);
+    return law.share * slow + (1 - law.share) / m;
+}
+
+bool scatter_parts_of(const double *y, size_t n, scatter_parts *parts, double **room)
+{
+    const size_t length = (n + SCATTER_MOST - 1) / SCATTER_MOST;
+    *parts = (scatter_parts){y, n, 1, 0};
+    *room = NULL;
+    if (length <= 1)
+        return true;
+    *parts = (scatter_parts){NULL, n / length, length, n % length};
+    parts->y = *room = calloc(parts->n, sizeof **room);
+    for (size_t i = 0; *room != NULL && i < parts->n * length; i++)
+        (*room)[i / length] += y[parts->rest + i] / (double)length;
+    return *room != NULL;
+}
+
+double log_add(double a, double b)
+{
+    const double large = fmax(a, b);
+    return isinf(large) ? large : large + log1p(exp(fmin(a, b) - large));
+}
+
+void mixture_add(t_mixture *m, double log_weight, double df, double centre, double scale)
+{
+    m->log_weight[m->n] = log_weight;
+    m->df[m->n] = df;
+    m->centre[m->n] = centre;
+    m->scale[m->n++] = scale;
+}
+
+void mixture_normalise(t_mixture *m)
+{
+    double all = -(double)INFINITY;
+    for (size_t i = 0; i < m->n; i++)
+        all = log_add(all, m->log_weight[i]);
+    for (size_t i = 0; i < m->n; i++)
+        m->log_weight[i] -= all;
+}
+
+double mixture_mean(const t_mixture *m)
+{
+    double sum = 0;
+    for (size_t i = 0; i < m->n; i++)
+        sum += exp(m->log_weight[i]) * m->centre[i];
+    return sum;
+}
+
+/* About where the tails are, of laws of any degrees of freedom. */
+static double mixture_width(const t_mixture *m)
+{
+    const double mean = mixture_mean(m);
+    double sum = 0;
+    for (size_t i = 0; i < m->n; i++) {
+        const double off = m->centre[i] - mean;
+        sum += exp(m->log_weight[i]) * (m->scale[i] * m->scale[i] + off * off);
+    }
+    return 2 * sqrt(sum);
+}
+
+static double mixture_below(const t_mixture *m, double x)
+{
+    double sum = 0;
+    for (size_t i = 0; i < m->n; i++)
+        if (m->log_weight[i] > -40) /* what is lighter is below the digits of the sum */
+            sum +=
+                exp(m->log_weight[i]) * gsl_cdf_tdist_P((x - m->centre[i]) / m->scale[i], m->df[i]);
+    return sum;
+}
+
+double mixture_quantile(const t_mixture *m, double p)
+{
+    enum { DOUBLINGS = 60, HALVINGS = 34 }; /* to 1e-10 of the width */
+    const double centre = mixture_mean(m);
+    double step = mixture_width(m);
+    step = step > 0 ? step : fabs(centre) + 1;
+    double low = centre - step, high = centre + step;
+    for (int i = 0; i < DOUBLINGS && mixture_below(m, low) > p; i++)
+        low = centre - (step *= 2);
+    for (int i = 0; i < DOUBLINGS && mixture_below(m, high) < p; i++)
+        high = centre + (step *= 2);
+    for (int i = 0; i < HALVINGS && low < high; i++) {
+        const double middle = 0.5 * (low + high);
+        if (mixture_below(m, middle) < p)
+            low = middle;
+        else
+            high = middle;
+    }
+    return 0.5 * (low + high);
+}

@@ -1,0 +1,363 @@
+/* Pauses of a friction record, by what it tells of the motion: distance, laps, position, velocity
+ * or rotation. Where it tells none of them, a gap in the time is one.
+ *
+ * SPDX-License-Identifier: GPL-3.0-or-later
+ */
+#include "record/numerics/pauses.h"
+
+#include "core/base/arena.h"
+#include "core/base/array.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* Of the time of a step: what is shorter changes no running-in that anybody could read off. */
+static const double least_part = 1e-3;
+/* Times what the motion takes beside it for as much progress: the clock of a recorder is late by
+ * less, and a display changes its last digit sooner. */
+static const double outstanding = 10;
+/* Levels on either side that tell how fast it slides: their median stands one odd among two. */
+enum { BESIDE = 5 };
+/* Of the range of a position: where a slider stands, it moves by less. */
+static const double standing = 0.02;
+/* Of the time from turn to turn: at its turns a slider that goes as a sine is within `standing` for
+ * a seventh of it. */
+static const double least_of_stroke = 0.5;
+/* Times the median scatter about the place of a slider that stands: less is scatter. */
+static const double outside = 5;
+/* Of the largest speed: below, a disc may stand, and the speed be that of its noise. */
+static const double at_rest = 0.01;
+/* Means over standard deviations: noise without a sign has 1.3, without motion and with it 0; that
+ * of a motor that turns slowly has more. */
+static const double noise = 2;
+/* So many gaps, the longest below twice the shortest, are the recorder's. */
+enum { FEW_GAPS = 5 };
+/* Of the range of what runs on: what falls by more goes there and back. */
+static const double there_and_back = 0.1;
+
+/* Samples of a step, and what of it moves. */
+typedef struct pause_search {
+    const double *time, *moved; /* [n] */
+    size_t n;
+    double *cut;  /* [n] time that is left out before a sample */
+    bool *rest;   /* [n] */
+    double *room; /* [n] */
+} pause_search;
+
+typedef struct level {
+    size_t first, next;    /* samples: where it is reached and where it is left */
+    double time, progress; /* to the next level */
+} level;
+
+/* ---- there and on ---------------------------------------------------------------------------- */
+
+static double largest_fall(const double *x, size_t n)
+{
+    double most = -(double)INFINITY, fall = 0;
+    for (size_t i = 0; i < n; i++) {
+        most = fmax(most, x[i]);
+        fall = fmax(fall, most - x[i]);
+    }
+    return fall;
+}
+
+/* Samples at one place are a level: that of a distance that is measured scatters by as much as it
+ * falls. */
+static size_t find_levels(const pause_search *s, level *levels)
+{
+    const double same = 2 * largest_fall(s->moved, s->n);
+    size_t n = 0;
+    for (size_t first = 0, next; first + 1 < s->n; first = next) {
+        for (next = first + 1; next + 1 < s->n && !(fabs(s->moved[next] - s->moved[first]) > same);
+             next++)
+            ;
+        levels[n++] = (level){first, next, s->time[next] - s->time[first],
+                              fabs(s->moved[next] - s->moved[first])};
+    }
+    return n;
+}
+
+/* Time for progress by the levels on one side; NaN: there are none. */
+static double slowness_of(const level *levels, size_t n)
+{
+    double slow[BESIDE];
+    size_t known = 0;
+    for (size_t i = 0; i < n && i < BESIDE; i++)
+        if (levels[i].progress > 0)
+            slow[known++] = levels[i].time / levels[i].progress;
+    return known > 0 ? numbers_median(slow, known) : (double)NAN;
+}
+
+static void find_in_levels(pause_search *s, level *levels)
+{
+    const size_t n = find_levels(s, levels);
+    const double least = least_part * (s->time[s->n - 1] - s->time[0]);
+    for (size_t k = 1; k + 1 < n; k++) {
+        const level *const l = &levels[k];
+        const double before = slowness_of(levels + (k > BESIDE ? k - BESIDE : 0),
+                                          k > BESIDE ? BESIDE : k),
+                     behind = slowness_of(l + 1, n - k - 1),
+                     expected = l->progress * fmax(before, behind);
+        if (isnan(before + behind) || !(l->time > outstanding * expected) ||
+            !(l->time - expected > least))
+            continue;
+        s->cut[l->next] = l->time - expected;
+        for (size_t i = l->first + 1; i < l->next; i++)
+            s->rest[i] = true;
+    }
+}
+
+/* ---- there and back -------------------------------------------------------------------------- */
+
+/* Mean time from turn to turn, by the strokes that come from one quarter of the range to the other:
+ * the way that is made would hold the noise of every sample. */
+static double time_of_stroke(const pause_search *s, double low, double high)
+{
+    const double quarter = 0.25 * (high - low);
+    size_t strokes = 0;
+    int side = 0;
+    for (size_t i = 0; i < s->n; i++) {
+        const int at = s->moved[i] < low + quarter ? -1 : s->moved[i] > high - quarter ? 1 : side;
+        strokes += at * side < 0;
+        side = at;
+    }
+    return (s->time[s->n - 1] - s->time[0]) / (double)(strokes > 0 ? strokes : 1);
+}
+
+/* From samples near one place those that are at it, as far as it scatters: before and behind the
+ * slider was on its way. */
+static void trim(const pause_search *s, size_t *first, size_t *next)
+{
+    const size_t n = *next - *first;
+    memcpy(s->room, s->moved + *first, n * sizeof *s->room);
+    const double place = numbers_median(s->room, n);
+    for (size_t i = 0; i < n; i++)
+        s->room[i] = fabs(s->moved[*first + i] - place);
+    const double near = outside * numbers_median(s->room, n);
+    while (*first + 1 < *next && fabs(s->moved[*first] - place) > near)
+        ++*first;
+    while (*first + 1 < *next && fabs(s->moved[*next - 1] - place) > near)
+        --*next;
+}
+
+static void find_standing(pause_search *s, double low, double high)
+{
+    const double least = fmax(least_part * (s->time[s->n - 1] - s->time[0]),
+                              least_of_stroke * time_of_stroke(s, low, high));
+    for (size_t first = 0, next; first < s->n; first = next) {
+        for (next = first + 1;
+             next < s->n && fabs(s->moved[next] - s->moved[first]) <= standing * (high - low);
+             next++)
+            ;
+        size_t from = first, to = next;
+        if (first == 0 || next == s->n || !(s->time[next - 1] - s->time[first] > least))
+            continue;
+        trim(s, &from, &to);
+        s->cut[to] = s->time[to - 1] - s->time[from];
+        for (size_t i = from + 1; i < to; i++)
+            s->rest[i] = true;
+    }
+}
+
+/* ---- what moves ------------------------------------------------------------------------------ */
+
+/* A speed that stands, without its noise: runs far below the largest whose mean does not stand out
+ * of their scatter. */
+static void quieten(double *speed, size_t n)
+{
+    double fastest = 0;
+    for (size_t i = 0; i < n; i++)
+        fastest = fmax(fastest, fabs(speed[i]));
+    for (size_t first = 0, end; first < n; first = end) {
+        double sum = 0, squares = 0;
+        for (end = first; end < n && fabs(speed[end]) < at_rest * fastest; end++) {
+            sum += speed[end];
+            squares += speed[end] * speed[end];
+        }
+        const double count = (double)(end - first), mean = sum / count,
+                     deviation = sqrt(fmax(squares / count - mean * mean, 0));
+        for (size_t i = first; i < end && fabs(mean) <= noise * deviation; i++)
+            speed[i] = 0;
+        end += end == first;
+    }
+}
+
+static bool is_whole(const double *x, size_t n)
+{
+    for (size_t i = 0; x != NULL && i < n; i++)
+        if (isnan(x[i]))
+            return false;
+    return x != NULL;
+}
+
+/* The way by a speed, which is that of the way to its sample. */
+static void way_of(double *speed, const double *time, size_t n, double *way)
+{
+    quieten(speed, n);
+    way[0] = 0;
+    for (size_t i = 1; i < n; i++)
+        way[i] = way[i - 1] + speed[i] * (time[i] - time[i - 1]);
+}
+
+/* What runs on or goes there and back, from sample `first` of the record on, WT_RECORD_CHANNELS for
+ * the number of the sample; false: the record does not tell it. */
+static bool motion_of(const wt_record *record, wt_record_channel c, size_t first, size_t n,
+                      double *moved, double *room)
+{
+    const double *const x =
+        c < WT_RECORD_CHANNELS && record->channel[c] != NULL ? record->channel[c] + first : NULL;
+    for (size_t i = 0; c == WT_RECORD_CHANNELS && i < n; i++)
+        moved[i] = (double)i;
+    if (c == WT_RECORD_CHANNELS)
+        return true;
+    if (!is_whole(x, n))
+        return false;
+    memcpy(room, x, n * sizeof *room);
+    if (c == WT_RECORD_VELOCITY || c == WT_RECORD_ROTATION)
+        way_of(room, record->channel[WT_RECORD_TIME] + first, n, moved);
+    else
+        memcpy(moved, room, n * sizeof *moved);
+    for (size_t i = 0; i < n; i++) /* a direction has a sign */
+        room[i] = moved[n - 1] < moved[0] ? -moved[i] : moved[i];
+    memcpy(moved, room, n * sizeof *moved);
+    return true;
+}
+
+/* ---- the record ------------------------------------------------------------------------------ */
+
+/* What is worked with: a number for each sample, but `levels`. */
+typedef struct pause_room {
+    double *moved, *room;
+    double *cut, *paused; /* by this channel, and by all: before the sample */
+    bool *rest;
+    level *levels;
+} pause_room;
+
+static void find_in_step(const wt_record *record, wt_record_channel c, size_t first, size_t n,
+                         const pause_room *r)
+{
+    pause_search s = {record->channel[WT_RECORD_TIME] + first,
+                      r->moved,
+                      n,
+                      r->cut + first,
+                      r->rest + first,
+                      r->room};
+    if (!motion_of(record, c, first, n, r->moved, r->room))
+        return;
+    double low = r->moved[0], high = r->moved[0];
+    for (size_t i = 0; i < n; i++) {
+        low = fmin(low, r->moved[i]);
+        high = fmax(high, r->moved[i]);
+    }
+    if (!(high > low))
+        return;
+    if (largest_fall(r->moved, n) > there_and_back * (high - low))
+        find_standing(&s, low, high);
+    else
+        find_in_levels(&s, r->levels);
+}
+
+/* Many gaps that are alike; they are taken back. */
+static size_t take_back(const wt_record *record, double *cut)
+{
+    double least = (double)INFINITY, most = 0;
+    size_t n = 0;
+    for (size_t i = 0; i < record->n; i++)
+        if (cut[i] > 0) {
+            least = fmin(least, cut[i]);
+            most = fmax(most, cut[i]);
+            n++;
+        }
+    if (n < FEW_GAPS || most > 2 * least)
+        return 0;
+    memset(cut, 0, record->n * sizeof *cut);
+    return n;
+}
+
+/* Numbers samples anew, without those at rest. */
+static void keep(wt_record *record, const pause_room *r)
+{
+    static const wt_record_channel running[] = {WT_RECORD_TIME, WT_RECORD_DISTANCE, WT_RECORD_LAPS};
+    double *const *const channel = record->channel;
+    double shift[COUNT_OF(running)] = {0}, paused = 0;
+    size_t to = 0;
+    for (size_t i = 0; i < record->n; i++) {
+        paused += r->paused[i] + r->cut[i];
+        shift[0] += r->cut[i];
+        /* what a display counts at rest is no way */
+        for (size_t k = 1; k < COUNT_OF(running); k++)
+            if (r->rest[i] && channel[running[k]] != NULL)
+                shift[k] += channel[running[k]][i] - channel[running[k]][i - 1];
+        if (r->rest[i])
+            continue;
+        r->paused[to] = paused;
+        paused = 0;
+        record->step[to] = record->step[i];
+        for (int c = 0; c < WT_RECORD_CHANNELS; c++)
+            if (channel[c] != NULL)
+                channel[c][to] = channel[c][i];
+        for (size_t k = 0; k < COUNT_OF(running); k++)
+            if (channel[running[k]] != NULL)
+                channel[running[k]][to] -= shift[k];
+        to++;
+    }
+    record->n = to;
+}
+
+static void find_by(wt_record *record, wt_record_channel c, const pause_room *r, size_t *alike)
+{
+    memset(r->cut, 0, record->n * sizeof *r->cut);
+    memset(r->rest, 0, record->n * sizeof *r->rest);
+    for (size_t first = 0, end; first < record->n; first = end) {
+        for (end = first + 1; end < record->n && record->step[end] == record->step[first]; end++)
+            ;
+        find_in_step(record, c, first, end - first, r);
+    }
+    if (c == WT_RECORD_CHANNELS)
+        *alike = take_back(record, r->cut);
+    keep(record, r);
+}
+
+static wt_status tell(const wt_record *record, const double *paused, record_pauses *pauses,
+                      wt_error *err)
+{
+    for (size_t i = 0; i < record->n; i++) {
+        if (!(paused[i] > 0))
+            continue;
+        record_pause *const grown = array_grow(pauses->of, pauses->n, sizeof *grown);
+        if (grown == NULL)
+            return wt_fail(err, WT_E_MEMORY, "out of memory");
+        pauses->of = grown;
+        grown[pauses->n++] = (record_pause){i, record->channel[WT_RECORD_TIME][i], paused[i]};
+    }
+    return WT_OK;
+}
+
+wt_status record_leave_out_pauses(wt_record *record, record_pauses *pauses, wt_error *err)
+{
+    /* the finest first; at last by the time alone, where no way runs on */
+    static const wt_record_channel order[] = {WT_RECORD_DISTANCE, WT_RECORD_VELOCITY,
+                                              WT_RECORD_ROTATION, WT_RECORD_POSITION,
+                                              WT_RECORD_LAPS,     WT_RECORD_CHANNELS};
+    const size_t n = record->n;
+    pool memory = {0};
+    *pauses = (record_pauses){.n = 0};
+    if (record->channel[WT_RECORD_TIME] == NULL || n < 2)
+        return WT_OK;
+    const pause_room r = {pool_numbers(&memory, n),
+                          pool_numbers(&memory, n),
+                          pool_numbers(&memory, n),
+                          pool_numbers(&memory, n),
+                          pool_alloc(&memory, n, sizeof(bool)),
+                          pool_alloc(&memory, n, sizeof(level))};
+    wt_status status = memory.failed ? wt_fail(err, WT_E_MEMORY, "out of memory") : WT_OK;
+    for (size_t i = 0; status == WT_OK && i < COUNT_OF(order); i++)
+        if (order[i] != WT_RECORD_CHANNELS || (record->channel[WT_RECORD_DISTANCE] == NULL &&
+                                               record->channel[WT_RECORD_LAPS] == NULL))
+            find_by(record, order[i], &r, &pauses->alike);
+    if (status == WT_OK)
+        status = tell(record, r.paused, pauses, err);
+    pool_free(&memory);
+    return status;
+}

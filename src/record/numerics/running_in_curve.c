@@ -1,0 +1,565 @@
+/* How a predicted course lies in a series of cycles.
+ *
+ * SPDX-License-Identifier: GPL-3.0-or-later
+ */
+#include "record/numerics/running_in_curve.h"
+
+#include "core/base/arena.h"
+#include "core/math/normal_quantile.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+/* ---- the course ------------------------------------------------------------------------------ */
+
+double course_at(const course *c, double log_time)
+{
+    const double place = (log_time - c->log_first) / c->log_step;
+    if (!(place > 0))
+        return c->value[0];
+    if (place >= (double)(c->n - 1))
+        return 0;
+    const size_t i = (size_t)place;
+    const double part = place - (double)i;
+    return c->value[i] + part * (c->value[i + 1] - c->value[i]);
+}
+
+double course_height(const course *c)
+{
+    double most = 0;
+    for (size_t i = 0; i < c->n; i++)
+        most = fmax(most, fabs(c->value[i]));
+    return most;
+}
+
+double course_settled(const course *c, double share)
+{
+    const double limit = share * course_height(c);
+    for (size_t i = c->n; limit > 0 && i-- > 0;)
+        if (fabs(c->value[i]) > limit) {
+            if (i + 1 == c->n)
+                return (double)NAN;
+            const double here = fabs(c->value[i]), next = fabs(c->value[i + 1]),
+                         part = (here - limit) / (here - next);
+            return exp(c->log_first + ((double)i + part) * c->log_step);
+        }
+    return (double)NAN;
+}
+
+wt_status course_series_new(size_t n, course_series *s, wt_error *err)
+{
+    *s = (course_series){.n = n,
+                         .end = calloc(n + 1, sizeof *s->end),
+                         .friction = calloc(n + 1, sizeof *s->friction)};
+    return s->end == NULL || s->friction == NULL ? wt_fail(err, WT_E_MEMORY, "out of memory")
+                                                 : WT_OK;
+}
+
+void course_series_clear(course_series *s)
+{
+    free(s->end);
+    free(s->friction);
+    *s = (course_series){.n = 0};
+}
+
+/* ---- one factor ------------------------------------------------------------------------------ */
+
+/* The integral of a course from the start on: means by it are exact in the first cycles, too,
+ * within which most of a course may pass. */
+typedef struct course_sums {
+    const course *c;
+    double *time, *sum; /* [n] its times [s], and the integral up to them; NULL: out of memory */
+} course_sums;
+
+/* From time i, behind which the course is linear in the logarithm of time. */
+static double piece(const course *c, size_t i, double from, double to)
+{
+    const double rise = (c->value[i + 1] - c->value[i]) / c->log_step;
+    return (c->value[i] - rise) * (to - from) + rise * to * log(to / from);
+}
+
+static course_sums course_sums_make(const course *c, pool *memory)
+{
+    const course_sums m = {c, pool_numbers(memory, c->n), pool_numbers(memory, c->n)};
+    if (memory->failed)
+        return m;
+    for (size_t i = 0; i < c->n; i++) {
+        m.time[i] = exp(c->log_first + (double)i * c->log_step);
+        m.sum[i] = i == 0 ? c->value[0] * m.time[0]
+                          : m.sum[i - 1] + piece(c, i - 1, m.time[i - 1], m.time[i]);
+    }
+    return m;
+}
+
+static double course_sum(const course_sums *m, double time)
+{
+    const course *const c = m->c;
+    const double place = (log(time) - c->log_first) / c->log_step;
+    if (!(place > 0))
+        return c->value[0] * time;
+    if (place >= (double)(c->n - 1))
+        return m->sum[c->n - 1];
+    const size_t i = (size_t)place;
+    return m->sum[i] + piece(c, i, m->time[i], time);
+}
+
+/* The course over its height, as the means of the series would show it. column: [n]. */
+static void fill_column(const course_series *s, const course_sums *m, double height,
+                        double log_factor, double *column)
+{
+    const double faster = exp(-log_factor);
+    double begin = faster * s->begin, before = course_sum(m, begin);
+    for (size_t i = 0; i < s->n; i++) {
+        const double end = faster * s->end[i], sum = course_sum(m, end);
+        column[i] = (sum - before) / ((end - begin) * height);
+        begin = end;
+        before = sum;
+    }
+}
+
+static scatter_sums sum_up(const course_series *s, const double *column, scatter_law law)
+{
+    scatter_sums sums = scatter_begin(law);
+    for (size_t i = 0; i < s->n; i++)
+        scatter_add_beside(&sums, column[i], s->friction[i]);
+    return sums;
+}
+
+static double level_of(const scatter_sums *s, double coefficient)
+{
+    return (s->product[3] - coefficient * s->product[1]) / s->product[0];
+}
+
+/* Digits of a maximum that a likelihood tells. */
+static const double finest = 1e-4;
+static const double golden = 0.6180339887498949; /* of the golden section */
+
+typedef struct place_search {
+    const course_series *s;
+    course_sums sums;
+    double height, *column;
+    scatter_law law;
+} place_search;
+
+static double likelihood_at(const place_search *p, double log_factor)
+{
+    fill_column(p->s, &p->sums, p->height, log_factor, p->column);
+    const scatter_sums sums = sum_up(p->s, p->column, p->law);
+    return -log(scatter_solve(&sums, true).squares);
+}
+
+static double search(const place_search *p, double low, double high)
+{
+    double a = high - golden * (high - low), b = low + golden * (high - low),
+           at_a = likelihood_at(p, a), at_b = likelihood_at(p, b);
+    while (high - low > finest) {
+        if (at_a > at_b) {
+            high = b;
+            b = a;
+            at_b = at_a;
+            a = high - golden * (high - low);
+            at_a = likelihood_at(p, a);
+        } else {
+            low = a;
+            a = b;
+            at_a = at_b;
+            b = low + golden * (high - low);
+            at_b = likelihood_at(p, b);
+        }
+    }
+    return 0.5 * (low + high);
+}
+
+course_place course_place_find(const course_series *s, const course *c, scatter_law law,
+                               double around, double within)
+{
+    const double none = (double)NAN;
+    course_place place = {none, none, none};
+    pool memory = {0};
+    place_search p = {s, course_sums_make(c, &memory), course_height(c),
+                      pool_numbers(&memory, s->n), law};
+    if (!memory.failed && p.height > 0 && isfinite(p.height) && isfinite(around)) {
+        place.log_factor = within > 0 ? search(&p, around - within, around + within) : around;
+        fill_column(s, &p.sums, p.height, place.log_factor, p.column);
+        const scatter_sums sums = sum_up(s, p.column, law);
+        const double coefficient = scatter_solve(&sums, true).coefficient;
+        place.ratio = coefficient / p.height;
+        place.level = level_of(&sums, coefficient);
+    }
+    pool_free(&memory);
+    return place;
+}
+
+/* ---- all factors ----------------------------------------------------------------------------- */
+
+/* Of the factors that are tried: apart first, then so many where the likelihood is. */
+static const double coarse = 0.2;
+enum { FINE = 40, COARSE_MOST = 200 };
+/* ln of what the likelihood has lost where it is left: 1e-5 of the largest. */
+static const double deep = 12;
+/* What is settled within two means is not told by them; times are tried from an eighth of that to
+ * so many times the length of the series. */
+static const double fewest_means = 2, least_part = 0.125, most_lengths = 5;
+static const double tail = 0.025; /* on each side of an interval of 95 % */
+
+/* One series with its course. */
+typedef struct member {
+    const course_series *s;
+    course_sums sums;
+    double height, variance, least, settled;
+    double *column;                  /* [n] */
+    bool kept[SCATTER_LAWS];         /* laws that count */
+    double null[SCATTER_LAWS];       /* ln of their likelihoods about a constant */
+    double likelihood[SCATTER_LAWS]; /* the largest with the course */
+    double best, best_level, best_scatter;
+    scatter_law best_law;
+} member;
+
+typedef struct law_sum {
+    double weight, ratio, square; /* weight as a logarithm, the others by it */
+} law_sum;
+
+typedef struct scan {
+    member *of; /* [n_of] */
+    size_t n_of;
+    law_sum *each;               /* [n_of] of one factor */
+    size_t n;                    /* factors so far */
+    double *log_factor, *weight; /* [n] ln of the likelihood over all laws */
+    double *ratio, *square;      /* [n] mean and mean square of the ratio over the laws */
+} scan;
+
+static void add_law(law_sum *sum, double weight, double ratio, double variance)
+{
+    const double all = log_add(sum->weight, weight), old = exp(sum->weight - all),
+                 now = exp(weight - all);
+    *sum = (law_sum){all, old * sum->ratio + now * ratio,
+                     old * sum->square + now * (ratio * ratio + variance)};
+}
+
+/* `first`: what each law comes to is kept. */
+static law_sum try_member(member *t, double log_factor, bool first)
+{
+    law_sum sum = {-(double)INFINITY, 0, 0};
+    const double df = (double)t->s->n - 2;
+    fill_column(t->s, &t->sums, t->height, log_factor, t->column);
+    for (size_t i = 0; i < SCATTER_LAWS; i++) {
+        if (!t->kept[i])
+            continue;
+        const scatter_sums s =
+            sum_up(t->s, t->column, scatter_law_of(SCATTER_UNDER_CHANGE, i, t->s->n));
+        const scatter_fit f = scatter_solve(&s, true);
+        const double scatter = fmax(f.squares / df, t->least);
+        /* changes about as large as the scatter of the whole are taken for possible, or else a
+         * course that lies beyond the series would be as likely as it is free */
+        const double l = scatter_prior(SCATTER_UNDER_CHANGE, i) +
+                         scatter_likelihood_beside(&s, t->least) -
+                         0.5 * log1p(f.variance * scatter / t->variance);
+        if (!isfinite(l)) /* no course within the series */
+            continue;
+        const double variance = scatter * f.variance * df / (df - 2); /* of Student's t */
+        add_law(&sum, l, f.coefficient / t->height, variance / (t->height * t->height));
+        if (first)
+            t->likelihood[i] = fmax(t->likelihood[i], l);
+        if (l > t->best) {
+            t->best = l;
+            t->best_law = s.law;
+            t->best_level = level_of(&s, f.coefficient);
+            t->best_scatter = scatter;
+        }
+    }
+    return sum;
+}
+
+/* The change that is taken for possible, as a variance in the unit of the first series: that of the
+ * series that scatters least. */
+static double possible_of(const scan *t)
+{
+    double least = (double)INFINITY;
+    for (size_t i = 0; i < t->n_of; i++) {
+        const double unit = t->of[0].height / t->of[i].height;
+        least = fmin(least, t->of[i].variance * unit * unit);
+    }
+    return least;
+}
+
+/* ln of the likelihoods of a series about a constant, over its laws. */
+static double null_of(const member *m)
+{
+    double none = -(double)INFINITY;
+    for (size_t i = 0; i < SCATTER_LAWS; i++)
+        none = log_add(none, m->null[i]);
+    return none;
+}
+
+/* The series have the ratio in common, too, and a scatter each. What one says of the ratio is taken
+ * for normal; which changes are possible counts once and not for each. A series that the course
+ * begins behind says as much as a constant, unless it is the only one. */
+static law_sum join(const scan *t)
+{
+    double precision = 0, mean = 0, squares = 0, weight = 0;
+    if (t->n_of == 1)
+        return t->each[0];
+    for (size_t i = 0; i < t->n_of; i++) {
+        const member *const m = &t->of[i];
+        const law_sum *const each = &t->each[i];
+        const double variance = each->square - each->ratio * each->ratio,
+                     changes = variance * m->height * m->height, unit = t->of[0].height;
+        if (!isfinite(each->weight) || !(variance > 0)) {
+            weight += null_of(m);
+            continue;
+        }
+        weight += each->weight + 0.5 * log1p(changes / m->variance) - log(m->height / unit) -
+                  0.5 * log(2 * M_PI * variance * unit * unit);
+        const double all = precision + 1 / variance, off = each->ratio - mean;
+        squares += off * off * precision / (variance * all); /* about the mean so far */
+        mean += off / (variance * all);
+        precision = all;
+    }
+    if (!(precision > 0))
+        return (law_sum){-(double)INFINITY, 0, 0};
+    const double variance = 1 / precision, changes = variance * t->of[0].height * t->of[0].height;
+    weight += 0.5 * (log(2 * M_PI * changes) - squares - log1p(changes / possible_of(t)));
+    return (law_sum){weight, mean, mean * mean + variance};
+}
+
+static law_sum try_factor(scan *t, double log_factor, bool first)
+{
+    for (size_t i = 0; i < t->n_of; i++)
+        t->each[i] = try_member(&t->of[i], log_factor, first);
+    return join(t);
+}
+
+static void keep_factor(scan *t, double log_factor, law_sum sum)
+{
+    t->log_factor[t->n] = log_factor;
+    t->weight[t->n] = sum.weight;
+    t->ratio[t->n] = sum.ratio;
+    t->square[t->n++] = sum.square;
+}
+
+/* Factors in equal steps from low to high. */
+static void try_factors(scan *t, double low, double high, size_t n, bool first)
+{
+    t->n = 0;
+    for (size_t i = 0; i < n; i++) {
+        const double at = low + (high - low) * (double)i / (double)(n - 1);
+        keep_factor(t, at, try_factor(t, at, first));
+    }
+}
+
+/* Laws that are e^-deep as likely as the best change nothing. */
+static void drop_laws(member *m)
+{
+    for (size_t i = 0; i < SCATTER_LAWS; i++)
+        m->kept[i] = m->likelihood[i] > m->best - deep;
+}
+
+/* From the least that one of the series may show to the most. */
+static void limits_of(const scan *t, double limit[2])
+{
+    limit[0] = (double)INFINITY;
+    limit[1] = -(double)INFINITY;
+    for (size_t i = 0; i < t->n_of; i++) {
+        const course_series *const s = t->of[i].s;
+        const double length = s->end[s->n - 1], mean = length / (double)s->n,
+                     settled = t->of[i].settled;
+        limit[0] = fmin(limit[0], log(least_part * fewest_means * mean / settled));
+        limit[1] = fmax(limit[1], log(most_lengths * length / settled));
+    }
+}
+
+static void scan_coarsely(scan *t, const double limit[2])
+{
+    const size_t n = (size_t)fmin(fmax(ceil((limit[1] - limit[0]) / coarse), 2), COARSE_MOST);
+    try_factors(t, limit[0], limit[1], n, true);
+    for (size_t i = 0; i < t->n_of; i++)
+        drop_laws(&t->of[i]);
+}
+
+/* ln of the odds of the course, by any factor, over constants. */
+static double log_odds(const scan *t)
+{
+    double any = -(double)INFINITY, none = 0;
+    for (size_t i = 0; i < t->n; i++)
+        any = log_add(any, t->weight[i]);
+    for (size_t i = 0; i < t->n_of; i++)
+        none += null_of(&t->of[i]);
+    return any - log((double)t->n) - none - 0.5 * log(2 * M_PI * possible_of(t));
+}
+
+/* Again where the likelihood is, until it lies on many factors: a precise series tells the factor
+ * to less than a step. */
+enum { MANY = FINE / 2, SCANS = 5 };
+
+static size_t scan_finely(scan *t, const double limit[2])
+{
+    const double step = t->log_factor[1] - t->log_factor[0];
+    double largest = -(double)INFINITY, low = limit[1], high = limit[0];
+    size_t n = 0;
+    for (size_t i = 0; i < t->n; i++)
+        largest = fmax(largest, t->weight[i]);
+    for (size_t i = 0; i < t->n; i++)
+        if (t->weight[i] > largest - deep) {
+            low = fmin(low, t->log_factor[i] - step);
+            high = fmax(high, t->log_factor[i] + step);
+        }
+    try_factors(t, fmax(low, limit[0]), fmin(high, limit[1]), FINE, false);
+    for (size_t i = 0; i < t->n; i++)
+        n += t->weight[i] > largest - deep;
+    return n;
+}
+
+/* ---- what they say --------------------------------------------------------------------------- */
+
+/* `expected` > 0: the factors are as likely as that says before, else equally. */
+static void weigh(scan *t, double expected)
+{
+    double all = -(double)INFINITY;
+    for (size_t i = 0; i < t->n; i++) {
+        const double off = t->log_factor[i] / expected;
+        t->weight[i] -= expected > 0 ? 0.5 * off * off : 0;
+        all = log_add(all, t->weight[i]);
+    }
+    for (size_t i = 0; i < t->n; i++)
+        t->weight[i] = exp(t->weight[i] - all);
+}
+
+static void tell_ratio(const scan *t, course_fit *fit)
+{
+    double mean = 0, square = 0;
+    for (size_t i = 0; i < t->n; i++) {
+        mean += t->weight[i] * t->ratio[i];
+        square += t->weight[i] * t->square[i];
+    }
+    fit->ratio = mean;
+    fit->ratio_error = sqrt(fmax(square - mean * mean, 0));
+}
+
+/* Where so much of the weight lies below. */
+static double quantile(const scan *t, double share)
+{
+    double below = 0;
+    for (size_t i = 0; i < t->n; i++) {
+        if (below + t->weight[i] >= share) {
+            const double step = t->log_factor[1] - t->log_factor[0];
+            return t->log_factor[i] + ((share - below) / t->weight[i] - 0.5) * step;
+        }
+        below += t->weight[i];
+    }
+    return t->log_factor[t->n - 1];
+}
+
+/* No series lasts until it is settled; it is so within the first means of all. */
+static bool is_beyond(const scan *t, double log_factor)
+{
+    for (size_t i = 0; i < t->n_of; i++)
+        if (exp(log_factor) * t->of[i].settled <= t->of[i].s->end[t->of[i].s->n - 1])
+            return false;
+    return true;
+}
+
+static bool is_within(const scan *t, double log_factor)
+{
+    for (size_t i = 0; i < t->n_of; i++)
+        if (exp(log_factor) * t->of[i].settled >= fewest_means * t->of[i].s->end[0])
+            return false;
+    return true;
+}
+
+static void tell_factor(const scan *t, course_fit *fit)
+{
+    double beyond = 0, within = 0, mean = 0, square = 0;
+    for (size_t i = 0; i < t->n; i++) {
+        beyond += is_beyond(t, t->log_factor[i]) ? t->weight[i] : 0;
+        within += is_within(t, t->log_factor[i]) ? t->weight[i] : 0;
+        mean += t->weight[i] * t->log_factor[i];
+        square += t->weight[i] * t->log_factor[i] * t->log_factor[i];
+    }
+    fit->log_factor = mean;
+    fit->error = sqrt(fmax(square - mean * mean, 0));
+    fit->low = within > tail ? (double)NAN : quantile(t, tail);
+    fit->high = beyond > tail ? (double)NAN : quantile(t, 1 - tail);
+}
+
+static void find(scan *t, double expected, course_fit *fit)
+{
+    double limit[2];
+    limits_of(t, limit);
+    scan_coarsely(t, limit);
+    fit->log_odds = log_odds(t);
+    fit->seen = fit->log_odds > log(COURSE_ODDS);
+    if (fit->seen) {
+        for (int i = 0; i < SCANS && scan_finely(t, limit) < MANY; i++)
+            continue;
+        weigh(t, 0);
+        tell_factor(t, fit);
+    } else {
+        const double wide = NORMAL_95 * expected;
+        try_factors(t, -wide, wide, FINE, false);
+        weigh(t, expected);
+    }
+    tell_ratio(t, fit);
+    fit->law = t->of[0].best_law;
+    fit->level = t->of[0].best_level;
+    fit->scatter = t->of[0].best_scatter;
+}
+
+static double variance_of(const course_series *s)
+{
+    double mean = 0, sum = 0;
+    for (size_t i = 0; i < s->n; i++)
+        mean += s->friction[i] / (double)s->n;
+    for (size_t i = 0; i < s->n; i++)
+        sum += (s->friction[i] - mean) * (s->friction[i] - mean);
+    return sum / (double)s->n;
+}
+
+static wt_status begin(const course_pair *of, double settled_share, pool *memory, member *m,
+                       wt_error *err)
+{
+    const course_series *const s = of->series;
+    *m = (member){.s = s, .variance = variance_of(s), .best = -(double)INFINITY};
+    m->height = course_height(of->course);
+    m->settled = course_settled(of->course, settled_share);
+    m->least = SCATTER_DIGITS * SCATTER_DIGITS * m->variance;
+    if (s->n < COURSE_FEWEST || !(m->variance > 0))
+        return wt_fail(err, WT_E_RANGE, "too few cycles, or they do not scatter");
+    if (!(m->height > 0) || !(m->settled > 0))
+        return wt_fail(err, WT_E_RANGE, "friction is predicted not to change");
+    m->sums = course_sums_make(of->course, memory);
+    m->column = pool_numbers(memory, s->n);
+    if (memory->failed)
+        return wt_fail(err, WT_E_MEMORY, "out of memory");
+    for (size_t i = 0; i < SCATTER_LAWS; i++) {
+        scatter_sums sums = scatter_begin(scatter_law_of(SCATTER_UNDER_CHANGE, i, s->n));
+        for (size_t k = 0; k < s->n; k++)
+            scatter_add(&sums, s->friction[k]);
+        m->null[i] =
+            scatter_prior(SCATTER_UNDER_CHANGE, i) + scatter_likelihood(&sums, false, m->least);
+        m->likelihood[i] = -(double)INFINITY;
+        m->kept[i] = true;
+    }
+    return WT_OK;
+}
+
+wt_status course_fit_make(const course_pair *of, size_t n, double settled_share, double expected,
+                          course_fit *fit, wt_error *err)
+{
+    const double none = (double)NAN;
+    pool memory = {0};
+    scan t = {.of = pool_alloc(&memory, n, sizeof *t.of),
+              .n_of = n,
+              .each = pool_alloc(&memory, n, sizeof *t.each),
+              .log_factor = pool_numbers(&memory, COARSE_MOST),
+              .weight = pool_numbers(&memory, COARSE_MOST),
+              .ratio = pool_numbers(&memory, COARSE_MOST),
+              .square = pool_numbers(&memory, COARSE_MOST)};
+    *fit = (course_fit){.log_factor = none, .error = none, .low = none, .high = none};
+    wt_status status = memory.failed ? wt_fail(err, WT_E_MEMORY, "out of memory") : WT_OK;
+    for (size_t i = 0; status == WT_OK && i < n; i++)
+        status = begin(&of[i], settled_share, &memory, &t.of[i], err);
+    if (status == WT_OK)
+        find(&t, expected, fit);
+    pool_free(&memory);
+    return status;
+}

@@ -1,0 +1,172 @@
+/* Where a series of cycles becomes steady: the place of the change with all that is not known of
+ * the scatter before and behind it.
+ *
+ * Scargle et al., Astrophys. J. 764 (2013) 167, have such places; here the scatter is correlated.
+ *
+ * SPDX-License-Identifier: GPL-3.0-or-later
+ */
+#include "record/numerics/autocorrelation.h"
+
+#include "core/base/arena.h"
+#include "core/math/normal_quantile.h"
+#include "weartrack/fit.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+/* Points before the change: two more than the constants of a line. Behind it: a tenth of the
+ * series, and so many that a scatter is known to a quarter. */
+enum { FEWEST_BEFORE = 4, FEWEST_BEHIND = 12 };
+static const double least_behind = 0.1;
+/* Odds over a series without a running-in at which it is told: one false alarm in twenty at most.
+ */
+static const double least_odds = 20;
+/* Range of the ratio of the two scatters that is taken for possible, as a logarithm: 1 % to 100. */
+static const double scatter_range = 9.2;
+static const double tail = 0.025; /* on each side of an interval of 95 % */
+
+typedef struct likelihoods {
+    size_t n;
+    double *before, *behind; /* [n + 1] of the points before place k, and from it on */
+    double least;
+} likelihoods;
+
+static double total_variance(const double *y, size_t n)
+{
+    double mean = 0, sum = 0;
+    for (size_t i = 0; i < n; i++)
+        mean += y[i] / (double)n;
+    for (size_t i = 0; i < n; i++)
+        sum += (y[i] - mean) * (y[i] - mean);
+    return sum / (double)n;
+}
+
+/* All places at once: the scatter is the same from either end. */
+static void add_law(likelihoods *l, const double *y, size_t i)
+{
+    const scatter_law law = scatter_law_of(SCATTER_UNDER_CHANGE, i, l->n);
+    const double prior = scatter_prior(SCATTER_UNDER_CHANGE, i);
+    scatter_sums s = scatter_begin(law);
+    for (size_t k = 1; k <= l->n; k++) {
+        scatter_add(&s, y[k - 1]);
+        if (k >= FEWEST_BEFORE)
+            l->before[k] = log_add(l->before[k], prior + scatter_likelihood(&s, true, l->least));
+    }
+    s = scatter_begin(law);
+    for (size_t k = l->n; k-- > 0;) {
+        scatter_add(&s, y[k]);
+        if (s.n >= FEWEST_BEHIND)
+            l->behind[k] = log_add(l->behind[k], prior + scatter_likelihood(&s, false, l->least));
+    }
+}
+
+static void interval_of(const double *log_weight, size_t first, size_t end, wt_running_in *r)
+{
+    double all = -(double)INFINITY, below = 0;
+    bool low = false, middle = false;
+    for (size_t k = first; k < end; k++)
+        all = log_add(all, log_weight[k]);
+    for (size_t k = first; k < end; k++) {
+        const double at = (double)k, weight = exp(log_weight[k] - all);
+        below += weight;
+        if (!low && below > tail)
+            r->end.low = at;
+        if (!middle && below >= 0.5)
+            r->end.value = at;
+        low = below > tail;
+        middle = below >= 0.5;
+        r->end.high = at;
+        if (below >= 1 - tail)
+            break;
+    }
+    /* of the normal law with that interval: the tails may be far away, and are light */
+    r->end.standard_error = (r->end.high - r->end.low) / (2 * NORMAL_95);
+    r->steady_from = (size_t)r->end.high;
+}
+
+/* Odds of a running-in at any place over none. It has one line and one scatter more: coefficients
+ * within the scatter of the whole series are taken for possible; the law of that scatter is
+ * averaged over. */
+static double log_odds(const likelihoods *l, const double *log_weight, size_t first, size_t end,
+                       double variance)
+{
+    double any = -(double)INFINITY;
+    for (size_t k = first; k < end; k++)
+        any = log_add(any, log_weight[k]);
+    return any - l->behind[0] - log((double)(end - first)) - log(2 * M_PI * variance) -
+           log(2 * scatter_range);
+}
+
+static void judge(const likelihoods *l, double variance, wt_running_in *r)
+{
+    const size_t behind = (size_t)fmax(FEWEST_BEHIND, ceil(least_behind * (double)l->n));
+    const size_t first = FEWEST_BEFORE, end = l->n - behind + 1;
+    for (size_t k = first; k < end; k++)
+        l->before[k] += l->behind[k];
+    if (log_odds(l, l->before, first, end, variance) < log(least_odds)) {
+        r->why_not = "no running-in stands out of the scatter";
+        return;
+    }
+    interval_of(l->before, first, end, r);
+    if (r->steady_from + 1 < end) {
+        r->seen = true;
+        return;
+    }
+    *r = (wt_running_in){.end = {(double)NAN, (double)NAN, (double)NAN, (double)NAN},
+                         .steady_from = l->n - behind,
+                         .why_not = "it does not become steady before the last tenth"};
+}
+
+static wt_status find(const double *y, size_t n, wt_running_in *r, wt_error *err)
+{
+    pool memory = {0};
+    const double variance = total_variance(y, n);
+    if (n < FEWEST_BEFORE + 2 * FEWEST_BEHIND)
+        return WT_OK;
+    if (!(variance > 0)) {
+        r->why_not = "the cycles do not scatter";
+        return WT_OK;
+    }
+    likelihoods l = {n, pool_numbers(&memory, n + 1), pool_numbers(&memory, n + 1),
+                     SCATTER_DIGITS * SCATTER_DIGITS * variance};
+    if (memory.failed) {
+        pool_free(&memory);
+        return wt_fail(err, WT_E_MEMORY, "out of memory");
+    }
+    for (size_t k = 0; k <= n; k++)
+        l.before[k] = l.behind[k] = -(double)INFINITY;
+    for (size_t i = 0; i < SCATTER_LAWS; i++)
+        add_law(&l, y, i);
+    r->why_not = "";
+    judge(&l, variance, r);
+    pool_free(&memory);
+    return WT_OK;
+}
+
+/* From parts to points: a change within a part is seen at either end of it. */
+static void tell_in_points(const scatter_parts *parts, wt_running_in *r)
+{
+    const double length = (double)parts->length, rest = (double)parts->rest;
+    if (parts->length == 1 || r->steady_from == 0)
+        return;
+    r->steady_from = parts->rest + parts->length * r->steady_from;
+    r->end.value = rest + length * r->end.value;
+    r->end.low = rest + length * (r->end.low - 1) + 1;
+    r->end.high = rest + length * (r->end.high + 1) - 1;
+    r->end.standard_error = (r->end.high - r->end.low) / (2 * NORMAL_95);
+    r->steady_from = r->seen ? (size_t)r->end.high : r->steady_from;
+}
+
+wt_status wt_running_in_find(const double *y, size_t n, wt_running_in *running_in, wt_error *err)
+{
+    scatter_parts parts;
+    double *room;
+    *running_in = (wt_running_in){.end = {(double)NAN, (double)NAN, (double)NAN, (double)NAN},
+                                  .why_not = "too few cycles"};
+    if (!scatter_parts_of(y, n, &parts, &room))
+        return wt_fail(err, WT_E_MEMORY, "out of memory");
+    const wt_status status = find(parts.y, parts.n, running_in, err);
+    tell_in_points(&parts, running_in);
+    free(room);
+    return status;
+}

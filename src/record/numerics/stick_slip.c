@@ -1,0 +1,84 @@
+/* Stick-slip in the samples of a friction record.
+ *
+ * SPDX-License-Identifier: GPL-3.0-or-later
+ */
+#include "weartrack/fit.h"
+
+#include "core/base/arena.h"
+#include "core/base/array.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+/* A slip is a fall of so many standard deviations of the scatter from sample to sample, beyond what
+ * white scatter does in a million samples. */
+static const double outstanding = 6;
+/* Sticking lasts longer than slipping by this ratio; in a wave up and down are alike. */
+static const double least_ratio = 2;
+enum { FEWEST = 10 }; /* slips that tell a mean and its scatter */
+
+/* Standard deviation of white scatter: the median of second differences, of which the slips are
+ * few. They have 6 times its variance, and 0.6745 of a deviation is the median. */
+static double scatter_of(const double *y, size_t n, double *room)
+{
+    for (size_t i = 0; i + 2 < n; i++)
+        room[i] = fabs(y[i] - 2 * y[i + 1] + y[i + 2]);
+    numbers_sort(room, n - 2);
+    return room[(n - 2) / 2] / (0.6745 * sqrt(6));
+}
+
+typedef struct slip_sums {
+    double n, mean, squares; /* of the falls */
+    double rise, fall;       /* samples spent */
+} slip_sums;
+
+static void add_fall(slip_sums *s, double height)
+{
+    s->n++;
+    const double off = height - s->mean;
+    s->mean += off / s->n;
+    s->squares += off * (height - s->mean);
+}
+
+/* From turning point to turning point, with hysteresis. */
+static slip_sums find_falls(const double *y, size_t n, double least)
+{
+    slip_sums s = {0};
+    size_t top = 0, bottom = 0;
+    bool falling = false;
+    for (size_t i = 1; i < n; i++) {
+        if (!falling && y[i] >= y[top])
+            top = i;
+        if (falling && y[i] <= y[bottom])
+            bottom = i;
+        if (!falling && y[top] - y[i] > least) {
+            s.rise += (double)(top - bottom);
+            falling = true;
+            bottom = i;
+        } else if (falling && y[i] - y[bottom] > least) {
+            s.fall += (double)(bottom - top);
+            add_fall(&s, y[top] - y[bottom]);
+            falling = false;
+            top = i;
+        }
+    }
+    return s;
+}
+
+wt_status wt_stick_slip_find(const double *y, size_t n, wt_stick_slip *slips, wt_error *err)
+{
+    pool memory = {0};
+    *slips = (wt_stick_slip){0, (double)NAN, (double)NAN};
+    if (n < 4 * FEWEST) /* a slip and its rise are four samples at least */
+        return WT_OK;
+    double *const room = pool_numbers(&memory, n);
+    wt_status status = memory.failed ? wt_fail(err, WT_E_MEMORY, "out of memory") : WT_OK;
+    if (status == WT_OK) {
+        const double scatter = scatter_of(y, n, room);
+        const slip_sums s = find_falls(y, n, outstanding * scatter);
+        if (s.n >= FEWEST && s.rise > least_ratio * s.fall)
+            *slips = (wt_stick_slip){(size_t)s.n, s.mean, sqrt(s.squares / (s.n - 1) / s.n)};
+    }
+    pool_free(&memory);
+    return status;
+}

@@ -1,0 +1,107 @@
+/* A wear track in a profile across it.
+ *
+ * SPDX-License-Identifier: GPL-3.0-or-later
+ */
+#include "weartrack/fit.h"
+
+#include "core/base/arena.h"
+
+#include <gsl/gsl_fit.h>
+#include <math.h>
+
+enum { FEWEST = 40 };            /* ten in each quarter */
+static const double outside = 3; /* standard deviations that are a track */
+
+/* Area between two samples of what is above 0; the line between them is cut where it crosses. */
+static double area_above(double width, double a, double b)
+{
+    return 0.5 * width * (fmax(a, 0) + fmax(b, 0));
+}
+
+/* Error of the area below a line: the line is off by what the outer quarters scatter, and they
+ * scatter slowly; within the track the samples themselves do. */
+static wt_status find_error(const double *r, size_t n, size_t quarter, const double *x,
+                            wt_track *track, wt_error *err)
+{
+    wt_steady left, right;
+    wt_status status = wt_steady_mean(r, quarter, &left, err);
+    if (status == WT_OK)
+        status = wt_steady_mean(r + n - quarter, quarter, &right, err);
+    if (status != WT_OK)
+        return status;
+    const double width = track->to - track->from, step = (x[n - 1] - x[0]) / (double)(n - 1),
+                 slow = 0.5 * (left.correlation + right.correlation),
+                 line = 0.5 * hypot(left.mean.standard_error, right.mean.standard_error),
+                 own = track->scatter * sqrt(slow * step / width);
+    track->area.standard_error = width * hypot(line, own);
+    return WT_OK;
+}
+
+static wt_status measure(const double *x, const double *r, size_t n, size_t quarter,
+                         wt_track *track, wt_error *err)
+{
+    size_t first = n, last = 0;
+    for (size_t i = 0; i < n; i++) {
+        /* two samples one after the other: a single one in a few hundred is scatter */
+        if (i > 0 && fmax(r[i - 1], r[i]) < -outside * track->scatter) {
+            first = first == n ? i - 1 : first;
+            last = i;
+        }
+        if (-r[i] > track->depth) {
+            track->depth = -r[i];
+            track->at = x[i];
+        }
+    }
+    if (first == n || last == first)
+        return WT_OK;
+    track->found = true;
+    track->from = x[first];
+    track->to = x[last];
+    track->area = (wt_estimate){0, 0, 0, "m^2"};
+    track->ridges = 0;
+    for (size_t i = first; i < last; i++) {
+        track->area.value += area_above(x[i + 1] - x[i], -r[i], -r[i + 1]);
+        track->ridges += area_above(x[i + 1] - x[i], r[i], r[i + 1]);
+    }
+    return find_error(r, n, quarter, x, track, err);
+}
+
+wt_status wt_track_find(const double *x, const double *z, size_t n, wt_track *track, wt_error *err)
+{
+    const double none = (double)NAN;
+    const size_t quarter = n / 4;
+    pool memory = {0};
+    *track = (wt_track){.at = none,
+                        .from = none,
+                        .to = none,
+                        .area = {none, none, 0, "m^2"},
+                        .ridges = none,
+                        .depth = 0};
+    if (n < FEWEST) {
+        wt_fail(err, WT_E_RANGE, "a profile of so few points shows no wear track");
+        wt_error_expected(err, "%d points or more", FEWEST);
+        wt_error_found(err, "%zu", n);
+        return WT_E_RANGE;
+    }
+    double *const bx = pool_numbers(&memory, 2 * quarter),
+                  *const bz = pool_numbers(&memory, 2 * quarter),
+                  *const r = pool_numbers(&memory, n);
+    wt_status status = memory.failed ? wt_fail(err, WT_E_MEMORY, "out of memory") : WT_OK;
+    if (status == WT_OK) {
+        double c00, c01, c11, squares;
+        for (size_t i = 0; i < quarter; i++) {
+            bx[i] = x[i];
+            bz[i] = z[i];
+            bx[quarter + i] = x[n - quarter + i];
+            bz[quarter + i] = z[n - quarter + i];
+        }
+        gsl_fit_linear(bx, 1, bz, 1, 2 * quarter, &track->intercept, &track->slope, &c00, &c01,
+                       &c11, &squares);
+        track->scatter = sqrt(squares / (double)(2 * quarter - 1));
+        for (size_t i = 0; i < n; i++)
+            r[i] = z[i] - track->intercept - track->slope * x[i];
+        status = measure(x, r, n, quarter, track, err);
+    }
+    pool_free(&memory);
+    return status;
+}

@@ -1,0 +1,147 @@
+/* The largest wavenumber that a record asks for, all else as used: where its likelihood is largest,
+ * for a level alone may ask for two.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#include "record/validation.h"
+
+#include "core/base/clocale.h"
+#include "core/math/normal_quantile.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+/* Twice the decade by which the choices of the model move it, in tenths of a decade: friction is a
+ * smooth function of ln q1. */
+enum { EACH_WAY = 20, TRIED = 2 * EACH_WAY + 1 };
+static const double tenth = 0.1;
+/* No surface has waves below the size of a molecule [m]. */
+static const double shortest_wave = 1e-9;
+
+typedef struct scan {
+    size_t n;
+    double log_q1[TRIED], likelihood[TRIED];
+} scan;
+
+static double limit_low(const setting *s)
+{
+    const double roll_off = s->surface.self_affine ? s->surface.qr : 0;
+    return fmax(2 * s->surface.q0, roll_off);
+}
+
+static double limit_high(const setting *s)
+{
+    const wt_power_spectrum *const p = &s->surface.spectrum;
+    const double known = s->surface.self_affine ? (double)INFINITY : p->wavenumber[p->n - 1];
+    return fmin(2 * M_PI / shortest_wave, known);
+}
+
+/* ln of the likelihood of the record with another q1, about the same covariance. value: [n]. */
+static wt_status likelihood_at(const validation *v, double q1, double *value, double *likelihood,
+                               wt_error *err)
+{
+    const trial *const used = &v->ratio[v->layered];
+    setting s = v->used;
+    prediction p = {.part = NULL};
+    s.surface.q1 = q1;
+    s.sliding.rubber = s.given;
+    s.sliding.surface = &s.surface;
+    s.sliding.softness = s.has_softness ? &s.softness : NULL;
+    wt_status status = prediction_make(&s.sliding, v->layered ? v->known : NULL, &v->steps, v->work,
+                                       false, &p, err);
+    const ratio_of of = {&p, &v->steps, p.shear, v->layered};
+    for (size_t i = 0; status == WT_OK && i < v->steps.n; i++)
+        value[i] = ratio_value(&of, 0, i);
+    agreement_data data = trial_data(used);
+    data.value = value;
+    data.allowed = validation_allowed(v);
+    if (status == WT_OK)
+        status = agreement_likelihood(&data, used->fit.scatter, likelihood, err);
+    prediction_clear(&p);
+    return status;
+}
+
+static wt_status scan_make(const validation *v, scan *s, wt_error *err)
+{
+    const double used = log10(v->used.surface.q1), low = log10(limit_low(&v->used)),
+                 high = log10(limit_high(&v->used));
+    double *const value = malloc((v->steps.n + 1) * sizeof *value);
+    wt_status status = value == NULL ? wt_fail(err, WT_E_MEMORY, "out of memory") : WT_OK;
+    s->n = 0;
+    for (int i = -EACH_WAY; status == WT_OK && i <= EACH_WAY; i++) {
+        const double at = used + tenth * i;
+        if (i != 0 && (at < low || at > high))
+            continue;
+        /* of that used the logarithm may lie beyond the last density by a rounding error */
+        const double q1 = i == 0 ? v->used.surface.q1 : fmin(pow(10, at), limit_high(&v->used));
+        status = likelihood_at(v, q1, value, &s->likelihood[s->n], err);
+        s->log_q1[s->n++] = at;
+    }
+    free(value);
+    return status;
+}
+
+/* Of the parabola through the best and its neighbours; NaN where the best is an end. */
+static double place_of_best(const scan *s, size_t best)
+{
+    if (best == 0 || best + 1 == s->n)
+        return (double)NAN;
+    const double a = s->likelihood[best - 1], b = s->likelihood[best], c = s->likelihood[best + 1];
+    return s->log_q1[best] + tenth * 0.5 * (a - c) / (a - 2 * b + c);
+}
+
+/* Where the likelihood has fallen as far as at an end of an interval of 95 %, on one side; NaN:
+ * nowhere. */
+static double end_of(const scan *s, size_t best, int side)
+{
+    const double level = s->likelihood[best] - 0.5 * NORMAL_95 * NORMAL_95;
+    for (size_t i = best; side < 0 ? i > 0 : i + 1 < s->n; i += side < 0 ? SIZE_MAX : 1) {
+        const size_t next = side < 0 ? i - 1 : i + 1;
+        const double a = s->likelihood[i] - level, b = s->likelihood[next] - level;
+        if (b < 0)
+            return s->log_q1[i] + (s->log_q1[next] - s->log_q1[i]) * a / (a - b);
+    }
+    return (double)NAN;
+}
+
+static void set_value(table_writer *t, validation_key key, double log_q1, double error)
+{
+    if (!isnan(log_q1))
+        validation_set_value(t, key, pow(10, log_q1), error, error);
+}
+
+wt_status cutoff_set_keys(const validation *v, table_writer *t, wt_error *err)
+{
+    scan s;
+    size_t best = 0;
+    char text[256];
+    const wt_status status = scan_make(v, &s, err);
+    if (status == WT_E_RANGE || status == WT_E_CONVERGENCE) { /* beside it all else stands */
+        validation_set_text(t, VALIDATION_KEY_CUTOFF_NOTE,
+                            "not known: friction is not predicted at every wavenumber tried");
+        return WT_OK;
+    }
+    if (status != WT_OK)
+        return status;
+    for (size_t i = 0; i < s.n; i++)
+        if (s.likelihood[i] > s.likelihood[best] || isnan(s.likelihood[best]))
+            best = i;
+    const double at = place_of_best(&s, best), first = pow(10, s.log_q1[0]),
+                 last = pow(10, s.log_q1[s.n - 1]);
+    if (isnan(at)) {
+        clocale_print(text, sizeof text,
+                      "not within %.3g rad/m to %.3g rad/m: the likelihood still rises at that end "
+                      "which is nearer to %.3g rad/m",
+                      first, last, pow(10, s.log_q1[best]));
+        validation_set_text(t, VALIDATION_KEY_CUTOFF_NOTE, text);
+        return WT_OK;
+    }
+    set_value(t, VALIDATION_KEY_CUTOFF, at, (double)NAN);
+    set_value(t, VALIDATION_KEY_CUTOFF_LOW, end_of(&s, best, -1), 0);
+    set_value(t, VALIDATION_KEY_CUTOFF_HIGH, end_of(&s, best, 1), 0);
+    clocale_print(
+        text, sizeof text,
+        "%.3g times that used; the thickness of the layer is held, and an end that is not "
+        "told lies beyond %.3g rad/m to %.3g rad/m",
+        pow(10, at) / v->used.surface.q1, first, last);
+    validation_set_text(t, VALIDATION_KEY_CUTOFF_NOTE, text);
+    return WT_OK;
+}

@@ -1,0 +1,543 @@
+/* The job of friction records: from the samples of a tribometer to friction that a theory can be
+ * held against. SPDX-License-Identifier: GPL-3.0-or-later */
+#include "record/record.h"
+
+#include "job/cost.h"
+#include "record/numerics/pauses.h"
+
+#include "core/base/array.h"
+#include "core/base/clocale.h"
+#include "core/table/table_rows.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+
+/* Below, the mean of a cycle holds a part of its wave that changes from cycle to cycle. */
+static const double fewest_samples = 20;
+/* The coefficient of a file and its forces agree to the digits of a display. */
+static const double same_friction = 0.01;
+
+void wt_record_tables_clear(wt_record_tables *tables)
+{
+    if (tables == NULL)
+        return;
+    wt_table_free(tables->record);
+    wt_table_free(tables->record_cycles);
+    wt_table_free(tables->wear);
+    *tables = (wt_record_tables){0};
+}
+
+/* ---- one step -------------------------------------------------------------------------------- */
+
+static const wt_interval not_known = {(double)NAN, (double)NAN, (double)NAN, (double)NAN};
+
+TABLE_ROW(record, RECORD, record_conditions at; wt_steady steady;
+          wt_interval drift, end, end_time, end_distance; const char *end_note; wt_stick_slip slips;
+          double zero, difference, samples, pauses, paused; size_t cycles, step;
+          const char *averaged_over, *note, *file;)
+
+TABLE_ROW(record_cycles, RECORD_CYCLES, wt_cycle cycle; size_t number; bool steady; size_t step;
+          const char *file;)
+
+typedef struct found_end {
+    wt_interval cycles;
+    size_t steady_from;
+    const char *why_not;
+} found_end;
+
+static wt_status find_end(const wt_record_job *job, const double *y, size_t n, found_end *end,
+                          wt_error *err)
+{
+    wt_running_in found = {.why_not = ""};
+    wt_status status = WT_OK;
+    *end = (found_end){not_known, 0, "not looked for"};
+    switch (job->running_in) {
+    case WT_RUNNING_IN_LIKELIHOOD:
+        status = wt_running_in_find(y, n, &found, err);
+        *end = (found_end){found.end, found.steady_from, found.why_not};
+        break;
+    case WT_RUNNING_IN_STEP:
+        end->steady_from = wt_change_of_mean(y, n);
+        break;
+    case WT_RUNNING_IN_MSER:
+        end->steady_from = wt_mser_5(y, n);
+        break;
+    default:
+        break;
+    }
+    if (job->running_in == WT_RUNNING_IN_STEP || job->running_in == WT_RUNNING_IN_MSER) {
+        end->cycles.value = (double)end->steady_from;
+        end->why_not = "this rule tells no interval";
+    }
+    return status;
+}
+
+static double middle(const wt_cycle *cycle, bool distance)
+{
+    return distance ? cycle->distance : cycle->time;
+}
+
+/* Where a cycle begins, in time or distance from the beginning of the step on: half-way between the
+ * middles. */
+static double begins_at(const wt_cycle *c, size_t n, double number, bool distance)
+{
+    if (isnan(number) || n < 2)
+        return (double)NAN;
+    const size_t k = (size_t)number;
+    const double first = middle(&c[0], distance),
+                 start = first - 0.5 * (middle(&c[1], distance) - first);
+    if (k == 0)
+        return 0;
+    return k < n ? 0.5 * (middle(&c[k - 1], distance) + middle(&c[k], distance)) - start
+                 : middle(&c[n - 1], distance) - start;
+}
+
+static wt_interval in_units(const wt_cycle *c, size_t n, wt_interval cycles, bool distance)
+{
+    const double value = begins_at(c, n, cycles.value, distance),
+                 low = begins_at(c, n, cycles.low, distance),
+                 high = begins_at(c, n, cycles.high, distance);
+    const double per_cycle = cycles.high > cycles.low
+                                 ? (high - low) / (cycles.high - cycles.low)
+                                 : begins_at(c, n, fmin(cycles.value, 1), distance);
+    return (wt_interval){value, cycles.standard_error * per_cycle, low, high};
+}
+
+static wt_interval times(wt_interval i, double factor)
+{
+    return (wt_interval){i.value * factor, i.standard_error * factor, i.low * factor,
+                         i.high * factor};
+}
+
+static const char *kind_words(wt_cycle_kind kind)
+{
+    static const char *const words[] = {"", "double stroke", "lap", "span of time", "sample"};
+    return words[kind];
+}
+
+static void add_note(char *note, size_t size, const char *words)
+{
+    const size_t used = strlen(note);
+    if (words[0] != '\0')
+        snprintf(note + used, size - used, "%s%s", used > 0 ? "; " : "", words);
+}
+
+/* Of those that are before a sample of a step; all that is known of a record without a time is that
+ * it tells none. */
+static void count_pauses(const record_pauses *pauses, const wt_cycle *first, const wt_cycle *last,
+                         record_row *r, char *note, size_t size)
+{
+    char words[120];
+    r->pauses = r->paused = isnan(first->time) ? (double)NAN : 0;
+    for (size_t i = 0; i < pauses->n; i++)
+        if (pauses->of[i].before > first->first && pauses->of[i].before < last->first + last->n) {
+            r->pauses++;
+            r->paused += pauses->of[i].time;
+        }
+    if (!(r->pauses > 0))
+        return;
+    clocale_print(words, sizeof words, "%.0f pause%s of %s%.4g s left out", r->pauses,
+                  r->pauses > 1 ? "s" : "", r->pauses > 1 ? "together " : "", r->paused);
+    add_note(note, size, words);
+}
+
+/* What a person should know of a step. */
+static void say_step(const wt_job *work, const wt_cycles *cycles, const record_row *r, char *note,
+                     size_t size)
+{
+    char words[160];
+    const bool periodic = cycles->kind == WT_CYCLE_LAP || cycles->kind == WT_CYCLE_STROKE;
+    add_note(note, size, r->steady.note);
+    if (periodic && cycles->samples < fewest_samples)
+        add_note(note, size, "few samples in a cycle: its mean holds a part of its wave");
+    if (isnan(r->end.value) && r->steady.n < r->cycles) { /* no end, and yet not all of it */
+        add_note(note, size, "not steady: the last tenth is told");
+        wt_parselog_add(work->log, WT_WARNING, r->file, NULL,
+                        "friction does not become steady before the last tenth of step %zu, whose "
+                        "mean is told",
+                        r->step);
+    }
+    if (r->drift.low * r->drift.high > 0) {
+        clocale_print(words, sizeof words, "drifts by %.2g over the steady part", r->drift.value);
+        add_note(note, size, words);
+    }
+    if (conditions_rest(r->at))
+        add_note(note, size, "nothing slides in it");
+    else if (isnan(r->at.velocity) && !isnan(r->at.rotation))
+        add_note(note, size, "velocity not known: give --track-radius");
+    if (cycles->kind == WT_CYCLE_STROKE && !cycles->has_zero)
+        add_note(note, size, "friction has no sign, so that its zero is not known");
+}
+
+static double mean_zero(const wt_cycle *cycles, size_t n)
+{
+    double sum = 0, count = 0;
+    for (size_t i = 0; i < n; i++)
+        if (!isnan(cycles[i].zero)) {
+            sum += cycles[i].zero;
+            count++;
+        }
+    return count > 0 ? sum / count : (double)NAN;
+}
+
+static wt_status measure_step(const wt_record_job *job, const wt_cycles *all, const wt_cycle *cycle,
+                              size_t n, record_row *r, size_t *steady_from, wt_error *err)
+{
+    found_end end = {not_known, 0, ""};
+    double *const y = malloc((n + 1) * sizeof *y);
+    if (y == NULL)
+        return wt_fail(err, WT_E_MEMORY, "out of memory");
+    for (size_t i = 0; i < n; i++)
+        y[i] = cycle[i].coefficient;
+    wt_status status = find_end(job, y, n, &end, err);
+    const size_t from = end.steady_from < n ? end.steady_from : 0;
+    const wt_cycle *const steady = cycle + from, *const last = cycle + n - 1;
+    if (status == WT_OK)
+        status = wt_steady_mean(y + from, n - from, &r->steady, err);
+    r->slips = (wt_stick_slip){0, (double)NAN, (double)NAN};
+    if (status == WT_OK && all->kind != WT_CYCLE_STROKE)
+        status = wt_stick_slip_find(all->friction + steady->first,
+                                    last->first + last->n - steady->first, &r->slips, err);
+    free(y);
+    r->at = conditions_of(steady, n - from);
+    r->drift = times(r->steady.drift, (double)(n - from) - 1);
+    r->end = end.cycles;
+    r->end_time = in_units(cycle, n, end.cycles, false);
+    r->end_distance = in_units(cycle, n, end.cycles, true);
+    r->end_note = end.why_not;
+    r->zero = mean_zero(steady, n - from);
+    r->cycles = n;
+    *steady_from = from;
+    return status;
+}
+
+/* ---- one file -------------------------------------------------------------------------------- */
+
+/* Rows so far, for what they have in common. */
+typedef struct together {
+    several friction;
+    record_conditions first;
+    bool alike;
+} together;
+
+typedef struct writers {
+    table_writer record, cycles, wear;
+    together all;
+    bool has_wear;    /* asked for, or stored beside a record */
+    wear_rates rates; /* of it */
+    size_t n_files;
+} writers;
+
+/* What does not slide has no friction coefficient of sliding. */
+static void count_row(together *all, const record_row *r)
+{
+    if (conditions_rest(r->at))
+        return;
+    if (!(all->friction.n > 0)) {
+        all->first = r->at;
+        all->alike = true;
+    }
+    all->alike = all->alike && conditions_alike(all->first, r->at);
+    several_add(&all->friction,
+                (wt_estimate){r->steady.mean.value, r->steady.mean.standard_error, 0, "1"});
+}
+
+static wt_status put_steps(const wt_record_job *job, const wt_job *work, const wt_cycles *cycles,
+                           const record_pauses *pauses, const char *file, writers *w, wt_error *err)
+{
+    wt_status status = WT_OK;
+    size_t step = 0;
+    for (size_t first = 0, n; first < cycles->n && status == WT_OK; first += n) {
+        char note[512] = "";
+        size_t from = 0;
+        record_row r = {.difference = cycles->difference,
+                        .samples = cycles->samples,
+                        .averaged_over = kind_words(cycles->kind),
+                        .step = ++step,
+                        .note = note,
+                        .file = file};
+        const wt_cycle *const cycle = cycles->cycle + first;
+        n = conditions_step(cycle, cycles->n - first);
+        status = measure_step(job, cycles, cycle, n, &r, &from, err);
+        if (status != WT_OK)
+            return status;
+        count_pauses(pauses, cycle, cycle + n - 1, &r, note, sizeof note);
+        say_step(work, cycles, &r, note, sizeof note);
+        record_add_row(&w->record, &r);
+        count_row(&w->all, &r);
+        table_block(&w->cycles);
+        for (size_t i = 0; i < n; i++)
+            TABLE_ADD(record_cycles, &w->cycles, cycle[i], i + 1, i >= from, step, file);
+    }
+    return status;
+}
+
+static void say_difference(const wt_job *work, const wt_cycles *cycles, const char *file)
+{
+    double sum = 0;
+    for (size_t i = 0; i < cycles->n; i++)
+        sum += cycles->cycle[i].coefficient;
+    if (cycles->difference > same_friction * sum / (double)cycles->n)
+        wt_parselog_add(work->log, WT_WARNING, file, NULL,
+                        "the friction coefficient of the file and its friction force over its load "
+                        "differ by up to %.3g; the first is used",
+                        cycles->difference);
+}
+
+static void say_pauses(const wt_job *work, const record_pauses *pauses, const char *file)
+{
+    double all = 0;
+    for (size_t i = 0; i < pauses->n; i++)
+        all += pauses->of[i].time;
+    if (pauses->n > 0)
+        wt_parselog_add(work->log, WT_WARNING, file, NULL,
+                        "%zu pause%s of %s%.4g s in mid-record, %s at %.4g s of sliding: no time "
+                        "of sliding, and left out",
+                        pauses->n, pauses->n > 1 ? "s" : "", pauses->n > 1 ? "together " : "", all,
+                        pauses->n > 1 ? "the first" : "behind which it goes on", pauses->of[0].at);
+    if (pauses->alike > 0)
+        wt_parselog_add(
+            work->log, WT_WARNING, file, NULL,
+            "%zu gaps in the time that are alike are taken for those of a recorder that "
+            "is off between while sliding goes on; no column of distance, laps or "
+            "velocity tells",
+            pauses->alike);
+}
+
+/* Of a disc, by what its laps were long; NaN: neither tells it. */
+static double radius_of_laps(const wt_record *record)
+{
+    const double *const distance = record->channel[WT_RECORD_DISTANCE],
+                        *const laps = record->channel[WT_RECORD_LAPS];
+    const size_t last = record->n - 1;
+    if (distance == NULL || laps == NULL || record->n == 0)
+        return (double)NAN;
+    const double radius = (distance[last] - distance[0]) / (2 * M_PI * (laps[last] - laps[0]));
+    return radius > 0 && isfinite(radius) ? radius : (double)NAN;
+}
+
+/* The length of a track takes its radius, which a record of laps tells if it is of a disc. */
+static wt_status measure_wear(const wt_record_job *job, const wt_job *work, const wt_record *record,
+                              const wt_cycles *cycles, wt_estimate radius, const char *file,
+                              writers *w, wt_error *err)
+{
+    if (isnan(radius.value) && isnan(job->track_length.value) && cycles->kind != WT_CYCLE_STROKE) {
+        radius.value = radius_of_laps(record);
+        if (!isnan(radius.value))
+            wt_parselog_add(
+                work->log, WT_WARNING, file, NULL,
+                "the track is %.4g mm long by distance and laps, taken for that of a disc; "
+                "if it is not, give its length with --track-length",
+                2e3 * M_PI * radius.value);
+    }
+    return wear_add(job, record, cycles, radius, file, &w->wear, &w->rates, err);
+}
+
+/* ---- a result of an earlier call ------------------------------------------------------------- */
+
+static void count_stored(void *user, const table_view *v, size_t row)
+{
+    const record_row r = {.at = {.velocity = record_get(v, row, RECORD_VELOCITY),
+                                 .rotation = record_get(v, row, RECORD_ROTATION),
+                                 .normal_force = record_get(v, row, RECORD_NORMAL_FORCE),
+                                 .pressure = record_get(v, row, RECORD_PRESSURE),
+                                 .temperature = record_get(v, row, RECORD_TEMPERATURE)},
+                          .steady.mean.value = record_get(v, row, RECORD_FRICTION),
+                          .steady.mean.standard_error =
+                              record_get(v, row, RECORD_FRICTION_STANDARD_ERROR)};
+    count_row(user, &r);
+}
+
+static void count_stored_wear(void *user, const table_view *v, size_t row)
+{
+    wear_rates *const rates = user;
+    if (row > 0 && strcmp(wear_text(v, row, WEAR_FILE), wear_text(v, row - 1, WEAR_FILE)) != 0)
+        wear_rates_end_run(rates);
+    const double rate = wear_get(v, row, WEAR_RATE);
+    if (!isnan(rate))
+        several_add(&rates->run,
+                    (wt_estimate){rate, wear_get(v, row, WEAR_RATE_STANDARD_ERROR), 0, "m^2/N"});
+}
+
+static void begin_wear(writers *w, wt_error *err)
+{
+    if (!w->has_wear)
+        w->wear = table_begin(&wear_schema, err);
+    w->has_wear = true;
+}
+
+/* Its rows stand beside those that are measured now. */
+static wt_status take_stored(const wt_job *work, const flow_file *file, writers *w, wt_error *all,
+                             wt_error *err)
+{
+    const wt_tables_role role = {"record", "record", "what weartrack record wrote"};
+    wt_result *result = NULL;
+    wt_status status = wt_tables_read(file->path, file->name, work, role, &result, err);
+    if (status == WT_OK && wt_result_find(result, "record") == NULL) {
+        status = wt_fail(err, WT_E_EMPTY, "the result holds no record of friction");
+        wt_error_advice(err, "give what weartrack record wrote");
+    }
+    if (status == WT_OK)
+        status = stored_record_rows(result, &record_schema, &w->record, count_stored, &w->all, err);
+    if (status == WT_OK)
+        status = stored_record_rows(result, &record_cycles_schema, &w->cycles, NULL, NULL, err);
+    if (status == WT_OK && wt_result_find(result, "wear") != NULL) {
+        begin_wear(w, all);
+        status =
+            stored_record_rows(result, &wear_schema, &w->wear, count_stored_wear, &w->rates, err);
+        wear_rates_end_run(&w->rates);
+    }
+    wt_result_free(result);
+    if (status != WT_OK)
+        wt_error_file(err, file->name);
+    w->n_files += status == WT_OK;
+    return status;
+}
+
+/* A pipe, with a name too, can be read once only, and is taken for a measured record. */
+static bool is_stored(const flow_file *file)
+{
+    wt_input *input = NULL;
+    struct stat found;
+    const bool stored = stat(file->path, &found) == 0 && S_ISREG(found.st_mode) &&
+                        wt_input_open(file->path, &input, NULL) == WT_OK &&
+                        stored_record_begins(input);
+    wt_input_close(input);
+    return stored;
+}
+
+static wt_status measure_file(const wt_record_job *job, const wt_job *work, flow_file *file,
+                              writers *w, wt_error *err)
+{
+    wt_input *input = NULL;
+    wt_record record = {.n = 0};
+    wt_cycles cycles = {.n = 0};
+    record_pauses pauses = {.n = 0};
+    wt_status status = flow_open(work, file, "record", WT_KIND_RECORD, &input, err);
+    const wt_read_options read = flow_read_options(file);
+    if (status == WT_OK)
+        status = wt_record_read(work->formats, input, &read, work->log, &record, err);
+    wt_input_close(input);
+    wt_estimate radius = job->track_radius;
+    if (isnan(radius.value))
+        radius = (wt_estimate){record.radius, 0, 0, "m"};
+    if (status == WT_OK)
+        status = record_leave_out_pauses(&record, &pauses, err);
+    if (status == WT_OK)
+        status = wt_cycles_make(&record, job->cycle, radius.value, job->load.value, &cycles, err);
+    if (status == WT_OK && cycles.n == 0)
+        status = wt_fail(err, WT_E_EMPTY, "the record holds no whole cycle");
+    if (status == WT_OK) {
+        say_difference(work, &cycles, file->name);
+        say_pauses(work, &pauses, file->name);
+        if (cycles.n_unloaded > 0)
+            wt_parselog_add(work->log, WT_WARNING, file->name, NULL,
+                            "%zu of %zu samples are at no load and left out", cycles.n_unloaded,
+                            record.n);
+        status = put_steps(job, work, &cycles, &pauses, file->name, w, err);
+    }
+    if (status == WT_OK && wear_is_asked(job))
+        status = measure_wear(job, work, &record, &cycles, radius, file->name, w, err);
+    if (status != WT_OK)
+        wt_error_file(err, file->name);
+    free(pauses.of);
+    wt_cycles_clear(&cycles);
+    wt_record_clear(&record);
+    w->n_files += status == WT_OK;
+    return status;
+}
+
+typedef struct record_task {
+    const wt_record_job *job;
+    const wt_job *work;
+    writers *w;
+    wt_error *all; /* of the tables, whatever the file */
+} record_task;
+
+static wt_status take_file(void *user, flow_file *file, size_t i, wt_error *err)
+{
+    const record_task *const task = user;
+    (void)i;
+    return is_stored(file) ? take_stored(task->work, file, task->w, task->all, err)
+                           : measure_file(task->job, task->work, file, task->w, err);
+}
+
+/* ---- tables ---------------------------------------------------------------------------------- */
+
+static wt_status end_tables(writers *w, wt_status status, wt_record_tables *made)
+{
+    record_set_print(&w->record, RECORD_KEY_N_FILES, "%zu", w->n_files);
+    if (w->all.friction.n > 0 && w->all.alike)
+        record_set(&w->record, RECORD_KEY_FRICTION, several_mean(&w->all.friction, "1"));
+    if (w->has_wear && w->rates.all.n > 0) {
+        wear_set(&w->wear, WEAR_KEY_RATE, wear_rates_mean(&w->rates));
+        wear_set_value(&w->wear, WEAR_KEY_RATE_DF, wear_rates_freedom(&w->rates), 0, 0);
+    }
+    const wt_status written[] = {table_end(&w->record, &made->record),
+                                 table_end(&w->cycles, &made->record_cycles),
+                                 w->has_wear ? table_end(&w->wear, &made->wear) : WT_OK};
+    for (size_t i = 0; i < COUNT_OF(written); i++)
+        status = status != WT_OK ? status : written[i];
+    return status;
+}
+
+static wt_status make_tables(const wt_record_job *job, const wt_job *work, const flow_files *files,
+                             wt_record_tables *made, wt_error *err)
+{
+    size_t n_failed;
+    writers w = {.record = table_begin(&record_schema, err),
+                 .cycles = table_begin(&record_cycles_schema, err)};
+    if (wear_is_asked(job))
+        begin_wear(&w, err);
+    record_cycles_set_text(&w.cycles, RECORD_CYCLES_KEY_AVERAGED_OVER,
+                           job->cycle == WT_CYCLE_AUTO ? "what each record tells"
+                                                       : kind_words(job->cycle));
+    record_task task = {job, work, &w, err};
+    wt_status status = flow_files_take(files, work, take_file, &task, &n_failed, err);
+    if (status == WT_OK && w.n_files == 0) {
+        status = wt_fail(err, WT_E_EMPTY, "no record of friction could be read");
+        flow_tell_files(files, n_failed, err);
+    }
+    cost_say(work, (cost_summary){.items = (double)w.n_files});
+    return end_tables(&w, status, made);
+}
+
+wt_status wt_record_job_check(const wt_record_job *job, wt_error *err)
+{
+    if (job->profile != NULL && !isnan(job->track_area.value))
+        return wt_fail(err, WT_E_ARG, "profile and track-area both tell what the track lost: one");
+    if (isnan(job->mass_loss.value) == isnan(job->density.value))
+        return WT_OK;
+    const char *const lacks = isnan(job->density.value) ? "density" : "mass-loss";
+    const wt_status status = wt_fail(err, WT_E_ARG, "no %s, and a volume takes both", lacks);
+    wt_error_advice(err, "give mass-loss, such as 3mg, and density, such as 1150kg/m^3");
+    return status;
+}
+
+wt_status wt_record_make(const wt_record_job *job, const wt_job *work, wt_record_tables *tables,
+                         wt_error *err)
+{
+    if (job == NULL || work == NULL || tables == NULL)
+        return wt_fail(err, WT_E_ARG, "no job of records");
+    flow_files files = {NULL, 0, NULL};
+    wt_record_tables made = {0};
+    wt_status status = param_check(wt_record_job_params(), job, err);
+    if (status == WT_OK)
+        status = wt_record_job_check(job, err);
+    if (status == WT_OK)
+        status = flow_files_list(job->sets, job->n_sets, work, &files, err);
+    wt_record_job whole = *job;
+    if (status == WT_OK && job->profile != NULL && job->n_sets > 0)
+        status = wear_area_of_profiles(job, work, &whole.track_area, err);
+    if (status == WT_OK)
+        status = make_tables(&whole, work, &files, &made, err);
+    flow_files_clear(&files);
+    if (status == WT_OK) {
+        *tables = made;
+        made = (wt_record_tables){0};
+    }
+    wt_record_tables_clear(&made);
+    return status;
+}

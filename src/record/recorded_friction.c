@@ -1,0 +1,157 @@
+/* Friction of the cycles of a record against time. SPDX-License-Identifier: GPL-3.0-or-later */
+#include "record/recorded_friction.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* A series of more is told by the means of equal numbers of cycles, which bounds the work. */
+enum { MOST_MEANS = 1000 };
+
+/* Middles of the cycles become their ends: half-way to the next. Those that are lost before the
+ * first lasted as long as it. */
+static bool find_ends(recorded *r, double lost)
+{
+    double *const t = r->end;
+    const double first = t[1] - t[0], last = t[r->n - 1] - t[r->n - 2];
+    r->begin = lost * first;
+    const double start = t[0] - 0.5 * first - r->begin;
+    for (size_t i = 0; i + 1 < r->n; i++) {
+        if (!(t[i + 1] > t[i]))
+            return false;
+        t[i] = 0.5 * (t[i] + t[i + 1]) - start;
+    }
+    t[r->n - 1] += 0.5 * last - start;
+    return true;
+}
+
+static double time_of(const table_view *cycles, size_t row, double velocity)
+{
+    const double time = record_cycles_get(cycles, row, RECORD_CYCLES_TIME);
+    return isnan(time) ? record_cycles_get(cycles, row, RECORD_CYCLES_DISTANCE) / velocity : time;
+}
+
+static bool is_of(const table_view *cycles, size_t row, const recorded *r)
+{
+    return record_cycles_get(cycles, row, RECORD_CYCLES_STEP) == (double)r->step &&
+           strcmp(record_cycles_text(cycles, row, RECORD_CYCLES_FILE), r->at.file) == 0;
+}
+
+/* What slid before the first of two cycles by a count that runs on from 0, in cycles; 0 below one,
+ * as counts begin at 1, too. */
+static double cycles_before(const double count[2])
+{
+    const double before = count[0] / (count[1] - count[0]) - 0.5;
+    return before > 1 && isfinite(before) ? before : 0;
+}
+
+static void take_cycles(const table_view *cycles, recorded *r)
+{
+    bool timed = true;
+    double laps[2] = {(double)NAN, (double)NAN}, slid[2] = {(double)NAN, (double)NAN};
+    for (size_t i = 0; i < cycles->n_rows; i++) {
+        const double friction = record_cycles_get(cycles, i, RECORD_CYCLES_FRICTION);
+        if (!is_of(cycles, i, r) || !isfinite(friction))
+            continue;
+        if (r->n < 2) {
+            laps[r->n] = record_cycles_get(cycles, i, RECORD_CYCLES_LAPS);
+            slid[r->n] = record_cycles_get(cycles, i, RECORD_CYCLES_DISTANCE);
+        }
+        r->end[r->n] = time_of(cycles, i, r->at.velocity);
+        timed = timed && isfinite(r->end[r->n]);
+        r->friction[r->n++] = friction;
+    }
+    const double lost = isnan(laps[0]) ? cycles_before(slid) : cycles_before(laps);
+    if (r->at.note[0] != '\0')
+        r->note = r->at.note;
+    else if (r->n < COURSE_FEWEST)
+        r->note = "too few cycles to follow friction in time";
+    else if (!timed)
+        r->note = "neither time nor distance of its cycles is known";
+    else if (!find_ends(r, lost))
+        r->note = "the times of its cycles do not rise";
+}
+
+/* Behind the first step of a file, those in which nothing slides: its first one that slides. */
+static size_t first_sliding(const table_view *record, size_t row, const wt_sliding *sliding)
+{
+    const char *const file = record_text(record, row, RECORD_FILE);
+    while (!(measured_step_of(record, row, sliding).velocity > 0) && row + 1 < record->n_rows &&
+           record_get(record, row + 1, RECORD_STEP) == record_get(record, row, RECORD_STEP) + 1 &&
+           strcmp(record_text(record, row + 1, RECORD_FILE), file) == 0)
+        row++;
+    return row;
+}
+
+wt_status recorded_read(const table_view *record, const table_view *cycles,
+                        const wt_sliding *sliding, recorded **runs, size_t *n, wt_error *err)
+{
+    *n = 0;
+    *runs = calloc(record->n_rows + 1, sizeof **runs);
+    if (*runs == NULL)
+        return wt_fail(err, WT_E_MEMORY, "out of memory");
+    for (size_t i = 0; i < record->n_rows; i++) {
+        if (record_get(record, i, RECORD_STEP) != 1)
+            continue;
+        recorded *const r = &(*runs)[(*n)++];
+        const size_t row = first_sliding(record, i, sliding);
+        *r = (recorded){.at = measured_step_of(record, row, sliding),
+                        .step = (size_t)record_get(record, row, RECORD_STEP),
+                        .end = calloc(cycles->n_rows + 1, sizeof *r->end),
+                        .friction = calloc(cycles->n_rows + 1, sizeof *r->friction),
+                        .running_in = record_get(record, row, RECORD_RUNNING_IN),
+                        .note = ""};
+        if (r->end == NULL || r->friction == NULL)
+            return wt_fail(err, WT_E_MEMORY, "out of memory");
+        take_cycles(cycles, r);
+    }
+    return WT_OK;
+}
+
+void recorded_free(recorded *runs, size_t n)
+{
+    for (size_t i = 0; runs != NULL && i < n; i++) {
+        free(runs[i].end);
+        free(runs[i].friction);
+    }
+    free(runs);
+}
+
+static size_t count_until(const recorded *r, double until)
+{
+    size_t n = 0;
+    while (n < r->n && r->end[n] <= until)
+        n++;
+    return n;
+}
+
+static size_t length_of(size_t n)
+{
+    return (n + MOST_MEANS - 1) / MOST_MEANS;
+}
+
+bool recorded_is_joined(const recorded *r, double until)
+{
+    return length_of(count_until(r, until)) > 1;
+}
+
+size_t recorded_means(const recorded *r, double until)
+{
+    const size_t n = count_until(r, until);
+    return n > 0 ? n / length_of(n) : 0;
+}
+
+wt_status recorded_series(const recorded *r, double until, course_series *s, wt_error *err)
+{
+    const size_t cycles = count_until(r, until), length = cycles > 0 ? length_of(cycles) : 1;
+    const wt_status status = course_series_new(recorded_means(r, until), s, err);
+    if (status != WT_OK)
+        return status;
+    s->begin = r->begin;
+    for (size_t i = 0; i < s->n; i++) {
+        s->end[i] = r->end[(i + 1) * length - 1];
+        for (size_t k = 0; k < length; k++)
+            s->friction[i] += r->friction[i * length + k] / (double)length;
+    }
+    return WT_OK;
+}

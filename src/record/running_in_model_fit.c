@@ -1,0 +1,424 @@
+/* The running-in of one record, and of several. SPDX-License-Identifier: GPL-3.0-or-later */
+#include "record/running_in_validation.h"
+
+#include "core/math/normal_quantile.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+/* A series of joined cycles is looked at again up to so many settled times, with shorter means. */
+static const double lengths_kept = 20;
+enum { LOOKS = 3 };
+/* What is expected of the time before the record is seen, where nothing scatters the prediction. */
+static const double least_expected = 0.05;
+/* Around the likeliest factor that of a draw is looked for in so many standard errors of it. */
+static const double errors_around = 4, least_around = 0.3;
+
+/* ---- one run --------------------------------------------------------------------------------- */
+
+static double settled_of(const growth *g, size_t k)
+{
+    const course c = growth_course(g, k);
+    return course_settled(&c, RUNNING_IN_LEFT);
+}
+
+static double log_settled(const growth *g, size_t k, double time)
+{
+    (void)time;
+    return log(settled_of(g, k));
+}
+
+/* Standard deviation of the logarithm of the predicted time. */
+static double expected_error(const growth *g)
+{
+    return fmax(growth_scatter(g, log_settled, (double)NAN), least_expected);
+}
+
+static wt_status fit_until(course_run *run, double until, double expected, wt_error *err)
+{
+    course_series s;
+    const course c = growth_course(run->growth, 0);
+    wt_status status = recorded_series(run->rec, until, &s, err);
+    if (status == WT_OK)
+        status =
+            course_fit_make(&(course_pair){&s, &c}, 1, RUNNING_IN_LEFT, expected, &run->fit, err);
+    run->until = until;
+    course_series_clear(&s);
+    return status;
+}
+
+/* The whole of the record, then its beginning where that is what counts. */
+static wt_status fit_values(course_run *run, wt_error *err)
+{
+    const double settled = settled_of(run->growth, 0), expected = expected_error(run->growth);
+    double until = run->rec->end[run->rec->n - 1];
+    wt_status status = fit_until(run, until, expected, err);
+    for (int look = 1; status == WT_OK && look < LOOKS; look++) {
+        const double factor = run->fit.seen ? exp(run->fit.log_factor) : 1,
+                     shorter = lengths_kept * factor * settled;
+        if (!(shorter < 0.5 * until) || !recorded_is_joined(run->rec, until) ||
+            recorded_means(run->rec, shorter) < COURSE_FEWEST) /* what is fitted stands */
+            break;
+        until = shorter;
+        status = fit_until(run, until, expected, err);
+    }
+    return status;
+}
+
+static void put_numbers(const course_run *run, size_t k, double margin, double log_ratio,
+                        double ratio, double *out)
+{
+    const growth *const g = run->growth;
+    const course c = growth_course(g, k);
+    const double height = course_height(&c), most = 1 + margin;
+    out[RUN_TIME_RATIO] = run->fit.seen ? log_ratio : (double)NAN;
+    out[RUN_MORE] = height * (ratio - 1 / most);
+    out[RUN_LESS] = height * (most - ratio);
+    out[RUN_RATIO] = ratio;
+    out[RUN_PREDICTED] = log(settled_of(g, k));
+    out[RUN_MEASURED] = out[RUN_TIME_RATIO] + out[RUN_PREDICTED];
+    /* formation and wear go with the clock together, at one thickness */
+    out[RUN_WEAR] = log(growth_number_of(g, k, GROWTH_WEAR)) - out[RUN_TIME_RATIO];
+    out[RUN_ENERGY] = log(growth_number_of(g, k, GROWTH_ENERGY)) + out[RUN_TIME_RATIO];
+}
+
+/* What the course of each draw says, as it differs from that of the values by one law of the
+ * scatter: what all laws leave open is the error of the record. */
+static wt_status fit_draws(course_run *run, double margin, wt_error *err)
+{
+    const growth *const g = run->growth;
+    const course_fit *const fit = &run->fit;
+    const course nominal = growth_course(g, 0);
+    course_series s;
+    const wt_status status = recorded_series(run->rec, run->until, &s, err);
+    const double within = fit->seen ? fmax(errors_around * fit->error, least_around) : 0,
+                 centre = fit->seen ? fit->log_factor : 0, settled = log(settled_of(g, 0));
+    course_place base = {0};
+    if (status == WT_OK)
+        base = course_place_find(&s, &nominal, fit->law, centre, within);
+    put_numbers(run, 0, margin, fit->log_factor, fit->ratio, run->value);
+    for (size_t k = 1; status == WT_OK && k <= g->n_draws; k++) {
+        const course c = growth_course(g, k);
+        /* not seen: held at the time that the draw predicts */
+        const double around = fit->seen ? centre + settled - log(settled_of(g, k)) : 0;
+        const course_place place = course_place_find(&s, &c, fit->law, around, within);
+        put_numbers(run, k, margin, fit->log_factor + place.log_factor - base.log_factor,
+                    fit->ratio + place.ratio - base.ratio, run->value + k * RUN_NUMBERS);
+    }
+    course_series_clear(&s);
+    return status;
+}
+
+wt_status course_run_fit(course_run *run, double margin, wt_error *err)
+{
+    wt_error why = WT_ERROR_INIT;
+    const wt_status status = fit_values(run, &why);
+    if (status == WT_E_MEMORY)
+        return wt_fail(err, status, "out of memory");
+    if (status != WT_OK) {
+        snprintf(run->note, sizeof run->note, "%s", why.message);
+        return WT_OK;
+    }
+    run->value = calloc((1 + run->growth->n_draws) * RUN_NUMBERS, sizeof *run->value);
+    if (run->value == NULL)
+        return wt_fail(err, WT_E_MEMORY, "out of memory");
+    if (!run->fit.seen)
+        snprintf(run->note, sizeof run->note,
+                 "no change as the layer makes it stands out of the "
+                 "scatter of the cycles");
+    else if (isnan(run->fit.high))
+        snprintf(run->note, sizeof run->note,
+                 "a change as the layer makes it is not over at the end of the record");
+    else if (isnan(run->fit.low))
+        snprintf(run->note, sizeof run->note,
+                 "a change as the layer makes it is over within the first cycles");
+    return fit_draws(run, margin, err);
+}
+
+void course_run_clear(course_run *run)
+{
+    free(run->value);
+    run->value = NULL;
+}
+
+bool course_run_is_closed(const course_run *run)
+{
+    return run->value != NULL && run->fit.seen && !isnan(run->fit.low) && !isnan(run->fit.high);
+}
+
+double course_run_value(const course_run *run, size_t k, run_number number)
+{
+    return run->value[k * RUN_NUMBERS + (size_t)number];
+}
+
+double course_run_own(const course_run *run, run_number number)
+{
+    const course c = growth_course(run->growth, 0);
+    const double height = course_height(&c), ratio = run->fit.ratio_error,
+                 time = (run->fit.high - run->fit.low) / (2 * NORMAL_95);
+    switch (number) {
+    case RUN_RATIO:
+        return ratio * ratio;
+    case RUN_MORE:
+    case RUN_LESS:
+        return height * height * ratio * ratio;
+    case RUN_PREDICTED:
+        return 0;
+    default:
+        return isnan(time) ? run->fit.error * run->fit.error : time * time;
+    }
+}
+
+/* ---- draws ----------------------------------------------------------------------------------- */
+
+/* Over the draws that both have; their number is returned. */
+static size_t covariance(const course_run *a, const course_run *b, run_number number,
+                         double *covariance)
+{
+    const size_t n =
+        a->growth->n_draws < b->growth->n_draws ? a->growth->n_draws : b->growth->n_draws;
+    double x = 0, y = 0, xy = 0;
+    size_t good = 0;
+    for (size_t k = 1; k <= n; k++) {
+        const double u = course_run_value(a, k, number) - course_run_value(a, 0, number),
+                     v = course_run_value(b, k, number) - course_run_value(b, 0, number);
+        if (!isfinite(u) || !isfinite(v))
+            continue;
+        x += u;
+        y += v;
+        xy += u * v;
+        good++;
+    }
+    *covariance = good > 1 ? (xy - x * y / (double)good) / (double)(good - 1) : 0;
+    return good;
+}
+
+double course_run_spread(const course_run *run, run_number number)
+{
+    double variance;
+    return covariance(run, run, number, &variance) > 1 ? sqrt(variance) : (double)NAN;
+}
+
+double course_run_end(const course_run *run, run_number number)
+{
+    const bool least = isnan(run->fit.high);
+    const double spread = NORMAL_95 * course_run_spread(run, number),
+                 at = course_run_value(run, 0, number),
+                 move = hypot((least ? run->fit.low : run->fit.high) - run->fit.log_factor, spread);
+    return least ? at - move : at + move;
+}
+
+/* ---- several runs ---------------------------------------------------------------------------- */
+
+bool course_run_tells(const course_run *run, run_number number)
+{
+    if (number == RUN_PREDICTED) /* of which the record says nothing */
+        return false;
+    const bool of_change = number == RUN_MORE || number == RUN_LESS || number == RUN_RATIO;
+    return (of_change ? run->value != NULL : course_run_is_closed(run)) &&
+           isfinite(course_run_value(run, 0, number)) && isfinite(course_run_own(run, number));
+}
+
+typedef struct run_arrays {
+    const course_run **of; /* [n] */
+    size_t n;
+    double *place, *value, *own, *common;
+} run_arrays;
+
+static wt_status arrays_make(const course_run *runs, size_t n, run_number number, run_arrays *a,
+                             wt_error *err)
+{
+    *a = (run_arrays){.of = calloc(n + 1, sizeof *a->of),
+                      .place = calloc(n + 1, sizeof *a->place),
+                      .value = calloc(n + 1, sizeof *a->value),
+                      .own = calloc(n + 1, sizeof *a->own),
+                      .common = calloc(n * n + 1, sizeof *a->common)};
+    if (a->of == NULL || a->place == NULL || a->value == NULL || a->own == NULL ||
+        a->common == NULL)
+        return wt_fail(err, WT_E_MEMORY, "out of memory");
+    for (size_t i = 0; i < n; i++) {
+        if (!course_run_tells(&runs[i], number))
+            continue;
+        a->of[a->n] = &runs[i];
+        a->place[a->n] = log10(runs[i].rec->at.velocity);
+        a->value[a->n] = course_run_value(&runs[i], 0, number);
+        a->own[a->n++] = course_run_own(&runs[i], number);
+    }
+    for (size_t i = 0; i < a->n; i++)
+        for (size_t k = 0; k < a->n; k++)
+            (void)covariance(a->of[i], a->of[k], number, &a->common[i * a->n + k]);
+    return WT_OK;
+}
+
+static void arrays_clear(run_arrays *a)
+{
+    free((void *)a->of);
+    free(a->place);
+    free(a->value);
+    free(a->own);
+    free(a->common);
+}
+
+wt_status run_level_make(const course_run *runs, size_t n, run_number number, run_level *level,
+                         wt_error *err)
+{
+    run_arrays a;
+    *level = (run_level){.own = 0};
+    wt_status status = arrays_make(runs, n, number, &a, err);
+    const agreement_data data = {a.n, a.place, a.value, a.own, a.common, 0};
+    if (status == WT_OK && a.n > 0)
+        status = agreement_fit(&data, 1, &level->fit, err);
+    for (size_t i = 0; status == WT_OK && i < a.n; i++) {
+        const double w = level->fit.weight[i];
+        level->own += w * w * (a.own[i] + level->fit.scatter);
+        for (size_t k = 0; k < a.n; k++)
+            level->common += w * a.common[i * a.n + k] * level->fit.weight[k];
+    }
+    arrays_clear(&a);
+    return status;
+}
+
+wt_interval run_level_interval(const run_level *level)
+{
+    const double none = (double)NAN;
+    double ends[2];
+    if (level->fit.n == 0)
+        return (wt_interval){none, none, none, none};
+    agreement_ends(&level->fit, 0, false, ends);
+    return (wt_interval){level->fit.smooth[0], level->fit.error[0], ends[0], ends[1]};
+}
+
+void run_level_clear(run_level *level)
+{
+    agreement_clear(&level->fit);
+}
+
+/* ---- all runs as one ------------------------------------------------------------------------- */
+
+typedef struct joint {
+    const course_run **of; /* [n] those that were compared */
+    course_series *series;
+    course *course;
+    course_pair *pair;
+    size_t n;
+    double log_odds; /* of a time and a change of each */
+} joint;
+
+static void joint_clear(joint *j)
+{
+    for (size_t i = 0; j->series != NULL && i < j->n; i++)
+        course_series_clear(&j->series[i]);
+    free((void *)j->of);
+    free(j->series);
+    free(j->course);
+    free(j->pair);
+}
+
+static wt_status joint_make(const course_run *runs, size_t n, joint *j, wt_error *err)
+{
+    *j = (joint){.of = calloc(n + 1, sizeof *j->of),
+                 .series = calloc(n + 1, sizeof *j->series),
+                 .course = calloc(n + 1, sizeof *j->course),
+                 .pair = calloc(n + 1, sizeof *j->pair)};
+    wt_status status = WT_OK;
+    if (j->of == NULL || j->series == NULL || j->course == NULL || j->pair == NULL)
+        return wt_fail(err, WT_E_MEMORY, "out of memory");
+    for (size_t i = 0; status == WT_OK && i < n; i++) {
+        if (runs[i].value == NULL)
+            continue;
+        const size_t k = j->n++;
+        j->of[k] = &runs[i];
+        j->course[k] = growth_course(runs[i].growth, 0);
+        j->pair[k] = (course_pair){&j->series[k], &j->course[k]};
+        j->log_odds += runs[i].fit.log_odds;
+        status = recorded_series(runs[i].rec, runs[i].until, &j->series[k], err);
+    }
+    return status;
+}
+
+/* What draw k moves the time by: the mean of the runs that it moves, or, where none shows a course,
+ * as it moves the time predicted. */
+static double moved(const joint *j, size_t k)
+{
+    double sum = 0, n = 0;
+    for (size_t i = 0; i < j->n; i++) {
+        const course_run *const run = j->of[i];
+        const double off = k <= run->growth->n_draws ? course_run_value(run, k, RUN_TIME_RATIO) -
+                                                           course_run_value(run, 0, RUN_TIME_RATIO)
+                                                     : (double)NAN;
+        sum += isfinite(off) ? off : 0;
+        n += isfinite(off);
+    }
+    return n > 0 ? sum / n
+                 : log(settled_of(j->of[0]->growth, 0)) - log(settled_of(j->of[0]->growth, k));
+}
+
+static wt_status joint_tell(const joint *j, double margin, course_run *joined, wt_error *err)
+{
+    const size_t draws = joined->growth->n_draws;
+    joined->value = calloc((1 + draws) * RUN_NUMBERS, sizeof *joined->value);
+    if (joined->value == NULL)
+        return wt_fail(err, WT_E_MEMORY, "out of memory");
+    for (size_t k = 0; k <= draws; k++)
+        put_numbers(joined, k, margin, joined->fit.log_factor + (k > 0 ? moved(j, k) : 0),
+                    joined->fit.ratio, joined->value + k * RUN_NUMBERS);
+    return WT_OK;
+}
+
+/* One fit to all records that were compared; its value is NULL where they do not have one time. */
+static wt_status join_runs(const course_run *runs, size_t n, double margin, course_run *joined,
+                           wt_error *err)
+{
+    joint j;
+    *joined = (course_run){.value = NULL};
+    wt_status status = joint_make(runs, n, &j, err);
+    if (status == WT_OK && j.n > 1) {
+        *joined = *j.of[0];
+        joined->value = NULL;
+        status = course_fit_make(j.pair, j.n, RUNNING_IN_LEFT, expected_error(joined->growth),
+                                 &joined->fit, err);
+        if (status == WT_OK && joined->fit.log_odds > j.log_odds - log(COURSE_ODDS))
+            status = joint_tell(&j, margin, joined, err);
+    }
+    joint_clear(&j);
+    return status;
+}
+
+/* Numbers of the time, which a record may leave untold. */
+static const run_number of_time[] = {RUN_TIME_RATIO, RUN_MEASURED, RUN_WEAR, RUN_ENERGY};
+
+static wt_status level_together(run_set *all, wt_error *err)
+{
+    course_run joined;
+    wt_status status = join_runs(all->runs, all->n, all->margin, &joined, err);
+    for (size_t k = 0; status == WT_OK && k < sizeof of_time / sizeof *of_time; k++) {
+        run_level *const level = &all->level[of_time[k]];
+        run_level_clear(level);
+        status = run_level_make(&joined, joined.value != NULL, of_time[k], level, err);
+    }
+    course_run_clear(&joined);
+    return status;
+}
+
+wt_status run_set_levels(run_set *all, wt_error *err)
+{
+    size_t compared = 0, closed = 0;
+    wt_status status = WT_OK;
+    for (size_t k = 0; status == WT_OK && k < RUN_NUMBERS; k++)
+        status = run_level_make(all->runs, all->n, (run_number)k, &all->level[k], err);
+    for (size_t i = 0; i < all->n; i++) {
+        compared += all->runs[i].value != NULL;
+        closed += course_run_is_closed(&all->runs[i]);
+    }
+    /* those that scatter by more than their errors have no time in common */
+    if (status == WT_OK && compared > 1 && closed < compared &&
+        !(all->level[RUN_TIME_RATIO].fit.scatter > 0))
+        status = level_together(all, err);
+    return status;
+}
+
+void run_set_clear(run_set *all)
+{
+    for (size_t k = 0; k < RUN_NUMBERS; k++)
+        run_level_clear(&all->level[k]);
+}

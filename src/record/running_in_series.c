@@ -1,0 +1,83 @@
+/* The table of friction in running-in, measured and predicted.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#include "record/running_in_validation.h"
+
+#include "core/math/normal_quantile.h"
+#include "core/table/table_rows.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+/* Rows of a run, in equal ratios of the time: as many as a figure shows well. */
+enum { MOST_ROWS = 48 };
+
+TABLE_ROW(validation_course, VALIDATION_COURSE, double time; wt_interval measured;
+          wt_estimate layered, bare; double fitted; const char *file;)
+
+static double bare_friction(const growth *g, size_t k, double time)
+{
+    (void)time;
+    return growth_number_of(g, k, GROWTH_BARE);
+}
+
+/* With what its draws scatter. */
+static wt_estimate predicted(const growth *g, growth_value *of, double time)
+{
+    return (wt_estimate){of(g, 0, time), growth_scatter(g, of, time), (double)NAN, NULL};
+}
+
+/* Means first to before `end` of the series. */
+static void add_row(const course_run *run, const course_series *s, size_t first, size_t end,
+                    table_writer *t)
+{
+    const course_fit *const fit = &run->fit;
+    const course c = growth_course(run->growth, 0);
+    const size_t n = end - first;
+    const double from = first > 0 ? s->end[first - 1] : s->begin,
+                 time = 0.5 * (from + s->end[end - 1]),
+                 error = sqrt(fit->scatter * scatter_of_mean(fit->law, n));
+    double mean = 0;
+    for (size_t i = first; i < end; i++)
+        mean += s->friction[i] / (double)n;
+    const double half = NORMAL_95 * error;
+    const validation_course_row row = {
+        .time = time,
+        .measured = {mean, error, mean - half, mean + half},
+        .layered = predicted(run->growth, growth_friction, time),
+        .bare = predicted(run->growth, bare_friction, time),
+        .fitted = fit->seen ? fit->level + fit->ratio * course_at(&c, log(time) - fit->log_factor)
+                            : (double)NAN,
+        .file = run->rec->at.file};
+    validation_course_add_row(t, &row);
+}
+
+static void add_rows(const course_run *run, const course_series *s, table_writer *t)
+{
+    const double step = pow(s->end[s->n - 1] / s->end[0], 1.0 / MOST_ROWS);
+    for (size_t first = 0, end; first < s->n; first = end) {
+        const double until = first > 0 ? s->end[first - 1] * step : s->end[0];
+        end = first + 1;
+        while (end < s->n && s->end[end] <= until)
+            end++;
+        add_row(run, s, first, end, t);
+    }
+}
+
+wt_status running_in_course_table(const run_set *all, const char *verdict, wt_table **table,
+                                  wt_error *err)
+{
+    table_writer t = table_begin(&validation_course_schema, err);
+    for (size_t i = 0; i < all->n && t.status == WT_OK; i++) {
+        course_series s;
+        if (all->runs[i].value == NULL)
+            continue;
+        t.status = recorded_series(all->runs[i].rec, all->runs[i].until, &s, err);
+        if (t.status == WT_OK) {
+            table_block(&t);
+            add_rows(&all->runs[i], &s, &t);
+        }
+        course_series_clear(&s);
+    }
+    validation_course_set_text(&t, VALIDATION_COURSE_KEY_VERDICT, verdict);
+    return table_end(&t, table);
+}

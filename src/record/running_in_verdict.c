@@ -1,0 +1,275 @@
+/* The verdict on the running-in, in words. SPDX-License-Identifier: GPL-3.0-or-later */
+#include "record/running_in_validation.h"
+#include "record/validation.h"
+
+#include "core/base/clocale.h"
+#include "core/math/normal_quantile.h"
+#include "job/random_draws.h"
+
+#include <math.h>
+#include <string.h>
+
+/* More draws without a layer than this leave open whether there is one. */
+static const double least_doubt = 0.025;
+
+/* ---- two questions --------------------------------------------------------------------------- */
+
+static bool contradicts_at_one_end(const course_run *run, double margin)
+{
+    if (run->value == NULL || !run->fit.seen || course_run_is_closed(run))
+        return false;
+    const double end = course_run_end(run, RUN_TIME_RATIO);
+    return isnan(run->fit.high) ? end > log1p(margin) : end < -log1p(margin);
+}
+
+/* The first run that contradicts at the one end that it tells; NULL. */
+static const course_run *contradicting(const run_set *all)
+{
+    for (size_t i = 0; i < all->n; i++)
+        if (contradicts_at_one_end(&all->runs[i], all->margin))
+            return &all->runs[i];
+    return NULL;
+}
+
+/* The first compared run of which the record does not tell both ends of the time; NULL. */
+static const course_run *first_open(const run_set *all)
+{
+    for (size_t i = 0; i < all->n; i++)
+        if (all->runs[i].value != NULL && !course_run_is_closed(&all->runs[i]))
+            return &all->runs[i];
+    return NULL;
+}
+
+/* The first run that tells a number; NULL. */
+static const course_run *first_telling(const run_set *all, run_number number)
+{
+    for (size_t i = 0; i < all->n; i++)
+        if (course_run_tells(&all->runs[i], number))
+            return &all->runs[i];
+    return NULL;
+}
+
+/* What a run leaves open no other run tells: of it the time may be any. */
+static agreement_verdict judge_time(const run_set *all)
+{
+    agreement judged = all->level[RUN_TIME_RATIO].fit;
+    if (contradicting(all) != NULL)
+        return AGREEMENT_NO;
+    if (judged.n == 0)
+        return AGREEMENT_OPEN;
+    agreement_judge(&judged, log1p(all->margin));
+    return judged.verdict == AGREEMENT_YES && first_open(all) != NULL ? AGREEMENT_OPEN
+                                                                      : judged.verdict;
+}
+
+/* Both ends of the margin are tests of their own, as the change predicted may be near none. */
+static agreement_verdict judge_change(const run_set *all)
+{
+    const wt_interval more = run_level_interval(&all->level[RUN_MORE]),
+                      less = run_level_interval(&all->level[RUN_LESS]);
+    if (more.high < 0 || less.high < 0)
+        return AGREEMENT_NO;
+    return more.low > 0 && less.low > 0 ? AGREEMENT_YES : AGREEMENT_OPEN;
+}
+
+/* ---- words ----------------------------------------------------------------------------------- */
+
+static void tell_open(const course_run *run, char *text, size_t size)
+{
+    const course_fit *const fit = &run->fit;
+    const double with_prediction = course_run_end(run, RUN_TIME_RATIO);
+    const char *const by = isnan(with_prediction) ? ", by the record alone" : "";
+    if (!fit->seen)
+        clocale_print(
+            text, size,
+            "no change of friction as the layer makes it stands out of the scatter of the "
+            "cycles");
+    else if (isnan(fit->low) && isnan(fit->high))
+        clocale_print(text, size,
+                      "friction changes, and the record tells neither the least nor the most time "
+                      "that it takes");
+    else if (isnan(fit->high))
+        clocale_print(text, size,
+                      "a change as the layer makes it is not over at the end of the record, after "
+                      "%.3g times the time predicted at least%s",
+                      exp(isnan(with_prediction) ? fit->low : with_prediction), by);
+    else
+        clocale_print(text, size,
+                      "a change as the layer makes it is over within the first cycles, after %.3g "
+                      "times the time predicted at most%s",
+                      exp(isnan(with_prediction) ? fit->high : with_prediction), by);
+    if (fit->seen && run->rec->running_in > 0) /* another question, with an answer of its own */
+        clocale_append(text, size, " (by its scatter alone friction is steady after %.0f cycles)",
+                       run->rec->running_in);
+    else if (fit->seen && run->rec->running_in == 0)
+        clocale_append(text, size,
+                       " (by its scatter alone friction is steady from the first cycle)");
+}
+
+/* What decides it: a run that contradicts, what is known of all, else what a run leaves open. */
+static void tell_time(const run_set *all, char *text, size_t size)
+{
+    const wt_interval i = run_level_interval(&all->level[RUN_TIME_RATIO]);
+    const course_run *const against = contradicting(all), *const open = first_open(all);
+    if (against != NULL || isnan(i.value)) {
+        if (against == NULL && first_telling(all, RUN_TIME_RATIO) != NULL)
+            snprintf(text, size, "a record tells a time of running-in that all together do not");
+        else
+            tell_open(against != NULL ? against : open, text, size);
+        return;
+    }
+    clocale_print(text, size,
+                  "a change as the layer makes it is over after %.3g times the time predicted (95 "
+                  "%%: %s)%s",
+                  exp(i.value), ends_of(exp(i.low), exp(i.high), 3).text,
+                  open != NULL ? ", which not every record tells" : "");
+}
+
+static void tell_change(const run_set *all, char *text, size_t size)
+{
+    const wt_interval ratio = run_level_interval(&all->level[RUN_RATIO]);
+    if (isnan(ratio.low) || isnan(ratio.high))
+        snprintf(text, size, "how much friction changes is not told");
+    else
+        clocale_print(text, size, "the change of friction is %.3g times that predicted (95 %%: %s)",
+                      ratio.value, ends_of(ratio.low, ratio.high, 3).text);
+}
+
+static void tell_verdict(const run_set *all, agreement_verdict verdict, char *text, size_t size)
+{
+    char time[240], change[120];
+    /* The one that decides comes first. */
+    const bool by_change = judge_time(all) != AGREEMENT_NO && judge_change(all) == AGREEMENT_NO;
+    tell_time(all, time, sizeof time);
+    tell_change(all, change, sizeof change);
+    snprintf(text, size, "%s: %s; %s, and %s is asked for", validation_verdict(verdict),
+             by_change ? change : time, by_change ? time : change,
+             validation_asked(all->margin).text);
+}
+
+/* ---- what would settle it -------------------------------------------------------------------- */
+
+/* The draw that a number of a run goes with most, and its share of the variance; 0: not known. */
+static double largest_line(const course_run *run, uint64_t seed, run_number number, size_t *line)
+{
+    double most = 0;
+    const double all = course_run_spread(run, number);
+    for (size_t u = 0; u < run->growth->n_lines; u++) {
+        double slope = 0, n = 0;
+        for (size_t k = 1; k <= run->growth->n_draws; k++) {
+            const double off = course_run_value(run, k, number) - course_run_value(run, 0, number);
+            if (!isfinite(off))
+                continue;
+            slope += off * flow_draw_normal(seed, k - 1, run->growth->line[u]);
+            n++;
+        }
+        slope = n > 0 ? slope / n : 0;
+        if (slope * slope > most) {
+            most = slope * slope;
+            *line = u;
+        }
+    }
+    return all > 0 ? most / (all * all) : 0;
+}
+
+static const course_run *first_compared(const run_set *all)
+{
+    for (size_t i = 0; i < all->n; i++)
+        if (all->runs[i].value != NULL)
+            return &all->runs[i];
+    return NULL;
+}
+
+static const char *close_of(const course_fit *fit)
+{
+    if (fit->seen && isnan(fit->high))
+        return "a record that goes on until a change as the layer makes it is over";
+    return fit->seen && isnan(fit->low) ? "shorter cycles at the start, or a slower record"
+                                        : "a longer record, or more of them, of a fresh surface";
+}
+
+static void advise(const run_set *all, run_number number, char *text, size_t size)
+{
+    const course_run *const open = number == RUN_TIME_RATIO ? first_open(all) : NULL,
+                            *const run = first_telling(all, number);
+    const run_level *const level = &all->level[number];
+    size_t line = 0;
+    if (open != NULL || run == NULL) {
+        snprintf(text, size, "%s", close_of(open != NULL ? &open->fit : &first_compared(all)->fit));
+        return;
+    }
+    const double share = largest_line(run, all->seed, number, &line),
+                 of_common = level->common / (level->own + level->common);
+    if (of_common < 0.5) {
+        snprintf(text, size, "a longer record, or more of them, of a fresh surface: %s",
+                 level->fit.scatter > 0 ? "they scatter by more than their errors"
+                                        : "most of the error is that of the record");
+        return;
+    }
+    if (share < 0.5 || run->growth->n_lines == 0) {
+        snprintf(text, size, "the prediction known better: material, roughness and layer together");
+        return;
+    }
+    const char *remedy, *words = source_of_draw(run->growth->line[line], &remedy);
+    clocale_print(text, size, "%s known better: %s; %.0f %% of the variance is of it", words,
+                  remedy, 100 * share * of_common);
+}
+
+/* Of a compared run the draws leave open whether there is a layer. */
+static bool may_be_bare(const run_set *all)
+{
+    for (size_t i = 0; i < all->n; i++) {
+        const growth *const g = all->runs[i].growth;
+        if (all->runs[i].value != NULL && (double)g->n_bare > least_doubt * (double)g->n_draws)
+            return true;
+    }
+    return false;
+}
+
+/* ---- all ------------------------------------------------------------------------------------- */
+
+/* Why nothing can be said; the first note of a run if nothing else. */
+static bool refuse(const run_set *all, run_verdict *w)
+{
+    const course_run *const run = first_compared(all);
+    const char *why = NULL, *settles = "a record of a fresh surface from its first cycle on";
+    if (!all->has_shear) {
+        why = "no shear stress is given, and the total friction is not predicted without it";
+        settles = "a shear stress of the real contact";
+    } else if (all->n == 0) {
+        why = "no record begins with its first step";
+    } else if (run == NULL) {
+        why = all->runs[0].note;
+        settles = all->runs[0].growth == NULL && all->runs[0].rec->note[0] == '\0'
+                      ? "a case that predicts a layer which changes friction at these conditions"
+                      : settles;
+    } else if (all->without_errors != NULL) {
+        why = all->without_errors;
+        settles = "errors of the prediction, by replicates and without acts-back";
+    } else if (may_be_bare(all)) {
+        why = "within the stated errors there may be no layer";
+        settles = "specific wear rate and critical energy known better";
+    }
+    if (why == NULL)
+        return false;
+    snprintf(w->verdict, sizeof w->verdict, "%s: %s", validation_verdict(AGREEMENT_OPEN), why);
+    snprintf(w->settled_by, sizeof w->settled_by, "%s", settles);
+    return true;
+}
+
+run_verdict run_set_judge(const run_set *all)
+{
+    run_verdict w = {.settled_by = ""};
+    if (refuse(all, &w))
+        return w;
+    const agreement_verdict time = judge_time(all), change = judge_change(all);
+    const agreement_verdict verdict = time == AGREEMENT_NO || change == AGREEMENT_NO ? AGREEMENT_NO
+                                      : time == AGREEMENT_YES && change == AGREEMENT_YES
+                                          ? AGREEMENT_YES
+                                          : AGREEMENT_OPEN;
+    tell_verdict(all, verdict, w.verdict, sizeof w.verdict);
+    if (verdict == AGREEMENT_OPEN)
+        advise(all, time != AGREEMENT_YES ? RUN_TIME_RATIO : RUN_RATIO, w.settled_by,
+               sizeof w.settled_by);
+    return w;
+}

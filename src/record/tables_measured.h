@@ -1,0 +1,92 @@
+/* The columns and keys of measurements as `weartrack convert` writes them. Included by tables.h
+ * alone. SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef WT_RECORD_TABLES_MEASURED_H
+#define WT_RECORD_TABLES_MEASURED_H
+
+/* Then a column for each quantity that the file has, called by its identifier. */
+#define FORCE_CURVE_COLUMNS(X) X(FORCE_CURVE_SEGMENT, "segment", "kind of segment", TEXT)
+#define FORCE_CURVE_KEYS(X)                                                                        \
+    X(FORCE_CURVE_KEY_POSITION_X, "position_x", SI(POSITION_X), OPTIONAL)                          \
+    X(FORCE_CURVE_KEY_POSITION_Y, "position_y", SI(POSITION_Y), OPTIONAL)                          \
+    X(FORCE_CURVE_KEY_SPRING_CONSTANT, "spring_constant", SI(SPRING_CONSTANT), OPTIONAL)           \
+    X(FORCE_CURVE_KEY_SENSITIVITY, "sensitivity", SI(SENSITIVITY), OPTIONAL)                       \
+    X(FORCE_CURVE_KEY_CURVE, "curve", PLAIN)
+
+/* A map in HDF5: its curves and segments, whose samples stand in arrays beside them, and the
+ * quantities of these. */
+#define MAP_CURVES_COLUMNS(X)                                                                      \
+    X(MAP_CURVES_CURVE, "curve", "number of the curve in its file", UNIT("1"), SHOWS(curve.index)) \
+    X(MAP_CURVES_SEGMENTS, "segments", "how many segments it has", UNIT("1"),                      \
+      SHOWS(curve.n_segments))                                                                     \
+    X(MAP_CURVES_POSITION_X, "position_x", "position along x", SI(POSITION_X), SHOWS(curve.x),     \
+      SPARSE)                                                                                      \
+    X(MAP_CURVES_POSITION_Y, "position_y", "position along y", SI(POSITION_Y), SHOWS(curve.y),     \
+      SPARSE)                                                                                      \
+    X(MAP_CURVES_GRID_X, AS(grid_x), "place in the grid along x, from 0; -1: none", UNIT("1"))     \
+    X(MAP_CURVES_GRID_Y, AS(grid_y), "place in the grid along y, from 0; -1: none", UNIT("1"))     \
+    X(MAP_CURVES_SPRING_CONSTANT, IN(curve.cantilever, spring_constant), "spring constant",        \
+      SI(SPRING_CONSTANT), SPARSE)                                                                 \
+    X(MAP_CURVES_SENSITIVITY, IN(curve.cantilever, sensitivity), "deflection sensitivity",         \
+      SI(SENSITIVITY), SPARSE)                                                                     \
+    X(MAP_CURVES_CHECKSUM, AS(checksum), "CRC-32 of its samples", UNIT("1"))
+#define MAP_CURVES_KEYS(X)
+#define MAP_SEGMENTS_COLUMNS(X)                                                                    \
+    X(MAP_SEGMENTS_SEGMENT, "segment", "kind of segment", TEXT, SHOWS(kind))                       \
+    X(MAP_SEGMENTS_NUMBER, "number", "number of the segment in its file", UNIT("1"),               \
+      SHOWS(of.index))                                                                             \
+    X(MAP_SEGMENTS_SAMPLES, "samples", "how many samples it has", UNIT("1"), SHOWS(of.n_points))   \
+    X(MAP_SEGMENTS_DURATION, IN(of, duration), "duration", SI(TIME), SPARSE)                       \
+    X(MAP_SEGMENTS_VELOCITY, IN(of, velocity), "velocity of the piezo", SI(VELOCITY), SPARSE)      \
+    X(MAP_SEGMENTS_SETPOINT, IN(of, setpoint), "force at which it ended", SI(FORCE), SPARSE)
+#define MAP_SEGMENTS_KEYS(X)
+#define MAP_CHANNELS_COLUMNS(X)                                                                    \
+    X(MAP_CHANNELS_QUANTITY, AS(quantity), "quantity, the name of its array", TEXT)                \
+    X(MAP_CHANNELS_NAME, AS(name), "channel as it was exported", TEXT)                             \
+    X(MAP_CHANNELS_UNIT, AS(unit), "its unit there", TEXT)
+#define MAP_CHANNELS_KEYS(X)
+
+/* The moduli in tension or in shear, as measured. */
+#define SWEEP_COLUMNS(X)                                                                           \
+    X(SWEEP_TEMPERATURE, "temperature", "temperature", SI(TEMPERATURE))                            \
+    X(SWEEP_ANGULAR_FREQUENCY, "angular_frequency", "angular frequency", SI(ANGULAR_FREQUENCY),    \
+      OPTIONAL, SPARSE)                                                                            \
+    X(SWEEP_STORAGE_MODULUS, "storage_modulus", "tensile storage modulus E'", SI(STORAGE_MODULUS), \
+      OPTIONAL, SPARSE)                                                                            \
+    X(SWEEP_LOSS_MODULUS, "loss_modulus", "tensile loss modulus E''", SI(LOSS_MODULUS), OPTIONAL,  \
+      SPARSE)                                                                                      \
+    X(SWEEP_SHEAR_STORAGE_MODULUS, "shear_storage_modulus", "shear storage modulus G'",            \
+      SI(SHEAR_STORAGE_MODULUS), OPTIONAL, SPARSE)                                                 \
+    X(SWEEP_SHEAR_LOSS_MODULUS, "shear_loss_modulus", "shear loss modulus G''",                    \
+      SI(SHEAR_LOSS_MODULUS), OPTIONAL, SPARSE)                                                    \
+    X(SWEEP_STRAIN, "strain", "strain amplitude", SI(STRAIN), OPTIONAL, SPARSE)                    \
+    X(SWEEP_LOSS_FACTOR, "loss_factor", "loss factor tan delta, where it was measured alone",      \
+      SI(LOSS_FACTOR), OPTIONAL, SPARSE)                                                           \
+    X(SWEEP_SAMPLE, "sample", "name of the sample", TEXT, OPTIONAL, SPARSE)                        \
+    X(SWEEP_TIME, "time", "time after a step of strain or stress", SI(TIME), OPTIONAL, SPARSE)     \
+    X(SWEEP_RELAXATION_MODULUS, "relaxation_modulus", "tensile relaxation modulus E(t)",           \
+      SI(RELAXATION_MODULUS), OPTIONAL, SPARSE)                                                    \
+    X(SWEEP_SHEAR_RELAXATION_MODULUS, "shear_relaxation_modulus", "shear relaxation modulus G(t)", \
+      SI(SHEAR_RELAXATION_MODULUS), OPTIONAL, SPARSE)                                              \
+    X(SWEEP_CREEP_COMPLIANCE, "creep_compliance", "tensile creep compliance D(t)",                 \
+      SI(CREEP_COMPLIANCE), OPTIONAL, SPARSE)                                                      \
+    X(SWEEP_SHEAR_CREEP_COMPLIANCE, "shear_creep_compliance", "shear creep compliance J(t)",       \
+      SI(SHEAR_CREEP_COMPLIANCE), OPTIONAL, SPARSE)
+#define SWEEP_KEYS(X)
+
+/* The density of a surface or of a line, as measured. */
+#define SPECTRUM_COLUMNS(X)                                                                        \
+    X(SPECTRUM_WAVENUMBER, "wavenumber", "wavenumber", SI(WAVENUMBER))                             \
+    X(SPECTRUM_DENSITY_2D, "power_spectrum_2d", "two-dimensional power spectrum C(q)",             \
+      SI(POWER_SPECTRUM_2D), OPTIONAL)                                                             \
+    X(SPECTRUM_DENSITY_1D, "power_spectrum_1d", "power spectrum of a line, C1(q)",                 \
+      SI(POWER_SPECTRUM_1D), OPTIONAL)
+#define SPECTRUM_KEYS(X)
+
+/* Units, and the words of the value, are those of the image; a single line has no y. */
+#define IMAGE_COLUMNS(X)                                                                           \
+    X(IMAGE_X, "x", "first axis", UNIT("as measured"))                                             \
+    X(IMAGE_Y, "y", "second axis", SI(LENGTH), OPTIONAL)                                           \
+    X(IMAGE_VALUE, "value", "name of the image", UNIT("as measured"))
+#define IMAGE_KEYS(X)
+
+#endif

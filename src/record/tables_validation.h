@@ -1,0 +1,220 @@
+/* The columns and keys of the tables that hold measured friction against predicted friction.
+ * Included by tables.h alone. SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef WT_RECORD_TABLES_VALIDATION_H
+#define WT_RECORD_TABLES_VALIDATION_H
+
+/* A number of a step with its standard error alone. */
+#define STEP_NUMBER(X, ID, name, words, heading, shown)                                            \
+    X(ID, name, words, NUMBER, LABEL(heading), STANDARD_ERROR(ID), SPARSE, shown)                  \
+    X(ID##_STANDARD_ERROR, name "_standard_error", "its standard error", NUMBER, LABEL("± stat."), \
+      SPARSE)
+
+/* A step of a record in each row. */
+#define VALIDATION_COLUMNS(X)                                                                      \
+    X(VALIDATION_VELOCITY, AS(velocity), "sliding velocity", SI(VELOCITY), LABEL("Velocity"))      \
+    X(VALIDATION_TEMPERATURE, AS(temperature), "temperature that it is predicted at",              \
+      SI(TEMPERATURE), LABEL("Temperature"), SPARSE)                                               \
+    X(VALIDATION_PRESSURE, AS(pressure), "nominal pressure that it is predicted at", SI(PRESSURE), \
+      LABEL("Pressure"))                                                                           \
+    NUMBER_AND_INTERVAL(X, VALIDATION_MEASURED, "friction_measured",                               \
+                        "friction coefficient as measured", NUMBER, "Measured", SHOWS(measured))   \
+    STEP_NUMBER(X, VALIDATION_PREDICTED, "friction_predicted",                                     \
+                "friction coefficient as predicted, without a layer", "Predicted",                 \
+                SHOWS(predicted))                                                                  \
+    NUMBER_AND_INTERVAL(X, VALIDATION_RATIO, "ratio", "measured over predicted, without a layer",  \
+                        NUMBER, "Measured over predicted", SHOWS(ratio))                           \
+    STEP_NUMBER(X, VALIDATION_WITH_LAYER, "friction_with_layer",                                   \
+                "friction coefficient as predicted, with the layer", "With layer",                 \
+                SHOWS(with_layer))                                                                 \
+    NUMBER_AND_INTERVAL(X, VALIDATION_RATIO_LAYER, "ratio_with_layer",                             \
+                        "measured over predicted, with the layer", NUMBER,                         \
+                        "Measured over that with layer", SHOWS(ratio_with_layer))                  \
+    NUMBER_AND_INTERVAL(X, VALIDATION_NEEDED, "shear_stress_needed",                               \
+                        "shear stress that the step alone asks for, of the judged prediction",     \
+                        SI(STRESS), "Shear stress needed", SHOWS(needed))                          \
+    X(VALIDATION_NOTE, AS(note), "what is lacking, or why it is not compared", TEXT,               \
+      LABEL("Note"))                                                                               \
+    X(VALIDATION_FILE, AS(file), "file of the record", TEXT, LABEL("File"))
+
+/* Of a number without an error of its own kind its interval of 95 %. */
+#define KEY_ENDS(X, ID, name, unit, heading)                                                       \
+    X(ID##_LOW, name "_low", unit, LABEL(heading ", 95 % interval from"), OPTIONAL)                \
+    X(ID##_HIGH, name "_high", unit, LABEL("to"), OPTIONAL)
+/* Over the choices of the model: all of them, then those that hold 95 % of the weight. */
+#define KEY_RANGE(X, ID, name, unit, heading)                                                      \
+    X(ID##_ALL_LOW, name "_all_low", unit, LABEL(heading ", over all choices of the model from"),  \
+      OPTIONAL)                                                                                    \
+    X(ID##_ALL_HIGH, name "_all_high", unit, LABEL("to"), OPTIONAL)                                \
+    X(ID##_KEPT_LOW, name "_kept_low", unit,                                                       \
+      LABEL(heading ", over those that the record leaves from"), OPTIONAL)                         \
+    X(ID##_KEPT_HIGH, name "_kept_high", unit, LABEL("to"), OPTIONAL)
+
+#define VALIDATION_KEYS(X)                                                                         \
+    X(VALIDATION_KEY_VERDICT, "verdict", TEXT, HEADLINE("Theory against measured friction"))       \
+    X(VALIDATION_KEY_WITHOUT, "verdict_without_layer", TEXT, LABEL("Without a layer"))             \
+    X(VALIDATION_KEY_WITH, "verdict_with_layer", TEXT, LABEL("With the layer"), OPTIONAL)          \
+    X(VALIDATION_KEY_JUDGED, "judged", TEXT, LABEL("The verdict is on"))                           \
+    X(VALIDATION_KEY_TEST, "test", TEXT, LABEL("Test"))                                            \
+    X(VALIDATION_KEY_SETTLED_BY, "settled_by", TEXT, LABEL("What would settle it"), OPTIONAL)      \
+    X(VALIDATION_KEY_RATIO, "ratio", UNIT("1"), HEADLINE("Friction, measured over predicted"),     \
+      OPTIONAL)                                                                                    \
+    KEY_ENDS(X, VALIDATION_KEY_RATIO, "ratio", NUMBER, "Measured over predicted")                  \
+    X(VALIDATION_KEY_TREND, "ratio_per_decade", UNIT("1"),                                         \
+      LABEL("Change of the ratio with a decade of velocity"), OPTIONAL)                            \
+    X(VALIDATION_KEY_SCATTER, "scatter", NUMBER,                                                   \
+      LABEL("Relative scatter between the steps beside their errors"), OPTIONAL)                   \
+    X(VALIDATION_KEY_SHEAR, "shear_stress", SI(STRESS), LABEL("Shear stress used"), OPTIONAL)      \
+    X(VALIDATION_KEY_NEEDED, "shear_stress_needed", SI(STRESS),                                    \
+      HEADLINE("Shear stress that the record asks for"), OPTIONAL)                                 \
+    KEY_ENDS(X, VALIDATION_KEY_NEEDED, "shear_stress_needed", SI(STRESS), "Shear stress needed")   \
+    X(VALIDATION_KEY_PLAUSIBLE, "shear_stress_plausible", TEXT,                                    \
+      LABEL("Is that shear stress plausible"), OPTIONAL)                                           \
+    X(VALIDATION_KEY_SHAPE, "verdict_with_needed", TEXT,                                           \
+      LABEL("With the shear stress that it asks for"), OPTIONAL)                                   \
+    X(VALIDATION_KEY_CUTOFF, "largest_wavenumber_needed", SI(WAVENUMBER),                          \
+      LABEL("Largest wavenumber q1 that the record asks for, all else as used"), OPTIONAL)         \
+    KEY_ENDS(X, VALIDATION_KEY_CUTOFF, "largest_wavenumber_needed", SI(WAVENUMBER), "q1 needed")   \
+    X(VALIDATION_KEY_CUTOFF_NOTE, "largest_wavenumber_note", TEXT,                                 \
+      LABEL("Largest wavenumber q1 needed"), OPTIONAL)                                             \
+    KEY_RANGE(X, VALIDATION_KEY_FRICTION, "friction", NUMBER, "Friction coefficient")              \
+    KEY_RANGE(X, VALIDATION_KEY_LAYERED, "friction_with_layer", NUMBER,                            \
+              "Friction coefficient with layer")                                                   \
+    KEY_RANGE(X, VALIDATION_KEY_THICKNESS, "thickness", SI(LENGTH), "Layer thickness")             \
+    X(VALIDATION_KEY_WEAR_RATIO, "wear_ratio", UNIT("1"),                                          \
+      LABEL("Specific wear rate, measured over used"), OPTIONAL)                                   \
+    KEY_ENDS(X, VALIDATION_KEY_WEAR_RATIO, "wear_ratio", NUMBER, "Wear rate ratio")                \
+    X(VALIDATION_KEY_WEAR, "verdict_wear", TEXT, LABEL("Wear, measured against used"), OPTIONAL)   \
+    X(VALIDATION_KEY_LAYER_THICKNESS, "layer_thickness", SI(LENGTH), LABEL("Layer thickness"),     \
+      OPTIONAL)                                                                                    \
+    X(VALIDATION_KEY_LAYER_RATIO, "layer_modulus_ratio", NUMBER, LABEL("Modulus ratio"), OPTIONAL) \
+    X(VALIDATION_KEY_LAYER_MODULI, "layer_moduli", TEXT, LABEL("Moduli of the layer"), OPTIONAL)   \
+    X(VALIDATION_KEY_LAYER_SLOPE, "layer_ratio_slope", NUMBER,                                     \
+      LABEL("Slope of the modulus ratio with the frequency"), OPTIONAL)                            \
+    X(VALIDATION_KEY_STEPS, "n_steps", PLAIN, LABEL("Steps that were compared"))                   \
+    X(VALIDATION_KEY_LEFT_OUT, "n_left_out", PLAIN, LABEL("Steps that were not"))                  \
+    X(VALIDATION_KEY_REMARKS, "remarks", TEXT, LABEL("What was taken for granted"), OPTIONAL)
+
+/* A row of the table what_if in each row, and what the record says of it. */
+#define VALIDATION_CHOICES_COLUMNS(X)                                                              \
+    X(VALIDATION_CHOICES_CHOICE, AS(choice), "the choice that is moved; the first row: none",      \
+      TEXT, LABEL("Choice"))                                                                       \
+    X(VALIDATION_CHOICES_TRIED, AS(tried), "what this row has", TEXT, LABEL("Tried"))              \
+    X(VALIDATION_CHOICES_RATIO, AS(ratio), "mean of measured over predicted", NUMBER,              \
+      LABEL("Measured over predicted"))                                                            \
+    X(VALIDATION_CHOICES_TREND, AS(trend), "change of the ratio with a decade of velocity",        \
+      NUMBER, LABEL("per decade"), SPARSE)                                                         \
+    X(VALIDATION_CHOICES_VERDICT, AS(verdict), "explains, does not, or cannot say", TEXT,          \
+      LABEL("Verdict"))                                                                            \
+    X(VALIDATION_CHOICES_LIKELIHOOD, AS(log_likelihood),                                           \
+      "natural logarithm of the likelihood of the record", NUMBER, LABEL("ln likelihood"))         \
+    X(VALIDATION_CHOICES_WEIGHT, AS(weight),                                                       \
+      "share of the likelihood of all rows, each as likely as the others before, where the "       \
+      "theory may be off by the margin",                                                           \
+      NUMBER, LABEL("Weight"))                                                                     \
+    X(VALIDATION_CHOICES_KEPT, AS(kept),                                                           \
+      "1: it is of the fewest rows that hold 95 % of the "                                         \
+      "weight",                                                                                    \
+      YES_NO, LABEL("Left by the record"))                                                         \
+    X(VALIDATION_CHOICES_NOTE, AS(note), "why there is no number", TEXT,                           \
+      LABEL("Not compared because"))
+#define VALIDATION_CHOICES_KEYS(X)                                                                 \
+    X(VALIDATION_CHOICES_KEY_JUDGED, "judged", TEXT, LABEL("Likelihood of"))                       \
+    X(VALIDATION_CHOICES_KEY_NARROWS, "narrows", TEXT, LABEL("What the record leaves"))
+
+/* What the source begins with that is what the DMA and the scans of the surface are off by. */
+#define VALIDATION_OF_MATERIAL "material"
+
+/* A source of the error in each row. */
+#define VALIDATION_SOURCES_COLUMNS(X)                                                              \
+    X(VALIDATION_SOURCES_SOURCE, AS(source), "where the error comes from", TEXT, LABEL("Source"))  \
+    X(VALIDATION_SOURCES_ERROR, AS(error),                                                         \
+      "standard error of measured over predicted by it alone, relative, at the deciding step",     \
+      NUMBER, LABEL("Error of the ratio"))                                                         \
+    X(VALIDATION_SOURCES_SHARE, AS(share), "of the variance there", NUMBER, LABEL("Share"))        \
+    X(VALIDATION_SOURCES_NEEDED_SHARE, AS(needed_share),                                           \
+      "of the variance of the shear stress that is asked for", NUMBER,                             \
+      LABEL("Share of the shear stress needed"), SPARSE)                                           \
+    X(VALIDATION_SOURCES_PULL, AS(pull), "how far the record moves it, in its standard errors",    \
+      NUMBER, LABEL("Moved by the record"), SPARSE)                                                \
+    X(VALIDATION_SOURCES_PULL_ERROR, AS(pull_error), "what is left of its standard error then",    \
+      NUMBER, LABEL("Left of its error"), SPARSE)                                                  \
+    X(VALIDATION_SOURCES_REMEDY, AS(remedy), "what makes it smaller", TEXT,                        \
+      LABEL("What makes it smaller"))
+#define VALIDATION_SOURCES_KEYS(X)                                                                 \
+    X(VALIDATION_SOURCES_KEY_ADVICE, "advice", TEXT, LABEL("What would narrow it most"))
+
+/* The running-in of a record in each row. */
+#define VALIDATION_RUNNING_IN_COLUMNS(X)                                                           \
+    X(VALIDATION_RUNNING_IN_VELOCITY, IN(at, velocity), "sliding velocity", SI(VELOCITY),          \
+      LABEL("Velocity"))                                                                           \
+    X(VALIDATION_RUNNING_IN_TEMPERATURE, IN(at, temperature),                                      \
+      "temperature that it is predicted at", SI(TEMPERATURE), LABEL("Temperature"), SPARSE)        \
+    X(VALIDATION_RUNNING_IN_PRESSURE, IN(at, pressure),                                            \
+      "nominal pressure that it is predicted at", SI(PRESSURE), LABEL("Pressure"))                 \
+    NUMBER_AND_INTERVAL(X, VALIDATION_RUNNING_IN_SETTLED, "settled_measured",                      \
+                        "time until 5 % of the change of friction are left, as measured",          \
+                        SI(TIME), "Steady after, measured", SHOWS(settled))                        \
+    X(VALIDATION_RUNNING_IN_PREDICTED, "settled_predicted",                                        \
+      "the same as predicted with the layer", SI(TIME), SHOWS(predicted), LABEL("predicted"),      \
+      STANDARD_ERROR(VALIDATION_RUNNING_IN_PREDICTED), SPARSE)                                     \
+    X(VALIDATION_RUNNING_IN_PREDICTED_STANDARD_ERROR, "settled_predicted_standard_error",          \
+      "its standard error", SI(TIME), LABEL("± stat."), SPARSE)                                    \
+    NUMBER_AND_INTERVAL(X, VALIDATION_RUNNING_IN_TIME_RATIO, "time_ratio",                         \
+                        "time measured over predicted", NUMBER, "Time, measured over predicted",   \
+                        SHOWS(time_ratio))                                                         \
+    X(VALIDATION_RUNNING_IN_CHANGE, "change_predicted",                                            \
+      "friction in the end less that which is farthest from it, as predicted", NUMBER,             \
+      SHOWS(change), LABEL("Change predicted"), STANDARD_ERROR(VALIDATION_RUNNING_IN_CHANGE),      \
+      SPARSE)                                                                                      \
+    X(VALIDATION_RUNNING_IN_CHANGE_STANDARD_ERROR, "change_predicted_standard_error",              \
+      "its standard error", NUMBER, LABEL("± stat."), SPARSE)                                      \
+    NUMBER_AND_INTERVAL(X, VALIDATION_RUNNING_IN_CHANGE_RATIO, "change_ratio",                     \
+                        "change of friction measured over predicted", NUMBER,                      \
+                        "Change, measured over predicted", SHOWS(change_ratio))                    \
+    X(VALIDATION_RUNNING_IN_NOTE, AS(note), "what is lacking", TEXT, LABEL("Note"))                \
+    X(VALIDATION_RUNNING_IN_FILE, AS(file), "file of the record", TEXT, LABEL("File"))
+#define VALIDATION_RUNNING_IN_KEYS(X)                                                              \
+    X(VALIDATION_RUNNING_IN_KEY_VERDICT, "verdict", TEXT,                                          \
+      HEADLINE("Running-in with the layer against the record"))                                    \
+    X(VALIDATION_RUNNING_IN_KEY_TEST, "test", TEXT, LABEL("Test"))                                 \
+    X(VALIDATION_RUNNING_IN_KEY_SETTLED_BY, "settled_by", TEXT, LABEL("What would settle it"),     \
+      OPTIONAL)                                                                                    \
+    X(VALIDATION_RUNNING_IN_KEY_TIME_RATIO, "time_ratio", UNIT("1"),                               \
+      HEADLINE("Running-in time, measured over predicted"), OPTIONAL)                              \
+    KEY_ENDS(X, VALIDATION_RUNNING_IN_KEY_TIME_RATIO, "time_ratio", NUMBER, "Time ratio")          \
+    X(VALIDATION_RUNNING_IN_KEY_CHANGE_RATIO, "change_ratio", UNIT("1"),                           \
+      LABEL("Change of friction in it, measured over predicted"), OPTIONAL)                        \
+    KEY_ENDS(X, VALIDATION_RUNNING_IN_KEY_CHANGE_RATIO, "change_ratio", NUMBER, "Change ratio")    \
+    X(VALIDATION_RUNNING_IN_KEY_WEAR, "specific_wear_rate_needed", SI(WEAR_RATE),                  \
+      LABEL("Specific wear rate that the running-in time asks for, thickness as predicted"),       \
+      OPTIONAL)                                                                                    \
+    KEY_ENDS(X, VALIDATION_RUNNING_IN_KEY_WEAR, "specific_wear_rate_needed", SI(WEAR_RATE),        \
+             "Wear rate needed")                                                                   \
+    X(VALIDATION_RUNNING_IN_KEY_ENERGY, "critical_energy_needed", SI(ENERGY_DENSITY),              \
+      LABEL("Critical energy that it asks for with that"), OPTIONAL)                               \
+    KEY_ENDS(X, VALIDATION_RUNNING_IN_KEY_ENERGY, "critical_energy_needed", SI(ENERGY_DENSITY),    \
+             "Critical energy needed")                                                             \
+    X(VALIDATION_RUNNING_IN_KEY_AGREES, "wear_agrees", TEXT,                                       \
+      LABEL("That wear rate against the one that was measured"), OPTIONAL)                         \
+    X(VALIDATION_RUNNING_IN_KEY_RUNS, "n_runs", PLAIN, LABEL("Running-ins compared"))              \
+    X(VALIDATION_RUNNING_IN_KEY_INCLUDES, "includes", TEXT, LABEL("Errors in the prediction"))     \
+    X(VALIDATION_RUNNING_IN_KEY_REMARKS, "remarks", TEXT, LABEL("Taken for granted"), OPTIONAL)
+
+/* Friction in the running-in of a record: a time in each row, a record in each block. */
+#define VALIDATION_COURSE_COLUMNS(X)                                                               \
+    X(VALIDATION_COURSE_TIME, AS(time), "time from the start of the record on", SI(TIME))          \
+    NUMBER_AND_INTERVAL(X, VALIDATION_COURSE_MEASURED, "friction_measured",                        \
+                        "mean friction coefficient of the cycles about it", NUMBER, "Measured",    \
+                        SHOWS(measured))                                                           \
+    STEP_NUMBER(X, VALIDATION_COURSE_LAYER, "friction_with_layer",                                 \
+                "friction coefficient as predicted while the layer grows", "With layer",           \
+                SHOWS(layered))                                                                    \
+    STEP_NUMBER(X, VALIDATION_COURSE_BARE, "friction_without_layer",                               \
+                "friction coefficient as predicted without a layer", "Without", SHOWS(bare))       \
+    X(VALIDATION_COURSE_FITTED, AS(fitted),                                                        \
+      "the predicted course in the time and with the change that the record asks for", NUMBER,     \
+      SPARSE)                                                                                      \
+    X(VALIDATION_COURSE_FILE, AS(file), "file of the record", TEXT)
+#define VALIDATION_COURSE_KEYS(X) X(VALIDATION_COURSE_KEY_VERDICT, "verdict", TEXT)
+
+#endif

@@ -1,0 +1,391 @@
+/* The validation job: friction as measured over friction as predicted, what would make them agree,
+ * and what the record says of the choices of the model.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#include "record/validation.h"
+#include "friction/layer_observation.h"
+#include "job/cost.h"
+#include "job/random_draws.h"
+
+#include "core/base/param.h"
+#include "core/table/table_rows.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* ---- parameters ------------------------------------------------------------------------------ */
+
+/* Friction of one pair of materials by a pin on a disc differs by about a fifth between
+ * laboratories (ASTM G99, its interlaboratory test): a theory that comes as near explains it. */
+static const double reproducibility = 0.2;
+/* [Pa] Tread compounds on road and concrete: Lorenz et al., J. Chem. Phys. 142 (2015) 194701;
+ * Tolpekina and Persson, Lubricants 7 (2019) 20; soft and dirty contacts have less. */
+static const double shear_low = 1e6, shear_high = 10e6;
+
+/* Times of running-in go with the inverse of the wear rate, which is hardly known better than to a
+ * factor of two. */
+static const double time_reproducibility = 1;
+
+wt_validation_job wt_validation_job_defaults(void)
+{
+    return (wt_validation_job){.margin = reproducibility,
+                               .plausible_low = shear_low,
+                               .plausible_high = shear_high,
+                               .running_in_margin = time_reproducibility,
+                               .wanted = true};
+}
+
+static const wt_param rows[] = {
+    {PARAM("margin", wt_validation_job, margin, WT_Q_NONE, FROM_TO(0.01, 1)), .value = "X",
+     .help = "measured over predicted friction that is taken for agreement: 0.2 is from 1/1.2 to "
+             "1.2, about what laboratories differ by (ASTM G99)"},
+    {PARAM("plausible-shear-from", wt_validation_job, plausible_low, WT_Q_STRESS, AT_LEAST(0)),
+     .value = "TAU",
+     .help = "least shear stress of the real contact that is plausible, here and above by rubber "
+             "on rough surfaces (Lorenz et al. 2015, J. Chem. Phys. 142, 194701; Tolpekina and "
+             "Persson 2019, Lubricants 7, 20)"},
+    {PARAM("plausible-shear-to", wt_validation_job, plausible_high, WT_Q_STRESS, ABOVE(0)),
+     .value = "TAU", .help = "largest that is plausible"},
+    {PARAM("running-in-margin", wt_validation_job, running_in_margin, WT_Q_NONE, FROM_TO(0.05, 20)),
+     .value = "X",
+     .help = "time and change of a running-in over those predicted with the layer that are taken "
+             "for agreement: 1 is from 1/2 to 2, as a wear rate is hardly known better"},
+    {PARAM_FLAG_OF("validate", wt_validation_job, wanted), .flags = PARAM_NO_OPTION,
+     .help = "whether a run holds the records against what the case predicts, also where figures "
+             "or results are listed"},
+};
+PARAM_TABLE(wt_validation_job_params, wt_validation_job, rows, wt_validation_job_defaults, NO_PARTS)
+
+void wt_validation_tables_clear(wt_validation_tables *tables)
+{
+    if (tables == NULL)
+        return;
+    wt_table_free(tables->validation);
+    wt_table_free(tables->choices);
+    wt_table_free(tables->sources);
+    *tables = (wt_validation_tables){0};
+}
+
+/* ---- the steps ------------------------------------------------------------------------------- */
+
+static const wt_interval not_known = {(double)NAN, (double)NAN, (double)NAN, (double)NAN};
+static const wt_estimate no_number = {(double)NAN, (double)NAN, (double)NAN, "1"};
+
+TABLE_ROW(validation, VALIDATION, double velocity, temperature, pressure; wt_interval measured;
+          wt_estimate predicted, with_layer; wt_interval ratio, ratio_with_layer, needed;
+          const char *note, *file;)
+
+/* Of one step by itself: the scatter of the steps is its error, too. */
+static double step_error(const trial *t, size_t i)
+{
+    return sqrt(t->own[i] + t->fit.scatter + t->common[i * t->n + i]);
+}
+
+static void fill_ratio(const validation *v, bool layered, size_t i, wt_estimate *predicted,
+                       wt_interval *ratio)
+{
+    const trial *const t = &v->ratio[layered];
+    if (t->n == 0)
+        return;
+    const double error = step_error(t, i);
+    predicted->value = prediction_total(&v->p, 0, layered, i, v->p.shear[0]);
+    predicted->standard_error =
+        v->p.n_draws > 0 ? predicted->value * sqrt(t->common[i * t->n + i]) : (double)NAN;
+    *ratio = validation_factor(t->value[i], error,
+                               agreement_df(error * error, t->fit.scatter, t->fit.scatter_df));
+}
+
+static void add_step(const validation *v, size_t i, table_writer *t)
+{
+    const measured_step *const s = &v->steps.step[i];
+    validation_row row = {.velocity = s->velocity,
+                          .temperature = s->temperature,
+                          .pressure = s->pressure,
+                          .measured = s->measured,
+                          .predicted = no_number,
+                          .with_layer = no_number,
+                          .ratio = not_known,
+                          .ratio_with_layer = not_known,
+                          .needed = not_known,
+                          .note = s->note,
+                          .file = s->file};
+    if (isnan(row.temperature))
+        row.temperature = v->used.sliding.rubber->prony.reference_temperature;
+    if (i < v->steps.n) {
+        fill_ratio(v, false, i, &row.predicted, &row.ratio);
+        fill_ratio(v, true, i, &row.with_layer, &row.ratio_with_layer);
+        const agreement *const fit = &v->shear.fit;
+        const double error = step_error(&v->shear, i),
+                     df = agreement_df(error * error, fit->scatter, fit->scatter_df);
+        row.needed = needed_interval(v->shear.value[i], error, df);
+    }
+    validation_add_row(t, &row);
+}
+
+/* ---- keys ------------------------------------------------------------------------------------ */
+
+/* An end has no error of its own. */
+static void set_end(table_writer *t, validation_key key, double value)
+{
+    if (isfinite(value))
+        validation_set_value(t, key, value, 0, 0);
+}
+
+static void set_interval(table_writer *t, validation_key key, validation_key low,
+                         validation_key high, wt_interval i)
+{
+    validation_set_value(t, key, i.value, i.standard_error, (double)NAN);
+    set_end(t, low, i.low);
+    set_end(t, high, i.high);
+}
+
+static void set_verdicts(const validation *v, table_writer *t)
+{
+    static const char no_shear[] =
+        "cannot say: no shear stress is given, and the total friction is "
+        "not predicted without it";
+    const bool layer = v->ratio[1].n > 0;
+    validation_set_text(t, VALIDATION_KEY_JUDGED,
+                        v->layered ? "friction with the layer" : "friction without a layer");
+    if (!v->has_shear) {
+        validation_set_text(t, VALIDATION_KEY_VERDICT, no_shear);
+        validation_set_text(t, VALIDATION_KEY_WITHOUT, no_shear);
+    } else {
+        validation_set_text(t, VALIDATION_KEY_VERDICT,
+                            verdict_of_trial(v, &v->ratio[v->layered]).text);
+        validation_set_text(t, VALIDATION_KEY_WITHOUT, verdict_of_trial(v, &v->ratio[0]).text);
+        if (layer)
+            validation_set_text(t, VALIDATION_KEY_WITH, verdict_of_trial(v, &v->ratio[1]).text);
+    }
+    validation_set_print(
+        t, VALIDATION_KEY_TEST,
+        "explains: at every step the interval of 95 %% of measured over predicted, smooth over the "
+        "velocity, is from %s; does not: at some step the interval that holds 95 %% at "
+        "all "
+        "steps at once is outside; else it cannot say. Errors of record and scatter between steps "
+        "are in it, %s, choices of the model are not",
+        validation_asked(v->job->margin).text,
+        v->p.n_draws > 0 ? "and stated errors of the prediction"
+                         : "errors of the prediction are not, without replicates");
+}
+
+static void set_ratio(const validation *v, table_writer *t)
+{
+    if (!v->has_shear)
+        return;
+    const agreement *const fit = &v->ratio[v->layered].fit;
+    set_interval(t, VALIDATION_KEY_RATIO, VALIDATION_KEY_RATIO_LOW, VALIDATION_KEY_RATIO_HIGH,
+                 validation_factor(v->mean.value, v->mean.error, v->mean.df));
+    if (fit->terms > 1) {
+        const double error = trial_variance(&v->ratio[v->layered], fit->weight + fit->n).all;
+        validation_set_value(t, VALIDATION_KEY_TREND, expm1(fit->coefficient[1] / fit->span),
+                             exp(fit->coefficient[1] / fit->span) * sqrt(error) / fit->span,
+                             (double)NAN);
+    }
+    if (fit->scatter_df > 0)
+        validation_set_value(t, VALIDATION_KEY_SCATTER, sqrt(fit->scatter), (double)NAN,
+                             (double)NAN);
+}
+
+static void set_ranges(const choice_ranges *r, table_writer *t)
+{
+    static const struct {
+        setting_number number;
+        validation_key all, kept;
+    } keys[] = {
+        {SETTING_FRICTION, VALIDATION_KEY_FRICTION_ALL_LOW, VALIDATION_KEY_FRICTION_KEPT_LOW},
+        {SETTING_WITH_LAYER, VALIDATION_KEY_LAYERED_ALL_LOW, VALIDATION_KEY_LAYERED_KEPT_LOW},
+        {SETTING_THICKNESS, VALIDATION_KEY_THICKNESS_ALL_LOW, VALIDATION_KEY_THICKNESS_KEPT_LOW}};
+    for (size_t i = 0; i < sizeof keys / sizeof *keys; i++)
+        for (unsigned end = 0; end < 4; end++) /* both of one range stand together */
+            set_end(t, (validation_key)((end < 2 ? keys[i].all : keys[i].kept) + end % 2),
+                    (end < 2 ? r->all : r->kept)[keys[i].number][end % 2]);
+}
+
+/* Wear as measured against that which the layer is calculated from. */
+static wt_status set_wear(const validation *v, table_writer *t, wt_error *err)
+{
+    table_view wear = {0};
+    if (v->job->wear == NULL || v->job->layer == NULL)
+        return WT_OK;
+    const wt_status status = table_bind(v->job->wear, &wear_schema, "", &wear, err);
+    const wt_estimate is = status == WT_OK ? wear_value(&wear, WEAR_KEY_RATE) : no_number,
+                      used = v->job->layer->specific_wear_rate;
+    if (status != WT_OK || !(is.value > 0) || !(used.value > 0) || is.value == used.value)
+        return status; /* the layer wears as measured */
+    const bool known = is.standard_error > 0;
+    const double error =
+        hypot(known ? is.standard_error / is.value : (double)NAN, used.standard_error / used.value);
+    const wt_interval ratio =
+        validation_factor(log(is.value / used.value), error, (double)INFINITY);
+    set_interval(t, VALIDATION_KEY_WEAR_RATIO, VALIDATION_KEY_WEAR_RATIO_LOW,
+                 VALIDATION_KEY_WEAR_RATIO_HIGH, ratio);
+    validation_set_text(t, VALIDATION_KEY_WEAR,
+                        isnan(error) ? "cannot say: what was worn has no stated error"
+                        : ratio.low <= 1 && ratio.high >= 1
+                            ? "agrees within the errors"
+                            : "differs: compute the layer with the wear rate that was measured");
+    return WT_OK;
+}
+
+/* ranges: NULL where no choices were held against the record. */
+/* The layer that friction was predicted with. */
+static void set_layer(const validation *v, table_writer *t)
+{
+    const wt_sliding *const sliding = v->job->sliding;
+    char moduli[512];
+    if (!v->layered)
+        return;
+    const wt_estimate thickness = flow_as_stated(v->known->thickness),
+                      ratio = flow_as_stated(v->known->modulus_ratio);
+    validation_set(t, VALIDATION_KEY_LAYER_THICKNESS, thickness);
+    if (sliding->layer_rubber == NULL)
+        validation_set(t, VALIDATION_KEY_LAYER_RATIO, ratio);
+    sliding_layer_describe(sliding, v->known, v->p.layer_gain, v->work->log, moduli, sizeof moduli);
+    if (moduli[0] == '\0')
+        return;
+    validation_set_text(t, VALIDATION_KEY_LAYER_MODULI, moduli);
+    if (sliding->layer_rubber == NULL)
+        validation_set(t, VALIDATION_KEY_LAYER_SLOPE, flow_as_stated(v->known->ratio_slope));
+}
+
+static wt_status set_keys(const validation *v, const choice_ranges *ranges,
+                          const source_advice *advice, table_writer *t, wt_error *err)
+{
+    set_verdicts(v, t);
+    if (advice->settles[0] != '\0')
+        validation_set_text(t, VALIDATION_KEY_SETTLED_BY, advice->settles);
+    if (!v->has_shear)
+        validation_set_text(t, VALIDATION_KEY_SETTLED_BY, "a shear stress of the real contact");
+    set_ratio(v, t);
+    set_layer(v, t);
+    if (v->has_shear)
+        validation_set(t, VALIDATION_KEY_SHEAR, flow_as_stated(v->used.sliding.shear_stress));
+    needed_set_keys(v, t);
+    wt_status status = v->has_shear ? cutoff_set_keys(v, t, err) : WT_OK;
+    if (ranges != NULL)
+        set_ranges(ranges, t);
+    if (status == WT_OK)
+        status = set_wear(v, t, err);
+    validation_set_print(t, VALIDATION_KEY_STEPS, "%zu", v->steps.n);
+    validation_set_print(t, VALIDATION_KEY_LEFT_OUT, "%zu", v->steps.n_all - v->steps.n);
+    if (v->steps.remarks[0] != '\0')
+        validation_set_text(t, VALIDATION_KEY_REMARKS, v->steps.remarks);
+    return status;
+}
+
+/* ---- the job --------------------------------------------------------------------------------- */
+
+static wt_status hold_ratios(validation *v, wt_error *err)
+{
+    wt_status status = WT_OK;
+    for (int layered = 0; status == WT_OK && layered < (v->known != NULL ? 2 : 1); layered++) {
+        const ratio_of of = {&v->p, &v->steps, v->p.shear, layered != 0};
+        status = trial_of_ratio(&of, v->work->seed, &v->ratio[layered], err);
+        if (status == WT_OK)
+            agreement_judge(&v->ratio[layered].fit, validation_margin(v));
+    }
+    return status == WT_OK ? mean_ratio_make(&v->ratio[v->layered], &v->mean, err) : status;
+}
+
+/* A layer that grows without end has no friction. */
+static wt_status begin(validation *v, wt_error *err)
+{
+    table_view record = {0};
+    const wt_validation_job *const job = v->job;
+    wt_status status = setting_make(job->sliding, job->layer, job->known, v->work, &v->used, err);
+    if (status == WT_OK)
+        status = table_bind(job->record, &record_schema, "", &record, err);
+    if (status == WT_OK)
+        status = measured_make(&record, job->sliding, &v->steps, err);
+    v->known = job->known != NULL && isfinite(job->known->thickness.value) ? job->known : NULL;
+    v->layered = v->known != NULL;
+    if (status == WT_OK && job->known != NULL && !v->layered)
+        measured_remark(&v->steps,
+                        "without wear, or where it ages, the layer grows without end "
+                        "and friction with it is not known: that without a layer is compared");
+    v->has_shear = !isnan(job->sliding->shear_stress.value);
+    if (status == WT_OK)
+        status = prediction_make(job->sliding, v->known, &v->steps, v->work, true, &v->p, err);
+    if (status == WT_OK && v->p.n_draws == 0)
+        measured_remark(&v->steps, "no interval and no verdict holds errors of the prediction, "
+                                   "which take replicates");
+    return status;
+}
+
+static wt_status make_tables(const validation *v, wt_validation_tables *tables, wt_error *err)
+{
+    choice_ranges ranges = {.narrows = ""};
+    source_advice advice = {.narrows = ""};
+    table_view what_if = {0};
+    wt_status status = sources_make(v, &advice, &tables->sources, err);
+    if (status == WT_OK && v->job->what_if != NULL && v->has_shear) {
+        status = table_bind(v->job->what_if, &what_if_schema, "", &what_if, err);
+        if (status == WT_OK)
+            status = choices_make(v, &what_if, &ranges, &tables->choices, err);
+    }
+    if (status != WT_OK)
+        return status;
+    table_writer t = table_begin(&validation_schema, err);
+    size_t next = 0; /* step of another temperature or pressure: its line is another one */
+    for (size_t i = 0; i < v->steps.n_all; i++) {
+        if (i < v->steps.n && i == next) {
+            table_block(&t);
+            next += measured_alike(&v->steps, i);
+        }
+        add_step(v, i, &t);
+    }
+    const choice_ranges *const held = tables->choices != NULL ? &ranges : NULL;
+    t.status = t.status == WT_OK ? set_keys(v, held, &advice, &t, err) : t.status;
+    return table_end(&t, &tables->validation);
+}
+
+static void validation_clear(validation *v)
+{
+    for (int i = 0; i < 2; i++)
+        trial_clear(&v->ratio[i]);
+    trial_clear(&v->shear);
+    trial_clear(&v->shape);
+    free(v->mean.row);
+    free(v->needed_shear);
+    prediction_clear(&v->p);
+    measured_clear(&v->steps);
+}
+
+static wt_status check_job(const wt_validation_job *job, wt_error *err)
+{
+    const wt_status status = param_check(wt_validation_job_params(), job, err);
+    if (status != WT_OK || job->plausible_low < job->plausible_high)
+        return status;
+    wt_fail(err, WT_E_RANGE, "no shear stress is plausible");
+    wt_error_place(err, "plausible-shear-from, plausible-shear-to");
+    wt_error_expected(err, "the first below the second");
+    wt_error_found(err, "%g Pa and %g Pa", job->plausible_low, job->plausible_high);
+    return WT_E_RANGE;
+}
+
+wt_status wt_validation_make(const wt_validation_job *job, const wt_job *work,
+                             wt_validation_tables *tables, wt_error *err)
+{
+    if (job == NULL || work == NULL || tables == NULL || job->record == NULL)
+        return wt_fail(err, WT_E_ARG, "no validation job");
+    validation v = {.job = job, .work = work};
+    wt_validation_tables made = {0};
+    wt_status status = check_job(job, err);
+    if (status == WT_OK)
+        status = begin(&v, err);
+    if (status == WT_OK && v.has_shear)
+        status = hold_ratios(&v, err);
+    if (status == WT_OK)
+        status = needed_make(&v, err);
+    if (status == WT_OK)
+        status = make_tables(&v, &made, err);
+    cost_say(work, (cost_summary){.items = (double)v.steps.n, .tolerance_asked = work->tolerance});
+    validation_clear(&v);
+    if (status == WT_OK) {
+        *tables = made;
+        made = (wt_validation_tables){0};
+    }
+    wt_validation_tables_clear(&made);
+    return status;
+}

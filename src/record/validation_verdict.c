@@ -1,0 +1,87 @@
+/* The verdict on a trial, in words. SPDX-License-Identifier: GPL-3.0-or-later */
+#include "record/validation.h"
+
+#include "core/base/clocale.h"
+#include "core/math/normal_quantile.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+double validation_margin(const validation *v)
+{
+    return log1p(v->job->margin);
+}
+
+double validation_allowed(const validation *v)
+{
+    const double off = validation_margin(v) / NORMAL_95;
+    return off * off;
+}
+
+const char *validation_verdict(agreement_verdict verdict)
+{
+    static const char *const words[] = {
+        [AGREEMENT_OPEN] = "cannot say", [AGREEMENT_YES] = "explains", [AGREEMENT_NO] = "does not"};
+    return words[verdict];
+}
+
+wt_interval validation_factor(double value, double error, double df)
+{
+    const double half = agreement_quantile(df) * error, factor = exp(value);
+    return (wt_interval){factor, factor * error, exp(value - half), exp(value + half)};
+}
+
+ends_text validation_asked(double margin)
+{
+    return ends_of(1 / (1 + margin), 1 + margin, 3);
+}
+
+verdict_words verdict_of_trial(const validation *v, const trial *t)
+{
+    verdict_words words;
+    double ends[2];
+    const agreement *const fit = &t->fit;
+    const size_t at = fit->where;
+    agreement_ends(fit, at, fit->verdict == AGREEMENT_NO, ends);
+    char all[48] = "";
+    if (t->n > 1)
+        snprintf(all, sizeof all, " at all %zu steps", t->n);
+    if (fit->verdict == AGREEMENT_YES)
+        clocale_print(words.text, sizeof words.text,
+                      "explains: measured over predicted is within %.3g %%%s: at %.3g m/s%s %.3g "
+                      "(95 %%: %s)",
+                      100 * v->job->margin, all, v->steps.step[at].velocity,
+                      t->n > 1 ? ", where it is farthest," : "", exp(fit->smooth[at]),
+                      ends_of(exp(ends[0]), exp(ends[1]), 3).text);
+    else
+        clocale_print(
+            words.text, sizeof words.text,
+            "%s: at %.3g m/s measured over predicted is %.3g (95 %%%s: %s), and %s is "
+            "asked for",
+            validation_verdict(fit->verdict), v->steps.step[at].velocity, exp(fit->smooth[at]),
+            fit->verdict == AGREEMENT_NO ? " at all steps at once" : "",
+            ends_of(exp(ends[0]), exp(ends[1]), 3).text, validation_asked(v->job->margin).text);
+    return words;
+}
+
+wt_status mean_ratio_make(const trial *t, mean_ratio *mean, wt_error *err)
+{
+    double *const one = calloc(t->n, sizeof *one);
+    *mean = (mean_ratio){.row = calloc(t->n, sizeof *mean->row)};
+    if (one == NULL || mean->row == NULL) {
+        free(one);
+        return wt_fail(err, WT_E_MEMORY, "out of memory");
+    }
+    for (size_t i = 0; i < t->n; i++) {
+        agreement_row(&t->fit, i, one);
+        for (size_t k = 0; k < t->n; k++)
+            mean->row[k] += one[k] / (double)t->n;
+    }
+    for (size_t i = 0; i < t->n; i++)
+        mean->value += mean->row[i] * t->value[i];
+    const trial_parts parts = trial_variance(t, mean->row);
+    mean->error = sqrt(parts.all);
+    mean->df = agreement_df(parts.all, parts.scatter, t->fit.scatter_df);
+    free(one);
+    return WT_OK;
+}

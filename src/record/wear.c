@@ -1,0 +1,276 @@
+/* Specific wear rate of a record by what the track lost, and the nominal pressure of its ball.
+ *
+ * Archard, J. Appl. Phys. 24 (1953) 981: volume = k load distance.
+ *
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#include "record/record.h"
+
+#include "core/base/array.h"
+#include "core/math/normal_quantile.h"
+#include "core/table/table_rows.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+/* Cycles at either end of a record that tell the depth there: a fiftieth of it. */
+enum { END_SHARE = 50, END_LEAST = 4 };
+/* Hertz's law is of contacts that are small against the ball; tribolayer-beyond says where. */
+static const double small_contact = 0.3;
+
+TABLE_ROW(wear, WEAR, wt_interval rate; const char *of; wt_estimate volume, depth;
+          double normal_force, distance; wt_ball_contact ball; double duty;
+          const char *note, *file;)
+
+static bool given(wt_estimate e)
+{
+    return !isnan(e.value);
+}
+
+bool wear_is_asked(const wt_record_job *job)
+{
+    return job->profile != NULL || given(job->track_area) || given(job->mass_loss) ||
+           given(job->ball_radius);
+}
+
+wt_record_job wear_left_out(wt_record_job job)
+{
+    job.track_area.value = job.mass_loss.value = job.density.value = job.ball_radius.value =
+        (double)NAN;
+    job.profile = NULL;
+    return job;
+}
+
+static double relative(wt_estimate e)
+{
+    return e.standard_error / e.value;
+}
+
+static wt_estimate product(wt_estimate a, wt_estimate b, const char *unit)
+{
+    const double value = a.value * b.value;
+    return (wt_estimate){value, value * hypot(relative(a), relative(b)), 0, unit};
+}
+
+/* ---- what is known of the record ------------------------------------------------------------- */
+
+/* Of a track of that length strokes slide twice as far; NaN: the cycles are none, or tell no time.
+ */
+static double velocity_of_strokes(const wt_cycles *cycles, double length)
+{
+    double time = 0;
+    for (size_t i = 0; i < cycles->n; i++)
+        time += cycles->cycle[i].duration;
+    return cycles->kind == WT_CYCLE_STROKE && time > 0 ? 2 * length * (double)cycles->n / time
+                                                       : (double)NAN;
+}
+
+/* Steps of an instrument may lie apart. */
+static double time_of_steps(const wt_record *record)
+{
+    const double *const time = record->channel[WT_RECORD_TIME];
+    double sum = 0;
+    for (size_t i = 1; i < record->n; i++)
+        sum += record->step[i] == record->step[i - 1] ? time[i] - time[i - 1] : 0;
+    return sum;
+}
+
+static double distance_of(const wt_record *record, const wt_cycles *cycles, double radius,
+                          double length)
+{
+    const double *const distance = record->channel[WT_RECORD_DISTANCE],
+                        *const laps = record->channel[WT_RECORD_LAPS];
+    const size_t last = record->n - 1;
+    if (distance != NULL)
+        return distance[last] - distance[0];
+    if (laps != NULL && radius > 0 && cycles->kind != WT_CYCLE_STROKE)
+        return 2 * M_PI * radius * (laps[last] - laps[0]);
+    if (record->channel[WT_RECORD_TIME] == NULL)
+        return (double)NAN;
+    const double velocity = conditions_of(cycles->cycle, cycles->n).velocity;
+    return time_of_steps(record) *
+           (isnan(velocity) ? velocity_of_strokes(cycles, length) : velocity);
+}
+
+/* As given, else of strokes half of their path, else a circumference. */
+static wt_estimate track_length(const wt_record_job *job, const wt_cycles *cycles,
+                                wt_estimate radius)
+{
+    if (given(job->track_length))
+        return job->track_length;
+    if (cycles->kind != WT_CYCLE_STROKE)
+        return (wt_estimate){2 * M_PI * radius.value, 2 * M_PI * radius.standard_error, 0, "m"};
+    double path = 0;
+    for (size_t i = 0; i < cycles->n; i++)
+        path += cycles->cycle[i].velocity * cycles->cycle[i].duration;
+    return (wt_estimate){path / (2 * (double)cycles->n), 0, 0, "m"};
+}
+
+static wt_estimate load_of(const wt_record_job *job, const wt_cycles *cycles)
+{
+    const double load = conditions_of(cycles->cycle, cycles->n).normal_force;
+    const double error = given(job->load) ? relative(job->load) : 0;
+    return (wt_estimate){load, load * error, 0, "N"};
+}
+
+/* Share of the whole depth that lies between the means of the first and of the last cycles, `part`
+ * of them all at either end: by Archard's law the cap of a ball grows with the distance, and its
+ * depth with the power 2/3 of it. */
+static double share_between_ends(double part)
+{
+    return 0.6 * ((1 - pow(1 - part, 5.0 / 3)) / part - pow(part, 2.0 / 3));
+}
+
+/* Depth at the end over that at the beginning, by the cycles there. What is added for their halves
+ * hangs on the law of wear, and half of it is an error. */
+static wt_status depth_of(const wt_cycles *cycles, wt_estimate *depth, wt_error *err)
+{
+    const size_t n = cycles->n / END_SHARE > END_LEAST ? cycles->n / END_SHARE : END_LEAST;
+    wt_steady end[2];
+    *depth = (wt_estimate){(double)NAN, (double)NAN, 0, "m"};
+    if (cycles->n < 2 * n)
+        return WT_OK;
+    double *const y = malloc(n * sizeof *y);
+    wt_status status = y != NULL ? WT_OK : wt_fail(err, WT_E_MEMORY, "out of memory");
+    for (size_t e = 0; e < COUNT_OF(end) && status == WT_OK; e++) {
+        for (size_t i = 0; i < n; i++)
+            y[i] = cycles->cycle[e == 0 ? i : cycles->n - n + i].wear_depth;
+        status = wt_steady_mean(y, n, &end[e], err);
+    }
+    free(y);
+    if (status == WT_OK) {
+        const double seen = end[1].mean.value - end[0].mean.value,
+                     share = share_between_ends((double)n / (double)cycles->n),
+                     scatter =
+                         hypot(end[0].mean.standard_error, end[1].mean.standard_error) / share;
+        *depth = (wt_estimate){seen / share, hypot(scatter, 0.5 * seen * (1 / share - 1)), 0, "m"};
+    }
+    return status;
+}
+
+/* Cross-section of a cap of a ball, with its slope against the depth. */
+static wt_estimate cap_of(wt_estimate depth, double radius)
+{
+    const double h = depth.value, half = sqrt(h * (2 * radius - h));
+    return (wt_estimate){radius * radius * acos(1 - h / radius) - (radius - h) * half,
+                         2 * half * depth.standard_error, 0, "m^2"};
+}
+
+/* ---- rows ------------------------------------------------------------------------------------ */
+
+/* Why there is no rate: the first thing that is not known. */
+static const char *what_lacks(const wt_record_job *job, const wear_row *r, wt_estimate load,
+                              bool strokes)
+{
+    if (!given(job->mass_loss) && !given(job->track_area) && isnan(r->depth.value))
+        return "nothing tells what was lost: give --profile, --track-area or --mass-loss, or "
+               "record the depth";
+    if (isnan(load.value))
+        return "no load: give --load";
+    if (isnan(r->distance))
+        return strokes ? "no distance: give --track-length" : "no distance: give --track-radius";
+    if (r->depth.value <= 0)
+        return "the depth of the record does not grow";
+    return strokes ? "no volume: give --track-length"
+                   : "no volume: give --track-length or --track-radius";
+}
+
+static void set_rate(const wt_record_job *job, wear_row *r, wt_estimate load, bool strokes,
+                     const char *of_ball)
+{
+    const double value = r->volume.value / (load.value * r->distance),
+                 error = hypot(relative(r->volume), relative(load));
+    const double none = (double)NAN;
+    r->rate = (wt_interval){value, none, none, none};
+    if (!(value > 0)) {
+        r->rate.value = none;
+        r->note = what_lacks(job, r, load, strokes);
+    } else if (error > 0) {
+        r->rate = (wt_interval){value, value * error, value * exp(-NORMAL_95 * error),
+                                value * exp(NORMAL_95 * error)};
+        r->note = of_ball;
+    } else {
+        r->note = "no error of what was lost is given";
+    }
+}
+
+static void set_ball(const wt_record_job *job, wt_estimate load, double track_radius, wear_row *r)
+{
+    const double none = (double)NAN;
+    r->ball = (wt_ball_contact){none, none};
+    r->duty = none;
+    if (!given(job->ball_radius) || !given(job->modulus))
+        return;
+    r->ball = wt_ball_contact_of(load.value, job->ball_radius.value, job->modulus.value,
+                                 job->poisson_ratio);
+    r->duty = wt_ball_duty(r->ball.contact_radius, track_radius, 0);
+}
+
+/* Where the rows of a record go, and what they have in common. */
+typedef struct wear_rows {
+    const wt_record_job *job;
+    wear_row row;
+    wt_estimate load;
+    bool strokes;
+    table_writer *t;
+    wear_rates *rates;
+} wear_rows;
+
+static void put(wear_rows *rows, const char *of, wt_estimate volume)
+{
+    wear_row *const r = &rows->row;
+    const bool large = r->ball.contact_radius > small_contact * rows->job->ball_radius.value;
+    r->of = of;
+    r->volume = volume;
+    if (!(volume.standard_error > 0)) /* none was given */
+        r->volume.standard_error = (double)NAN;
+    set_rate(rows->job, r, rows->load, rows->strokes,
+             large ? "the contact is large against the ball" : "");
+    wear_add_row(rows->t, r);
+    if (!isnan(r->rate.value))
+        several_add(&rows->rates->run,
+                    (wt_estimate){r->rate.value, r->rate.standard_error, 0, "m^2/N"});
+}
+
+static wt_estimate volume_of_depth(wt_estimate depth, double ball_radius, wt_estimate length)
+{
+    const wt_estimate none = {(double)NAN, (double)NAN, 0, "m^3"};
+    return depth.value > 0 && depth.value < ball_radius
+               ? product(cap_of(depth, ball_radius), length, "m^3")
+               : none;
+}
+
+wt_status wear_add(const wt_record_job *job, const wt_record *record, const wt_cycles *cycles,
+                   wt_estimate radius, const char *file, table_writer *t, wear_rates *rates,
+                   wt_error *err)
+{
+    const double none = (double)NAN;
+    const wt_estimate length = track_length(job, cycles, radius);
+    wear_rows rows = {.job = job,
+                      .load = load_of(job, cycles),
+                      .strokes = cycles->kind == WT_CYCLE_STROKE,
+                      .t = t,
+                      .rates = rates};
+    wear_row *const r = &rows.row;
+    *r = (wear_row){.distance = distance_of(record, cycles, radius.value, job->track_length.value),
+                    .normal_force = rows.load.value,
+                    .depth = {none, none, 0, "m"},
+                    .file = file};
+    set_ball(job, rows.load, radius.value, r);
+    if (given(job->mass_loss)) {
+        const wt_estimate inverse = {1 / job->density.value,
+                                     relative(job->density) / job->density.value, 0, "m^3/kg"};
+        put(&rows, "mass", product(job->mass_loss, inverse, "m^3"));
+    }
+    if (given(job->track_area))
+        put(&rows, "area of the track", product(job->track_area, length, "m^3"));
+    wt_status status = WT_OK;
+    if (given(job->ball_radius) && record->channel[WT_RECORD_WEAR_DEPTH] != NULL)
+        status = depth_of(cycles, &r->depth, err);
+    if (status == WT_OK && !isnan(r->depth.value))
+        put(&rows, "depth of the record",
+            volume_of_depth(r->depth, job->ball_radius.value, length));
+    else if (status == WT_OK && !given(job->mass_loss) && !given(job->track_area))
+        put(&rows, "nothing", (wt_estimate){none, none, 0, "m^3"});
+    wear_rates_end_run(rates);
+    return status;
+}

@@ -1,0 +1,268 @@
+/* Force curves as a PDF to be printed: many on a sheet, many sheets.
+ *
+ * SPDX-License-Identifier: GPL-3.0-or-later
+ */
+#include "core/base/param.h"
+#include "core/system/file_signatures.h"
+#include "core/system/temporary.h"
+#include "report/curve_panel.h"
+#include "report/figure_files.h"
+#include "report/gnuplot.h"
+#include "report/report_files.h"
+#include "report/translations.h"
+#include "weartrack/report.h"
+
+#include <errno.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+/* On a sheet: each panel is then 55 mm wide and, below the words, 40 mm high. */
+enum { COLUMNS = 3, ROWS = 4, CURVES = COLUMNS * ROWS };
+
+/* Ten times what twelve curves of the most samples that a table of them has take. */
+static const size_t sheet_size = (size_t)1 << 20;
+
+/* A sheet of A4 [mm]; output.gnuplot adds the hundredth of an inch that is taken off here. */
+#define SHEET_BEGIN                                                                                \
+    "figure_name = 'sheets'; figure_format = 'pdf'; figure_width = 1; figure_height = 1\n"         \
+    "panel_width = (210/25.4-0.01)*72*15/8.\n"
+#define SHEET_STYLE                                                                                \
+    "load 'style.gp'\nfigure_height = (297/25.4-0.01)*72*15/8./panel_height\n"                     \
+    "load 'output.gp'\nset datafile separator \"\\t\"\n"
+
+typedef struct sheets {
+    wt_report_options options;
+    bound_tables tables;
+    language *language;
+    curve_list list;
+    growing_text style, script;
+    char *folder; /* temporary */
+    int in_use;
+    size_t n, begun; /* sheets in all; that gnuplot has begun */
+    double since;    /* when it began the last one */
+    bool late;
+    const wt_progress *progress;
+} sheets;
+
+/* ---- one sheet ------------------------------------------------------------------------------- */
+
+/* "sheet_12", which is its data, with an ending, or the mark that it is begun. */
+static void sheet_name(size_t sheet, char name[32])
+{
+    (void)snprintf(name, 32, "sheet_%zu", sheet + 1);
+}
+
+static wt_status write_file(const sheets *s, const char *name, const char *ending,
+                            const growing_text *text, wt_error *err)
+{
+    char file[64];
+    (void)snprintf(file, sizeof file, "%s%s", name, ending);
+    char *path = wt_path_join(s->folder, file);
+    if (path == NULL || text->failed) {
+        free(path);
+        return wt_fail(err, WT_E_MEMORY, "out of memory");
+    }
+    const wt_status status = file_write(path, text_string(text), text->length, err);
+    free(path);
+    return status;
+}
+
+/* What stands above the panels. */
+static void add_title(sheets *s, size_t sheet)
+{
+    static const char *const kinds[] = {"refused", "doubtful", "accepted"};
+    growing_text words = {.language = s->language};
+    text_say(&words, "Force curves, sheet %zu of %zu:", sheet + 1, s->n);
+    for (int k = 0; k < CURVE_KINDS; k++)
+        text_format(&words, "%s %zu %s", k > 0 ? "," : "", s->list.of_kind[k],
+                    say(s->language, kinds[k]));
+    if (s->list.n < s->list.n_rows)
+        text_say(&words, " with samples, of %zu curves", s->list.n_rows);
+    text_add(&s->script, "set multiplot title ");
+    text_quoted(&s->script, text_string(&words));
+    text_format(&s->script,
+                ".\"\\n%s\" noenhanced layout %d,%d margins 0.085,0.985,0.05,0.87 "
+                "spacing 0.085,0.135\n",
+                say(s->language, curve_panel_words), ROWS, COLUMNS);
+    text_done(&words, &s->script);
+}
+
+/* Writes the data of a sheet and appends what draws it. */
+static wt_status add_sheet(sheets *s, size_t sheet, wt_error *err)
+{
+    char name[32];
+    sheet_name(sheet, name);
+    const figure_description described = {.name = name, .table = &curves_schema};
+    figure_drawing d = {.figure = &described,
+                        .tables = &s->tables,
+                        .language = s->language,
+                        .table = &s->tables.curves,
+                        .err = err};
+    growing_text data = {0};
+    const size_t first = CURVES * sheet,
+                 end = first + CURVES < s->list.n ? first + CURVES : s->list.n;
+    text_format(&s->script, "set print '%s'\nprint ''\nunset print\n", name);
+    add_title(s, sheet);
+    for (size_t i = first; i < end; i++)
+        curve_panel(&d, &s->list.curves[i]);
+    text_add(&s->script, text_string(&d.script));
+    text_add(&s->script, "unset multiplot\n");
+    s->script.failed = s->script.failed || d.script.failed;
+    wt_status status = d.status;
+    if (status == WT_OK)
+        status = figure_data(&d, &data, err);
+    if (status == WT_OK)
+        status = write_file(s, name, ".tsv", &data, err);
+    text_free(&data);
+    drawing_clear(&d);
+    return status;
+}
+
+/* ---- all ------------------------------------------------------------------------------------- */
+
+static bool tell(const sheets *s, size_t done)
+{
+    return s->progress == NULL || s->progress->report == NULL ||
+           s->progress->report(s->progress->user, "sheets", done, s->n);
+}
+
+static bool is_begun(const sheets *s, size_t sheet)
+{
+    char name[32];
+    sheet_name(sheet, name);
+    char *path = wt_path_join(s->folder, name);
+    const bool there = path != NULL && access(path, F_OK) == 0;
+    free(path);
+    return there;
+}
+
+/* Asked all the while that gnuplot draws. */
+static bool go_on(void *user)
+{
+    sheets *s = user;
+    for (; s->begun < s->n && is_begun(s, s->begun); s->begun++)
+        s->since = wt_time_wall();
+    s->late = wt_time_wall() - s->since > s->options.gnuplot_time;
+    return !s->late && tell(s, s->begun > 0 ? s->begun - 1 : 0);
+}
+
+/* Beside the output; where that is a pipe there is no such place. */
+static wt_status open_folder(sheets *s, const char *path, wt_error *err)
+{
+    struct stat info;
+    const bool beside = stat(path, &info) != 0 || S_ISREG(info.st_mode);
+    char *const parent = beside ? wt_path_folder(path) : realpath(temporary_place(), NULL);
+    if (parent == NULL && (beside || errno == ENOMEM))
+        return wt_fail(err, WT_E_MEMORY, "out of memory");
+    if (parent != NULL) {
+        temporary_sweep(parent);
+        s->folder = temporary_folder(parent, &s->in_use);
+    }
+    const int code = errno;
+    free(parent);
+    if (s->folder != NULL && fchmod(s->in_use, S_IRWXU) == 0)
+        return WT_OK;
+    const wt_status status =
+        wt_fail(err, WT_E_IO, "cannot be made: %s", strerror(s->folder != NULL ? errno : code));
+    wt_error_file(err, path);
+    wt_error_advice(err, beside ? "the folder it goes into must exist and be writable"
+                                : "set TMPDIR to a folder that may be written to");
+    return status;
+}
+
+static wt_status write_script(sheets *s, wt_error *err)
+{
+    growing_text output = {0};
+    wt_status status = write_file(s, "style", ".gp", &s->style, err);
+    text_add(&output, file_of_library("output.gnuplot"));
+    if (status == WT_OK)
+        status = write_file(s, "output", ".gp", &output, err);
+    text_free(&output);
+    text_add(&s->script, SHEET_BEGIN);
+    if (s->options.font != NULL)
+        text_format(&s->script, "figure_font = '%s'\n", s->options.font);
+    text_add(&s->script, SHEET_STYLE);
+    figure_decimals(&s->script, s->language);
+    for (size_t i = 0; i < s->n && status == WT_OK; i++)
+        status = add_sheet(s, i, err);
+    text_add(&s->script, "set output\n");
+    return status == WT_OK ? write_file(s, "sheets", ".gp", &s->script, err) : status;
+}
+
+static wt_status draw(sheets *s, const char *path, wt_error *err)
+{
+    static const char *const arguments[] = {"--default-settings", "sheets.gp", NULL};
+    growing_text made = {0};
+    const gnuplot_call call = {.program = s->options.gnuplot,
+                               .folder = s->folder,
+                               .arguments = arguments,
+                               .size = s->n * sheet_size,
+                               .limit = s->options.gnuplot_time,
+                               .late = &s->late,
+                               .go_on = go_on,
+                               .user = s};
+    s->since = wt_time_wall();
+    wt_status status = gnuplot_run(&call, err);
+    char *pdf = status == WT_OK ? wt_path_join(s->folder, "sheets.pdf") : NULL;
+    if (status == WT_OK && pdf == NULL)
+        status = wt_fail(err, WT_E_MEMORY, "out of memory");
+    if (status == WT_OK)
+        status = file_read(pdf, s->n * sheet_size, &made, err);
+    text_add(&made, PDF_MARK);
+    if (status == WT_OK && made.failed)
+        status = wt_fail(err, WT_E_MEMORY, "out of memory");
+    if (status == WT_OK)
+        status = file_put(path, &made, err);
+    free(pdf);
+    text_free(&made);
+    return status;
+}
+
+static void sheets_clear(sheets *s)
+{
+    if (s->folder != NULL) {
+        temporary_remove(s->folder);
+        close(s->in_use);
+    }
+    free(s->folder);
+    curve_list_clear(&s->list);
+    text_free(&s->style);
+    text_free(&s->script);
+    language_close(s->language);
+    bound_clear(&s->tables);
+}
+
+wt_status wt_sheets_write(const wt_result *result, const char *path,
+                          const wt_report_options *options, const wt_progress *progress,
+                          wt_error *err)
+{
+    sheets s = {.options = options != NULL ? *options : wt_report_defaults(), .progress = progress};
+    wt_status status = param_check(wt_report_params(), &s.options, err);
+    if (status == WT_OK)
+        status = language_open(s.options.language, &s.language, err);
+    if (status == WT_OK)
+        status = bound_make(result, &s.tables, err);
+    if (status == WT_OK)
+        status = curves_check(&s.tables, err);
+    if (status == WT_OK)
+        status = curve_list_make(&s.tables, &s.list, err);
+    s.n = (s.list.n + CURVES - 1) / CURVES;
+    if (status == WT_OK && s.n == 0)
+        status = wt_fail(err, WT_E_EMPTY, "no curve has samples of displacement and force");
+    if (status == WT_OK)
+        status = file_style(s.options.style, &s.style, err);
+    if (status == WT_OK)
+        status = open_folder(&s, path, err);
+    if (status == WT_OK)
+        status = write_script(&s, err);
+    if (status == WT_OK && !tell(&s, 0))
+        status = wt_fail(err, WT_E_CANCELLED, "the sheets were cancelled");
+    if (status == WT_OK)
+        status = draw(&s, path, err);
+    if (status == WT_OK)
+        (void)tell(&s, s.n);
+    sheets_clear(&s);
+    return status;
+}

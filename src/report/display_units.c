@@ -1,0 +1,104 @@
+/* Lab units.
+ *
+ * SPDX-License-Identifier: GPL-3.0-or-later
+ */
+#include "report/display_units.h"
+
+#include "core/base/number.h"
+#include "report/number_format.h"
+
+#include <math.h>
+#include <string.h>
+
+typedef struct lab_choice {
+    const char *unit; /* SI */
+    int power;        /* of ten, of the first label; that of the next is less by three, and so on */
+    const char *labels[5];
+} lab_choice;
+
+/* Smallest first. */
+static const lab_choice choices[] = {
+    {"m", 9, {"nm", "µm", "mm", "m"}},
+    {"N", 12, {"pN", "nN", "µN", "mN", "N"}},
+    {"Pa", 0, {"Pa", "kPa", "MPa", "GPa"}},
+    {"s", 9, {"ns", "µs", "ms", "s"}},
+    {"m/s", 9, {"nm/s", "µm/s", "mm/s", "m/s"}},
+    {"m/V", 9, {"nm/V", "µm/V"}},
+    {"W/m^2", 0, {"W/m²", "kW/m²", "MW/m²"}},
+    {"W/m^3", 0, {"W/m³", "kW/m³", "MW/m³", "GW/m³"}},
+    {"J/m^3", 0, {"J/m³", "kJ/m³", "MJ/m³", "GJ/m³"}},
+    {"J/mol", 0, {"J/mol", "kJ/mol"}},
+    {"m^2/N", 9, {"mm³/(N·m)"}},
+    {"m^4", 0, {"m⁴"}},
+    {"byte", 0, {"byte"}},
+    {"1", 0, {""}},
+    {"", 0, {""}},
+};
+
+lab_unit lab_unit_for(wt_quantity quantity, const char *unit, double magnitude)
+{
+    if (unit == NULL)
+        unit = wt_quantity_unit(quantity);
+    lab_unit lab = {.factor = 1, .offset = 0, .label = ""};
+    if (quantity == WT_Q_TEMPERATURE && strcmp(unit, "K") == 0) {
+        lab.offset = -WT_ZERO_CELSIUS;
+        (void)strcpy(lab.label, "°C");
+        return lab;
+    }
+    if (strcmp(unit, "rad") == 0) {
+        lab.factor = 180 / M_PI;
+        (void)strcpy(lab.label, "°");
+        return lab;
+    }
+    const lab_choice *choice = choices, *end = choices + sizeof choices / sizeof *choices;
+    while (choice < end && strcmp(choice->unit, unit) != 0)
+        choice++;
+    if (choice == end)
+        (void)snprintf(lab.label, sizeof lab.label, "%s", unit);
+    for (int i = 0; choice < end && i < 5 && choice->labels[i] != NULL; i++) {
+        double factor = pow(10, choice->power - 3 * i);
+        // A thousandth of slack: 1 µm that rounding made 0.99999 µm is still 1 µm.
+        if (i > 0 && !(isfinite(magnitude) && fabs(magnitude) * factor >= 0.999))
+            continue;
+        lab.factor = factor;
+        (void)snprintf(lab.label, sizeof lab.label, "%s", choice->labels[i]);
+    }
+    return lab;
+}
+
+double lab_value(const lab_unit *lab, double value)
+{
+    return value * lab->factor + lab->offset;
+}
+
+value_words value_in_words(const language *l, wt_quantity quantity, const char *unit, double value)
+{
+    lab_unit lab = lab_unit_for(quantity, unit, value);
+    bool bare = !isfinite(value) || lab.label[0] == '\0';
+    value_words text;
+    (void)snprintf(text.words, sizeof text.words, "%s%s%s",
+                   SHORT_NUMBER(l, lab_value(&lab, value), 3), bare ? "" : " ",
+                   bare ? "" : lab.label);
+    return text;
+}
+
+value_words estimate_in_words(const language *l, const wt_estimate *estimate)
+{
+    lab_unit lab = lab_unit_for(WT_Q_NONE, estimate->unit, estimate->value);
+    double error = fabs(estimate->standard_error) * lab.factor;
+    if (!(error > 0) || !isfinite(estimate->value)) {
+        value_words value = value_in_words(l, WT_Q_NONE, estimate->unit, estimate->value), text;
+        if (!isnan(error) || !isfinite(estimate->value))
+            return value;
+        (void)snprintf(text.words, sizeof text.words, say(l, "%.700s (error not known)"),
+                       value.words);
+        return text;
+    }
+    const int decimals = (int)fmin(9, 1 - floor(log10(error)));
+    value_words text;
+    (void)snprintf(text.words, sizeof text.words, "%s ± %s%s%s",
+                   FIXED(l, number_to_tens(lab_value(&lab, estimate->value), decimals), decimals),
+                   FIXED(l, number_to_tens(error, decimals), decimals),
+                   lab.label[0] != '\0' ? " " : "", lab.label);
+    return text;
+}

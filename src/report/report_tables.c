@@ -1,0 +1,62 @@
+/* The tables of a result, bound to their schemas.
+ *
+ * SPDX-License-Identifier: GPL-3.0-or-later
+ */
+#include "report/report_tables.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+static wt_status bind_indentation(const wt_result *result, bound_tables *tables, wt_error *err)
+{
+    const char *const prefix = indentation_schema.name;
+    const size_t length = strlen(prefix), n = wt_result_n_tables(result);
+    tables->indentation = calloc(n > 0 ? n : 1, sizeof *tables->indentation);
+    if (tables->indentation == NULL)
+        return wt_fail(err, WT_E_MEMORY, "out of memory");
+    for (size_t i = 0; i < n; i++) {
+        const wt_table *table = wt_result_table(result, i);
+        const char *name = wt_table_name(table);
+        if (strncmp(name, prefix, length) != 0)
+            continue;
+        wt_status status = table_bind(table, &indentation_schema, name + length,
+                                      &tables->indentation[tables->n_indentation++], err);
+        if (status != WT_OK)
+            return status;
+    }
+    return WT_OK;
+}
+
+wt_status bound_make(const wt_result *result, bound_tables *tables, wt_error *err)
+{
+    wt_status status = WT_OK;
+    *tables = (bound_tables){.n_indentation = 0};
+#define BIND(table)                                                                                \
+    if (status == WT_OK)                                                                           \
+        status = table_bind_of(result, &table##_schema, "", &tables->table, err);
+    BOUND_TABLES(BIND)
+    return status != WT_OK ? status : bind_indentation(result, tables, err);
+}
+
+void bound_clear(bound_tables *tables)
+{
+    free(tables->indentation);
+    *tables = (bound_tables){.n_indentation = 0};
+}
+
+const table_view *bound_find(const bound_tables *tables, const table_schema *schema)
+{
+#define FIND(table)                                                                                \
+    if (schema == &table##_schema)                                                                 \
+        return &tables->table;
+    BOUND_TABLES(FIND)
+    return NULL;
+}
+
+const table_view *bound_indentation(const bound_tables *tables, const char *group)
+{
+    for (size_t i = 0; i < tables->n_indentation; i++)
+        if (strcmp(tables->indentation[i].suffix, group) == 0)
+            return &tables->indentation[i];
+    return NULL;
+}

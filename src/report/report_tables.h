@@ -1,0 +1,35 @@
+/* The tables of a result that a report reads, bound to their schemas once: a result may come from
+ * a file, so any of them may be absent, and one that is there may lack what it must have.
+ *
+ * SPDX-License-Identifier: GPL-3.0-or-later
+ */
+#ifndef WT_REPORT_REPORT_TABLES_H
+#define WT_REPORT_REPORT_TABLES_H
+
+#include "core/table/registry.h"
+
+/* clang-format off */
+#define BOUND_TABLES(X)                                                                            \
+    X(answer) X(methods) X(inputs) X(notes) X(failures) X(cost) X(force_displacement) X(force_indentation) X(curves) X(choices)    \
+    X(modulus_groups) X(modulus_budget) X(modulus_depth) X(modulus_rate) X(comparison) X(track_layer) X(dma_comparison) X(materials) X(material_ratio) X(common_law) X(shift_factors)             \
+    X(ramp) X(glass_transition) X(moduli_at) X(payne) X(payne_sweep) X(master_curve) X(prony) X(prony_reduced) X(relaxation_spectrum) X(material_draws) X(series_draws) X(roughness) X(friction)            \
+    X(contact_area) X(layer) X(energy_density) X(layer_bands) X(running_in) X(layer_balances) X(existence) X(identification) X(what_if) X(error_budget) X(coverage)      \
+    X(work_precision) X(directions) X(softening) X(flash) X(anisotropy) X(friction_map) X(friction_decades) X(spot) X(spot_map) X(collection) X(collected_modulus) X(collected_friction) X(collected_force) X(shared_constants) X(shared_members) X(collected_constants) X(shared_pairs) X(ratio_pairs) X(power_spectrum) X(angular_spectrum) X(surfaces) X(height_map) X(height_profile) X(record) X(record_cycles) X(wear) X(validation) X(validation_running_in) X(validation_course) X(validation_choices) X(validation_sources)
+/* clang-format on */
+
+typedef struct bound_tables {
+#define BOUND_MEMBER(table) table_view table;
+    BOUND_TABLES(BOUND_MEMBER)
+    table_view *indentation; /* [n_indentation], one for each group, which is the suffix; owned */
+    size_t n_indentation;
+} bound_tables;
+
+/* The views borrow from the result. bound_clear also after a failure. */
+wt_status bound_make(const wt_result *result, bound_tables *tables, wt_error *err) WT_NODISCARD;
+void bound_clear(bound_tables *tables);
+/* The view of a schema in the list above, NULL for any other. */
+const table_view *bound_find(const bound_tables *tables, const table_schema *schema);
+/* The indentation of a group, NULL if there is none. */
+const table_view *bound_indentation(const bound_tables *tables, const char *group);
+
+#endif

@@ -1,0 +1,238 @@
+/* A text that grows, and the ways of writing into it.
+ *
+ * SPDX-License-Identifier: GPL-3.0-or-later
+ */
+#include "report/report_text.h"
+
+#include "core/base/utf8.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+void text_free(growing_text *text)
+{
+    free(text->bytes);
+    *text = (growing_text){0};
+}
+
+void text_done(growing_text *part, growing_text *whole)
+{
+    whole->failed = whole->failed || part->failed;
+    text_free(part);
+}
+
+const char *text_string(const growing_text *text)
+{
+    return text->bytes != NULL ? text->bytes : "";
+}
+
+static bool make_room(growing_text *text, size_t more)
+{
+    if (text->failed)
+        return false;
+    if (more > SIZE_MAX / 4 || text->length > SIZE_MAX / 4) {
+        text->failed = true;
+        return false;
+    }
+    size_t needed = text->length + more + 1;
+    if (needed <= text->capacity)
+        return true;
+    size_t capacity = text->capacity < 256 ? 256 : text->capacity;
+    while (capacity < needed)
+        capacity *= 2;
+    char *bytes = realloc(text->bytes, capacity);
+    if (bytes == NULL) {
+        text->failed = true;
+        return false;
+    }
+    text->bytes = bytes;
+    text->capacity = capacity;
+    return true;
+}
+
+void text_bytes(growing_text *text, const char *bytes, size_t length)
+{
+    if (!make_room(text, length))
+        return;
+    memcpy(text->bytes + text->length, bytes, length);
+    text->length += length;
+    text->bytes[text->length] = '\0';
+}
+
+void text_add(growing_text *text, const char *string)
+{
+    text_bytes(text, string, strlen(string));
+}
+
+void text_vformat(growing_text *text, const char *format, va_list arguments)
+{
+    va_list again;
+    va_copy(again, arguments);
+    int length = vsnprintf(NULL, 0, format, arguments);
+    if (length < 0)
+        text->failed = true;
+    else if (make_room(text, (size_t)length)) {
+        (void)vsnprintf(text->bytes + text->length, (size_t)length + 1, format, again);
+        text->length += (size_t)length;
+    }
+    va_end(again);
+}
+
+void text_format(growing_text *text, const char *format, ...)
+{
+    va_list arguments;
+    va_start(arguments, format);
+    text_vformat(text, format, arguments);
+    va_end(arguments);
+}
+
+void text_name(growing_text *text, const char *name, size_t most)
+{
+    const size_t length = strlen(name);
+    if (length > most) {
+        text_add(text, "...");
+        name += length - most;
+        while ((*name & 0xC0) == 0x80) /* within a character */
+            name++;
+    }
+    text_add(text, name);
+}
+
+void text_words(growing_text *text, const char *english)
+{
+    text_add(text, say(text->language, english));
+}
+
+void text_say(growing_text *text, const char *english, ...)
+{
+    va_list arguments;
+    va_start(arguments, english);
+    text_vformat(text, say(text->language, english), arguments);
+    va_end(arguments);
+}
+
+#define REPLACEMENT "\xef\xbf\xbd" /* U+FFFD */
+
+/* Length of the character at s, 0 if it is not UTF-8 or not allowed in XML 1.0. */
+static size_t character_length(const char *s, size_t left)
+{
+    size_t length = utf8_character(s, left);
+    unsigned char first = (unsigned char)s[0];
+    if (length == 1 && first < 0x20 && first != '\t' && first != '\n' && first != '\r')
+        return 0;
+    if (length == 3 && (memcmp(s, "\xef\xbf\xbe", 3) == 0 || memcmp(s, "\xef\xbf\xbf", 3) == 0))
+        return 0;
+    return length;
+}
+
+/* What stands for a character in markup, NULL for itself. A literal carriage return would be read
+ * back as a line feed. */
+static const char *entity_of(char c)
+{
+    static const char marks[] = "&<>\"'\r";
+    static const char *const entities[] = {"&amp;", "&lt;", "&gt;", "&quot;", "&#39;", "&#13;"};
+    const char *const mark = memchr(marks, c, sizeof marks - 1);
+    return mark != NULL ? entities[mark - marks] : NULL;
+}
+
+static void add_escaped(growing_text *text, const char *string)
+{
+    size_t left = strlen(string);
+    for (const char *s = string; left > 0;) {
+        size_t length = character_length(s, left), step = length > 0 ? length : 1;
+        const char *entity = length == 0 ? REPLACEMENT : entity_of(*s);
+        if (entity != NULL)
+            text_add(text, entity);
+        else
+            text_bytes(text, s, length);
+        s += step;
+        left -= step;
+    }
+}
+
+void text_html(growing_text *text, const char *markup, ...)
+{
+    va_list arguments;
+    va_start(arguments, markup);
+    for (const char *mark = strchr(markup, '%'); mark != NULL; mark = strchr(markup, '%')) {
+        text_bytes(text, markup, (size_t)(mark - markup));
+        text->failed = text->failed || mark[1] != 's';
+        if (!text->failed)
+            add_escaped(text, va_arg(arguments, const char *));
+        markup = mark + strlen("%s");
+    }
+    text_add(text, markup);
+    va_end(arguments);
+}
+
+void text_data_link(growing_text *text, const char *media, const char *bytes, size_t length)
+{
+    static const char digits[] = "0123456789ABCDEF",
+                      plain[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789"
+                                "-._~:/,;=+*()!$@?";
+    text_format(text, "data:%s;charset=utf-8,", media);
+    for (const char *s = bytes; s < bytes + length;) {
+        const char *first = s;
+        while (s < bytes + length && memchr(plain, *s, sizeof plain - 1) != NULL)
+            s++;
+        text_bytes(text, first, (size_t)(s - first));
+        if (s == bytes + length)
+            break;
+        const unsigned char c = (unsigned char)*s++;
+        const char code[] = {'%', digits[c >> 4], digits[c & 15]};
+        text_bytes(text, code, sizeof code);
+    }
+}
+
+/* What gnuplot may take for more than itself: quotes, escapes, commands, macros. Two single quotes
+ * in a row are no way to write one: gnuplot 5.4 fails on them at either end of a string. */
+#define SPECIAL "'\"\\`@"
+
+void text_quoted(growing_text *text, const char *string)
+{
+    const char *quote = strpbrk(string, SPECIAL) == NULL ? "'" : "\"";
+    size_t left = strlen(string);
+    text_add(text, quote);
+    for (const char *s = string; left > 0;) {
+        const size_t length = character_length(s, left), step = length > 0 ? length : 1;
+        const unsigned char c = (unsigned char)*s;
+        if (c < 0x20 || c == 0x7f)
+            text_add(text, " ");
+        else if (length == 0)
+            text_add(text, REPLACEMENT);
+        else if (c == '"' || c == '\\')
+            text_format(text, "\\%c", c);
+        else if (c == '`' || c == '@')
+            text_format(text, "\\%o", c);
+        else if (c == '>' && s - string >= 2 && s[-1] == ']' && s[-2] == ']')
+            text_add(text, " >"); // gnuplot leaves it as it is, and XML has no place for it
+        else
+            text_bytes(text, s, length);
+        s += step;
+        left -= step;
+    }
+    text_add(text, quote);
+}
+
+void text_tic(growing_text *text, const char *string)
+{
+    growing_text format = {0};
+    for (const char *s = string; *s != '\0'; s++)
+        text_bytes(&format, *s == '%' ? "%%" : s, *s == '%' ? 2 : 1);
+    text_quoted(text, text_string(&format));
+    text_done(&format, text);
+}
+
+void text_comment(growing_text *text, const char *string)
+{
+    text_add(text, "# ");
+    for (const char *s = string; *s != '\0'; s++) {
+        unsigned char c = (unsigned char)*s;
+        // A backslash at the end would continue the comment, a back quote would run a command.
+        if (c < 0x20 || c == 0x7f || c == '\\' || c == '`')
+            text_add(text, " ");
+        else
+            text_bytes(text, s, 1);
+    }
+    text_add(text, "\n");
+}

@@ -1,0 +1,296 @@
+/* Results of cases side by side, by sample and condition.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#include "study/collect.h"
+#include "core/base/equivalence_margin.h"
+
+#include "core/base/array.h"
+#include "core/math/normal_quantile.h"
+#include "core/table/table_rows.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* Half as much again: a wear rate is hardly known better than to a fifth, and a margin that no
+ * error allows is none. */
+static const double constant_margin = 0.5;
+
+wt_collect_job wt_collect_job_defaults(void)
+{
+    return (wt_collect_job){.margin = 0.2, .constant_margin = constant_margin};
+}
+
+static const wt_param rows[] = {
+    EQUIVALENCE_MARGIN(wt_collect_job),
+    {PARAM("constant-margin", wt_collect_job, constant_margin, WT_Q_NONE, ABOVE(0)), .value = "X",
+     .help = "relative difference of a constant that does not matter: that one value suffices for "
+             "several cases is said only if all of them lie within it"}};
+PARAM_TABLE(wt_collect_job_params, wt_collect_job, rows, wt_collect_job_defaults, NO_PARTS)
+
+void wt_collection_tables_clear(wt_collection_tables *tables)
+{
+    if (tables == NULL)
+        return;
+    wt_table_free(tables->collection);
+    wt_table_free(tables->collected_modulus);
+    wt_table_free(tables->collected_friction);
+    wt_table_free(tables->collected_force);
+    wt_table_free(tables->ratio_pairs);
+    wt_table_free(tables->shared_constants);
+    wt_table_free(tables->shared_members);
+    wt_table_free(tables->collected_constants);
+    wt_table_free(tables->shared_pairs);
+    *tables = (wt_collection_tables){0};
+}
+
+TABLE_ROW(collection, COLLECTION, const char *sample, *condition; wt_interval ratio;
+          const char *differs; wt_interval thickness, change; const char *file;)
+TABLE_KEYS(collection, COLLECTION, double cases, samples, conditions;)
+TABLE_ROW(collected_modulus, COLLECTED_MODULUS, const char *sample, *condition, *place; double rate;
+          wt_interval modulus;)
+TABLE_ROW(collected_friction, COLLECTED_FRICTION, const char *sample, *condition;
+          double velocity, friction, standard_error, with_layer;)
+TABLE_KEYS(collected_friction, COLLECTED_FRICTION, const char *part;)
+
+/* ---- one case -------------------------------------------------------------------------------- */
+
+static const char *text_or(const char *text, const char *other)
+{
+    return text != NULL && text[0] != '\0' ? text : other;
+}
+
+static wt_status take_case(const wt_collected *from, collected_case *c, wt_error *err)
+{
+    table_view answer;
+    wt_status status = table_bind_of(from->result, &answer_schema, "", &answer, err);
+    if (status == WT_OK)
+        status = findings_bind(from->result, &c->tables, err);
+    if (status != WT_OK) {
+        wt_error_file(err, from->file);
+        return status;
+    }
+    const wt_estimate ratio = comparison_value(&c->tables.comparison, COMPARISON_KEY_MODULUS_RATIO);
+    c->result = from->result;
+    c->file = from->file;
+    c->sample = text_or(answer_words(&answer, ANSWER_KEY_CASE_SAMPLE), wt_path_base(from->file));
+    c->condition = text_or(answer_words(&answer, ANSWER_KEY_CASE_CONDITION), "");
+    c->ratio = (wt_log_ratio){
+        log(ratio.value), ratio.standard_error / ratio.value,
+        comparison_value(&c->tables.comparison, COMPARISON_KEY_MODULUS_RATIO_DF).value};
+    return WT_OK;
+}
+
+static int by_sample(const void *a, const void *b)
+{
+    const collected_case *p = a, *q = b;
+    const int order = strcmp(p->sample, q->sample);
+    return order != 0 ? order : strcmp(p->condition, q->condition);
+}
+
+static wt_status check_names(const collected_case *cases, size_t n, wt_error *err)
+{
+    for (size_t i = 1; i < n; i++)
+        if (by_sample(&cases[i - 1], &cases[i]) == 0) {
+            wt_fail(err, WT_E_AMBIGUOUS, "two cases of sample \"%s\" and condition \"%s\"",
+                    cases[i].sample, cases[i].condition);
+            wt_error_file(err, cases[i].file);
+            wt_error_found(err, "%s too", cases[i - 1].file);
+            wt_error_advice(err, "name what tells them apart with <sample> and <condition> in the "
+                                 "case files");
+            return WT_E_AMBIGUOUS;
+        }
+    return WT_OK;
+}
+
+/* ---- tables ---------------------------------------------------------------------------------- */
+
+static wt_interval interval_of(const finding *f)
+{
+    return (wt_interval){f->number.value, f->number.standard_error, f->low, f->high};
+}
+
+/* "yes", "no" or "cannot say" of what the verdict says at length. */
+static const char *short_verdict(const char *verdict)
+{
+    static const char *const words[] = {"yes", "no", "cannot say"};
+    for (size_t i = 0; verdict != NULL && i < COUNT_OF(words); i++)
+        if (strncmp(verdict, words[i], strlen(words[i])) == 0)
+            return words[i];
+    return "not asked";
+}
+
+static size_t count_different(const collected_case *cases, size_t n, bool condition)
+{
+    size_t found = 0;
+    for (size_t i = 0; i < n; i++) {
+        bool seen = false;
+        for (size_t k = 0; k < i && !seen; k++)
+            seen = strcmp(condition ? cases[k].condition : cases[k].sample,
+                          condition ? cases[i].condition : cases[i].sample) == 0;
+        found += !seen;
+    }
+    return found;
+}
+
+static wt_status list_cases(const collected_case *cases, size_t n, wt_table **table, wt_error *err)
+{
+    table_writer w = table_begin(&collection_schema, err);
+    for (size_t i = 0; i < n; i++) {
+        const collected_case *c = &cases[i];
+        const finding ratio = finding_of_ratio(&c->tables),
+                      thickness = finding_of_thickness(&c->tables),
+                      change = finding_of_friction(&c->tables, FRICTION_KEY_RELATIVE_CHANGE);
+        TABLE_ADD(collection, &w, c->sample, c->condition, interval_of(&ratio),
+                  short_verdict(comparison_words(&c->tables.comparison, COMPARISON_KEY_DIFFERS)),
+                  interval_of(&thickness), interval_of(&change), c->file);
+    }
+    TABLE_SET(collection, &w, (double)n, (double)count_different(cases, n, false),
+              (double)count_different(cases, n, true));
+    return table_end(&w, table);
+}
+
+/* Relative standard error of what all curves of a group share (lever, tip and their like), by the
+ * budget of its modulus: 0 where nothing is stated, NaN where what is stated has an unknown effect.
+ * Between groups of one case it cancels, between cases it does not. */
+static double shared_error(const finding_tables *tables, const char *group)
+{
+    const table_view *budget = &tables->budget;
+    double variance = 0;
+    for (size_t row = 0; row < budget->n_rows; row++) {
+        const char *kind = modulus_budget_text(budget, row, MODULUS_BUDGET_KIND);
+        const double error = modulus_budget_get(budget, row, MODULUS_BUDGET_RELATIVE_ERROR);
+        if (strcmp(modulus_budget_text(budget, row, MODULUS_BUDGET_GROUP), group) != 0)
+            continue;
+        if (strcmp(kind, "together") == 0 && isnan(error))
+            return (double)NAN;
+        if (strcmp(kind, "shared") == 0 && !isnan(error))
+            variance += error * error;
+    }
+    return sqrt(variance);
+}
+
+/* The interval of a rate, which has the scatter of the spots, with what they share. */
+static wt_interval modulus_at(const collected_case *c, const char *group, size_t row)
+{
+    const table_view *rates = &c->tables.rates;
+    const double shared = NORMAL_95 * shared_error(&c->tables, group),
+                 value = modulus_rate_get(rates, row, MODULUS_RATE_GEOMETRIC_MEAN),
+                 down = log(value / modulus_rate_get(rates, row, MODULUS_RATE_LOW)),
+                 up = log(modulus_rate_get(rates, row, MODULUS_RATE_HIGH) / value);
+    return (wt_interval){value, (double)NAN, value * exp(-hypot(down, shared)),
+                         value * exp(hypot(up, shared))};
+}
+
+/* Rows of a rate, or one for all of a case that has none. */
+static wt_status list_moduli(const collected_case *cases, size_t n, wt_table **table, wt_error *err)
+{
+    size_t n_rows = 0;
+    table_writer w = table_begin(&collected_modulus_schema, err);
+    for (size_t i = 0; i < n; i++) {
+        const collected_case *c = &cases[i];
+        const table_view *rates = &c->tables.rates;
+        const char *before = "";
+        for (size_t row = 0; row < rates->n_rows; row++) {
+            const char *group = modulus_rate_text(rates, row, MODULUS_RATE_GROUP);
+            if (strcmp(group, before) != 0)
+                table_block(&w);
+            before = group;
+            TABLE_ADD(collected_modulus, &w, c->sample, c->condition, collected_place(c, group),
+                      modulus_rate_get(rates, row, MODULUS_RATE_RATE), modulus_at(c, group, row));
+            n_rows++;
+        }
+    }
+    const wt_status status = table_end(&w, table);
+    if (status == WT_OK && n_rows == 0) {
+        wt_table_free(*table);
+        *table = NULL;
+    }
+    return status;
+}
+
+static wt_status list_friction(const collected_case *cases, size_t n, wt_table **table,
+                               wt_error *err)
+{
+    bool total = true, any = false;
+    for (size_t i = 0; i < n; i++) {
+        const table_view *t = &cases[i].tables.friction;
+        any = any || t->n_rows > 0;
+        total = total && (t->n_rows == 0 || isfinite(friction_get(t, 0, FRICTION_TOTAL)));
+    }
+    if (!any)
+        return WT_OK;
+    table_writer w = table_begin(&collected_friction_schema, err);
+    for (size_t i = 0; i < n; i++) {
+        const collected_case *c = &cases[i];
+        const table_view *t = &c->tables.friction;
+        if (t->n_rows > 0)
+            table_block(&w);
+        for (size_t row = 0; row < t->n_rows; row++) {
+            TABLE_ADD(collected_friction, &w, c->sample, c->condition,
+                      friction_get(t, row, FRICTION_VELOCITY),
+                      friction_get(t, row, total ? FRICTION_TOTAL : FRICTION_HYSTERESIS),
+                      friction_get(t, row,
+                                   total ? FRICTION_TOTAL_STANDARD_ERROR
+                                         : FRICTION_HYSTERESIS_STANDARD_ERROR),
+                      total ? friction_get(t, row, FRICTION_WITH_LAYER) : (double)NAN);
+        }
+    }
+    TABLE_SET(collected_friction, &w, total ? "friction" : "hysteresis");
+    return table_end(&w, table);
+}
+
+/* Cases, those of one sample together; behind them, in `beside`, what is none. */
+static wt_status take_all(const wt_collected *from, size_t n, collected_case *cases,
+                          size_t *n_cases, wt_collected *beside, wt_error *err)
+{
+    *n_cases = 0;
+    for (size_t i = 0; i < n; i++) {
+        if (wt_result_find(from[i].result, answer_schema.name) == NULL) {
+            beside[i - *n_cases] = from[i];
+            continue;
+        }
+        const wt_status status = take_case(&from[i], &cases[*n_cases], err);
+        if (status != WT_OK)
+            return status;
+        ++*n_cases;
+    }
+    if (*n_cases == 0)
+        return wt_fail(err, WT_E_EMPTY, "there is no case");
+    qsort(cases, *n_cases, sizeof *cases, by_sample);
+    return check_names(cases, *n_cases, err);
+}
+
+wt_status wt_collect(const wt_collected *from, size_t n, const wt_collect_job *job,
+                     wt_collection_tables *tables, wt_error *err)
+{
+    *tables = (wt_collection_tables){0};
+    if (n == 0)
+        return wt_fail(err, WT_E_EMPTY, "there is no case");
+    wt_status status = param_check(wt_collect_job_params(), job, err);
+    collected_case *cases = calloc(n, sizeof *cases);
+    wt_collected *beside = calloc(n, sizeof *beside);
+    size_t n_cases = 0;
+    if (status == WT_OK && (cases == NULL || beside == NULL))
+        status = wt_fail(err, WT_E_MEMORY, "out of memory");
+    if (status == WT_OK)
+        status = take_all(from, n, cases, &n_cases, beside, err);
+    if (status == WT_OK)
+        status = list_cases(cases, n_cases, &tables->collection, err);
+    if (status == WT_OK)
+        status = list_moduli(cases, n_cases, &tables->collected_modulus, err);
+    if (status == WT_OK)
+        status = list_friction(cases, n_cases, &tables->collected_friction, err);
+    if (status == WT_OK)
+        status = collect_force(cases, n_cases, beside, n - n_cases, &tables->collected_force, err);
+    if (status == WT_OK)
+        status = collect_pairs(cases, n_cases, job->margin, &tables->ratio_pairs, err);
+    if (status == WT_OK)
+        status = collect_constants(cases, n_cases, job->constant_margin, tables, err);
+    if (status == WT_OK)
+        status = collect_layer_constants(cases, n_cases, job->constant_margin, tables, err);
+    free(beside);
+    free(cases);
+    if (status != WT_OK)
+        wt_collection_tables_clear(tables);
+    return status;
+}

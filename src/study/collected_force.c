@@ -1,0 +1,123 @@
+/* Force against indentation of all cases, and of groups beside them: bulk, wear tracks and what was
+ * indented for comparison, such as a particle of the filler, in one.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#include "study/collect.h"
+
+#include "core/table/table_rows.h"
+
+#include <stdio.h>
+#include <string.h>
+
+TABLE_ROW(collected_force, COLLECTED_FORCE, const char *sample, *condition, *place;
+          double indentation, force;)
+
+const char *collected_place(const collected_case *c, const char *group)
+{
+    return strcmp(group, "bulk") == 0 ? group : c->condition[0] != '\0' ? c->condition : "track";
+}
+
+static wt_status bind_force(const wt_result *result, const char *file, table_view *force,
+                            wt_error *err)
+{
+    const wt_status status = table_bind_of(result, &force_indentation_schema, "", force, err);
+    if (status != WT_OK)
+        wt_error_file(err, file);
+    return status;
+}
+
+/* What stands beside the cases, and of that the one that is added. */
+typedef struct force_beside {
+    const collected_case *cases;
+    const wt_collected *of;
+    size_t n_cases, n, at;
+} force_beside;
+
+static bool has_group(const wt_collected *of, const char *group)
+{
+    table_view force;
+    const bool bound =
+        table_bind_of(of->result, &force_indentation_schema, "", &force, NULL) == WT_OK;
+    for (size_t row = 0; bound && row < force.n_rows; row++)
+        if (strcmp(force_indentation_text(&force, row, FORCE_INDENTATION_GROUP), group) == 0)
+            return true;
+    return false;
+}
+
+/* Is there another place of that name? Without --group all that is indented is "bulk". */
+static bool is_taken(const force_beside *b, const char *group)
+{
+    bool taken = strcmp(group, "bulk") == 0 || strcmp(group, "track") == 0;
+    for (size_t i = 0; i < b->n_cases && !taken; i++)
+        taken = strcmp(group, b->cases[i].condition) == 0;
+    for (size_t i = 0; i < b->n && !taken; i++)
+        taken = i != b->at && has_group(&b->of[i], group);
+    return taken;
+}
+
+static void name_place(const force_beside *beside, const collected_case *c, const char *group,
+                       char *place, size_t size)
+{
+    if (beside == NULL)
+        (void)snprintf(place, size, "%s", collected_place(c, group));
+    else if (is_taken(beside, group))
+        (void)snprintf(place, size, "%s of %s", group, beside->of[beside->at].file);
+    else
+        (void)snprintf(place, size, "%s", group);
+}
+
+/* The curve of each group; of no case (`beside`) under the sample that it stands beside. */
+static void add_curves(table_writer *w, const collected_case *c, const table_view *force,
+                       const force_beside *beside)
+{
+    const char *before = NULL;
+    char place[400] = "";
+    for (size_t row = 0; row < force->n_rows; row++) {
+        const char *group = force_indentation_text(force, row, FORCE_INDENTATION_GROUP);
+        if (before == NULL || strcmp(group, before) != 0) {
+            table_block(w);
+            name_place(beside, c, group, place, sizeof place);
+        }
+        before = group;
+        TABLE_ADD(collected_force, w, c->sample, beside == NULL ? c->condition : "", place,
+                  force_indentation_get(force, row, FORCE_INDENTATION_INDENTATION),
+                  force_indentation_get(force, row, FORCE_INDENTATION_FORCE));
+    }
+}
+
+static wt_status add_beside(table_writer *w, force_beside beside, const collected_case *c,
+                            wt_error *err)
+{
+    for (beside.at = 0; beside.at < beside.n; beside.at++) {
+        const wt_collected *of = &beside.of[beside.at];
+        table_view force;
+        const wt_status status = bind_force(of->result, of->file, &force, err);
+        if (status != WT_OK)
+            return status;
+        add_curves(w, c, &force, &beside);
+    }
+    return WT_OK;
+}
+
+wt_status collect_force(const collected_case *cases, size_t n, const wt_collected *beside,
+                        size_t n_beside, wt_table **table, wt_error *err)
+{
+    const force_beside all = {cases, beside, n, n_beside, 0};
+    table_writer w = table_begin(&collected_force_schema, err);
+    wt_status status = WT_OK;
+    for (size_t i = 0; status == WT_OK && i < n; i++) {
+        table_view force;
+        status = bind_force(cases[i].result, cases[i].file, &force, err);
+        if (status == WT_OK)
+            add_curves(&w, &cases[i], &force, NULL);
+        if (status == WT_OK && (i + 1 == n || strcmp(cases[i].sample, cases[i + 1].sample) != 0))
+            status = add_beside(&w, all, &cases[i], err);
+    }
+    const wt_status ended = table_end(&w, table);
+    if (status == WT_OK)
+        status = ended;
+    if (status == WT_OK && wt_table_n_rows(*table) > 0)
+        return WT_OK;
+    wt_table_free(*table);
+    *table = NULL;
+    return status;
+}

@@ -1,0 +1,342 @@
+/* What the ratio of track and bulk holds beside their difference: levers, tip and temperature. What
+ * both groups share cancels in it; what each has of its own enters its error.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#include "dma/rubber.h"
+#include "study/compare.h"
+
+#include "core/base/clocale.h"
+
+#include <math.h>
+#include <string.h>
+
+/* Draws of the material behind the error of its change with temperature and rate, which is then
+ * known to 9 %. */
+enum { DRAWS = 64 };
+
+static double square_of(double x)
+{
+    return x * x;
+}
+
+static void include_error(compare_known *k, const char *sign, const char *words)
+{
+    const size_t used = strlen(k->includes);
+    snprintf(k->includes + used, sizeof k->includes - used, "%s%s", sign, words);
+}
+
+/* Adds a variance to that of the offset; one that is not known is named. */
+static void add_error(compare_known *k, double error, const char *words)
+{
+    if (isnan(error)) {
+        const size_t used = strlen(k->lacks);
+        include_error(k, ", but not, for it is not known: ", words);
+        snprintf(k->lacks + used, sizeof k->lacks - used, "%s%s", used > 0 ? ", " : "", words);
+    }
+    if (!(error > 0))
+        return;
+    k->offset.standard_error = hypot(k->offset.standard_error, error);
+    include_error(k, ", ", words);
+}
+
+static bool are_two(const compare_pair *p, wt_levers levers)
+{
+    const double bulk = p->data[0].spring_constant.value, track = p->data[1].spring_constant.value;
+    if (levers != WT_LEVERS_AUTO)
+        return levers == WT_LEVERS_TWO;
+    const char *const tip[2] = {p->data[0].tip, p->data[1].tip};
+    if (tip[0] != NULL && tip[1] != NULL && strcmp(tip[0], tip[1]) != 0)
+        return true;
+    if (p->data[0].several_tips || p->data[1].several_tips) /* even if both say the same ones */
+        return true;
+    return p->data[0].several_levers || p->data[1].several_levers ||
+           fabs(track - bulk) > 1e-9 * fabs(bulk);
+}
+
+/* What an error of one source makes of ln E of a group; NaN where none is stated. */
+typedef struct calibration {
+    double error, gain;
+} calibration;
+
+static calibration calibration_of(const wt_group_data *d, const wt_compare_job *job,
+                                  wt_common_source source)
+{
+    const double stated[WT_COMMON_SOURCES] = {
+        [WT_COMMON_SPRING_CONSTANT] = d->spring_constant.standard_error / d->spring_constant.value};
+    const double given[WT_COMMON_SOURCES] = {[WT_COMMON_SPRING_CONSTANT] = job->lever_error,
+                                             [WT_COMMON_SENSITIVITY] = job->sensitivity_error};
+    const double usual[WT_COMMON_SOURCES] = {[WT_COMMON_SPRING_CONSTANT] = 1,
+                                             [WT_COMMON_SENSITIVITY] = d->sensitivity_gain,
+                                             [WT_COMMON_HALF_ANGLE] = (double)NAN,
+                                             [WT_COMMON_RADIUS] = (double)NAN};
+    calibration c = {d->common_error[source], d->common_gain[source].value};
+    if (!(c.error > 0))
+        c.error = stated[source] > 0 ? stated[source] : given[source];
+    if (isnan(c.gain))
+        c.gain = usual[source];
+    return c;
+}
+
+static bool has_tip_error(const wt_group_data *d)
+{
+    return d->common_error[WT_COMMON_HALF_ANGLE] > 0 || d->common_error[WT_COMMON_RADIUS] > 0;
+}
+
+static void cancel_error(compare_known *k, const char *words)
+{
+    const size_t used = strlen(k->cancels);
+    snprintf(k->cancels + used, sizeof k->cancels - used, "%s%s", used > 0 ? ", " : "", words);
+}
+
+/* One lever and tip: their errors are those of both groups, and what is left is what the gains
+ * differ by. The force of a lever is in both moduli to the same power. */
+static void add_source(const compare_pair *p, const wt_compare_job *job, wt_common_source source,
+                       bool separate, const char *words, compare_known *k)
+{
+    const calibration bulk = calibration_of(&p->data[0], job, source),
+                      track = calibration_of(&p->data[1], job, source);
+    const double of_bulk = bulk.error > 0 ? bulk.gain * bulk.error : 0,
+                 of_track = track.error > 0 ? track.gain * track.error : 0;
+    if (separate) {
+        add_error(k, hypot(of_bulk, of_track), words);
+        return;
+    }
+    const double error = fmax(bulk.error > 0 ? bulk.error : 0, track.error > 0 ? track.error : 0);
+    if (!(error > 0))
+        return;
+    cancel_error(k, words);
+    if (source != WT_COMMON_SPRING_CONSTANT)
+        add_error(k, fabs(track.gain - bulk.gain) * error, words);
+}
+
+static void add_calibration(const compare_pair *p, const wt_compare_job *job, compare_known *k)
+{
+    const wt_group_data *bulk = &p->data[0], *track = &p->data[1];
+    k->two_levers = are_two(p, job->levers);
+    /* a lever that was mounted anew has been calibrated anew */
+    const double s[2] = {bulk->sensitivity.value, track->sensitivity.value};
+    const bool anew = bulk->several_sensitivities || track->several_sensitivities ||
+                      (!isnan(s[0]) && !isnan(s[1]) && s[0] != s[1]);
+    add_source(p, job, WT_COMMON_SENSITIVITY, k->two_levers || anew, "deflection sensitivity", k);
+    add_source(p, job, WT_COMMON_SPRING_CONSTANT, k->two_levers, "spring constants", k);
+    if (has_tip_error(bulk) || has_tip_error(track)) {
+        add_source(p, job, WT_COMMON_HALF_ANGLE, k->two_levers, "half-angle of the tip", k);
+        add_source(p, job, WT_COMMON_RADIUS, k->two_levers, "radius of the tip", k);
+    } else if (job->tip_error > 0) {
+        if (k->two_levers)
+            add_error(k, job->tip_error * M_SQRT2, "tips");
+        else
+            cancel_error(k, "tip");
+    }
+    if (!k->two_levers)
+        return;
+    for (int g = 0; g < 2; g++)
+        if (!(calibration_of(&p->data[g], job, WT_COMMON_SPRING_CONSTANT).error > 0))
+            k->lever_not_stated = true;
+}
+
+/* What the curves themselves show and no scatter does. One piezo goes on bending in contact in both
+ * groups or in none, and one tip is as wrong in both; the spectra of bulk and track may differ. */
+static void add_shown(const compare_pair *p, compare_known *k)
+{
+    double loss[2], bend[2], misfit[2];
+    for (int g = 0; g < 2; g++) {
+        const wt_group_data *d = &p->data[g];
+        loss[g] = p->by_factor ? 0 : d->loss_error;
+        bend[g] = d->bend_error;
+        misfit[g] = d->misfit_error;
+    }
+    const double of_loss = hypot(loss[0], loss[1]),
+                 of_bend = k->two_levers ? hypot(bend[0], bend[1]) : fabs(bend[1] - bend[0]),
+                 of_misfit =
+                     k->two_levers ? hypot(misfit[0], misfit[1]) : fabs(misfit[1] - misfit[0]);
+    k->shown = hypot(hypot(of_loss, of_bend), of_misfit);
+    k->loss_not_known = isnan(of_loss);
+    add_error(k, of_loss, "loss of unknown spectrum");
+    add_error(k, of_bend, "bend of the baselines");
+    add_error(k, of_misfit, "misfit of the contact law");
+}
+
+/* ---- temperature and rate -------------------------------------------------------------------- */
+
+/* Geometric mean of the equivalent frequencies; NaN if they are not known. */
+static double mean_frequency(const wt_group_data *d)
+{
+    double sum = 0;
+    for (size_t i = 0; i < d->group.n; i++)
+        sum += log(d->equivalent_frequency[i]);
+    return exp(sum / (double)d->group.n);
+}
+
+static wt_status log_modulus(const wt_rubber *rubber, condition at, uint64_t seed, size_t replicate,
+                             double *value, wt_error *err)
+{
+    wt_material *material = NULL;
+    double storage, loss;
+    wt_status status = wt_rubber_at(rubber, at.temperature, seed, replicate, &material, NULL, err);
+    if (status != WT_OK)
+        return status;
+    material->law->modulus(material, &at.frequency, 1, &storage, &loss);
+    *value = log(hypot(storage, loss));
+    wt_material_free(material);
+    return WT_OK;
+}
+
+wt_status compare_material(const wt_rubber *rubber, const condition *at, int n_at,
+                           const wt_job *work, wt_estimate *value, wt_error *err)
+{
+    double sum = 0;
+    size_t n = 0;
+    for (size_t i = 0; i <= DRAWS; i++) {
+        const size_t replicate = i == 0 ? WT_NO_REPLICATE : i - 1;
+        double y = 0, one = 0;
+        wt_status status = WT_OK;
+        for (int g = 0; status == WT_OK && g < n_at; g++) {
+            status = log_modulus(rubber, at[g], work->seed, replicate, &one, i == 0 ? err : NULL);
+            y = one - y;
+        }
+        if (status != WT_OK && (i == 0 || status == WT_E_MEMORY))
+            return status;
+        if (i == 0) {
+            value->value = y;
+        } else if (status == WT_OK && isfinite(y)) {
+            sum += square_of(y - value->value);
+            n++;
+        }
+    }
+    value->standard_error = sum > 0 ? sqrt(sum / (double)n) : (double)NAN;
+    return WT_OK;
+}
+
+wt_status compare_temperature_error(const wt_rubber *rubber, condition at, double error,
+                                    const wt_job *work, double *relative, wt_error *err)
+{
+    wt_error why = WT_ERROR_INIT;
+    double y[2] = {0, 0};
+    wt_status status = WT_OK;
+    const double below = at.temperature - error;
+    *relative = 0;
+    if (!(error > 0))
+        return WT_OK;
+    for (int i = 0; status == WT_OK && i < 2; i++) {
+        at.temperature = below + 2 * error * i;
+        if (!(at.temperature > 0) || !flow_rubber_reaches(rubber, at.temperature, &why)) {
+            *relative = (double)NAN;
+            return WT_OK;
+        }
+        status = log_modulus(rubber, at, work->seed, WT_NO_REPLICATE, &y[i], err);
+    }
+    *relative = fabs(y[1] - y[0]) / 2;
+    return status;
+}
+
+static bool law_reaches(const wt_rubber *rubber, double temperature, compare_known *k)
+{
+    wt_error why = WT_ERROR_INIT;
+    if (rubber == NULL || flow_rubber_reaches(rubber, temperature, &why))
+        return true;
+    clocale_print(k->out_of_reach, sizeof k->out_of_reach, "%.2f °C: %s",
+                  temperature - WT_ZERO_CELSIUS, why.message);
+    return false;
+}
+
+/* By the DMA: from the condition of the bulk to that of the track. */
+static wt_status add_dma(const compare_pair *p, const wt_compare_job *job, const wt_job *work,
+                         bool by_temperature, double step_error, compare_known *k, wt_error *err)
+{
+    condition at[2];
+    for (int g = 0; g < 2; g++) {
+        at[g].temperature = k->temperature[by_temperature ? g : 0];
+        at[g].frequency = mean_frequency(&p->data[k->rates_by_dma ? g : 0]);
+    }
+    condition near[2] = {at[1], at[1]};
+    near[0].temperature -= 1;
+    near[1].temperature += 1;
+    const bool near_too = by_temperature && step_error > 0 && job->rubber != NULL;
+    if (!law_reaches(job->rubber, at[0].temperature, k) ||
+        !law_reaches(job->rubber, at[1].temperature, k) ||
+        (near_too && !law_reaches(job->rubber, near[0].temperature, k)))
+        return WT_OK;
+    wt_estimate change = {0, (double)NAN, 0, "1"};
+    wt_status status = WT_OK;
+    if (job->rubber != NULL)
+        status = compare_material(job->rubber, at, 2, work, &change, err);
+    k->offset.value += p->by_factor ? 0 : change.value; /* which the factors are free of */
+    add_error(k, change.standard_error, "material");
+    if (status != WT_OK || !near_too)
+        return status;
+    status = compare_material(job->rubber, near, 2, work, &change, err);
+    add_error(k, fabs(change.value / 2) * step_error, "temperatures");
+    return status;
+}
+
+wt_status compare_temperature_slope(const compare_pair *p, const wt_compare_job *job,
+                                    const wt_job *work, double *slope, wt_error *err)
+{
+    condition at = {compare_temperature(job, 0).value, mean_frequency(&p->data[0])};
+    wt_error why = WT_ERROR_INIT;
+    double y[2] = {0, 0};
+    wt_status status = WT_OK;
+    *slope = 0;
+    at.temperature -= 1;
+    if (!(at.frequency > 0) || !flow_rubber_reaches(job->rubber, at.temperature, &why) ||
+        !flow_rubber_reaches(job->rubber, at.temperature + 2, &why))
+        return WT_OK;
+    for (int i = 0; status == WT_OK && i < 2; i++, at.temperature += 2)
+        status = log_modulus(job->rubber, at, work->seed, WT_NO_REPLICATE, &y[i], err);
+    *slope = status == WT_OK && isfinite(y[1] - y[0]) ? (y[1] - y[0]) / 2 : 0;
+    return status;
+}
+
+wt_estimate compare_temperature(const wt_compare_job *job, int group)
+{
+    wt_estimate t = group == 1 && !isnan(job->track_temperature.value) ? job->track_temperature
+                                                                       : job->temperature;
+    if (isnan(t.value)) /* a default, which the caveats name */
+        t = (wt_estimate){job->rubber->prony.reference_temperature, 0, 0, "K"};
+    if (!(t.standard_error > 0))
+        t.standard_error = 0;
+    return t;
+}
+
+static wt_status add_conditions(const compare_pair *p, const wt_compare_job *job,
+                                const wt_job *work, compare_known *k, wt_error *err)
+{
+    const wt_estimate slope = job->temperature_slope;
+    wt_estimate bulk = job->temperature;
+    if (isnan(bulk.value) && job->rubber != NULL) {
+        bulk.value = job->rubber->prony.reference_temperature;
+        bulk.standard_error = 0; /* a default, which the caveats name */
+    }
+    const bool apart = !isnan(job->track_temperature.value);
+    const wt_estimate track = apart ? job->track_temperature : bulk;
+    const double step = track.value - bulk.value;
+    const double step_error = apart ? hypot(bulk.standard_error, track.standard_error) : 0;
+    const bool has_dma =
+        p->by_factor || (job->rubber != NULL && isfinite(mean_frequency(&p->data[0])) &&
+                         isfinite(mean_frequency(&p->data[1])));
+    const bool warmer = apart && (step != 0 || step_error > 0);
+    k->temperature[0] = bulk.value;
+    k->temperature[1] = track.value;
+    if (apart && isnan(bulk.value)) {
+        k->temperature_not_known = true;
+    } else if (warmer && !isnan(slope.value)) {
+        k->offset.value += slope.value * step;
+        add_error(k, hypot(slope.value * step_error, slope.standard_error * step), "temperatures");
+    } else if (warmer && !has_dma) {
+        k->temperature_not_known = step != 0;
+    }
+    const bool by_dma = warmer && isnan(slope.value) && !k->temperature_not_known && has_dma;
+    k->rates_by_dma = k->rates_by_dma && has_dma;
+    if (by_dma || k->rates_by_dma)
+        return add_dma(p, job, work, by_dma, step_error, k, err);
+    return WT_OK;
+}
+
+wt_status compare_find_known(const compare_pair *p, const wt_compare_job *job, const wt_job *work,
+                             bool rates_by_dma, compare_known *known, wt_error *err)
+{
+    *known = (compare_known){.offset = {0, 0, 0, "1"}, .rates_by_dma = rates_by_dma};
+    add_calibration(p, job, known);
+    add_shown(p, known);
+    return add_conditions(p, job, work, known, err);
+}

@@ -1,0 +1,364 @@
+/* The table "comparison": all rates together, then rate by rate.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#include "study/compare.h"
+
+#include "core/base/range_text.h"
+#include "core/table/table_rows.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+typedef struct comparison_task {
+    compare_pair *p;
+    const wt_compare_job *job;
+    const wt_job *work;
+    compare_known known;
+    compare_unsaid unsaid;
+    compare_row *rows; /* [1 + n_rates] */
+    size_t n_rates;
+} comparison_task;
+
+/* A rate with one unit or without scatter leaves its row without numbers. */
+static wt_status compare_bin(comparison_task *task, size_t bin, compare_row *r, wt_error *err)
+{
+    compare_pair *p = task->p;
+    const bool all = bin == COMPARE_ALL_BINS;
+    wt_group bulk = compare_part(p, 0, bin, 0, p->by_factor),
+             track = compare_part(p, 1, bin, bulk.n, p->by_factor);
+    if (task->known.rates_by_dma)
+        bulk.rate = track.rate = NULL;
+    *r = (compare_row){.low = all ? (double)NAN : p->low[bin],
+                       .high = all ? (double)NAN : p->high[bin],
+                       .n = {bulk.n, track.n},
+                       .holm = (double)NAN};
+    if (!all && (bulk.n == 0 || track.n == 0))
+        return WT_OK;
+    wt_error failure = WT_ERROR_INIT;
+    const wt_status status = wt_compare(&bulk, &track, &task->known.offset, &r->c, &failure);
+    r->valid = status == WT_OK && r->c.unsettled == WT_SETTLED;
+    if (all && status == WT_OK) {
+        r->n[0] = r->c.curves_bulk;
+        r->n[1] = r->c.curves_track;
+    }
+    if (status == WT_OK || (status == WT_E_RANGE && !all))
+        return WT_OK;
+    if (err != NULL)
+        *err = failure;
+    return status;
+}
+
+static wt_status holm_rows(compare_row *rows, size_t n, wt_error *err)
+{
+    double *p = malloc((2 * n + 1) * sizeof *p);
+    size_t m = 0;
+    if (p == NULL)
+        return wt_fail(err, WT_E_MEMORY, "out of memory");
+    for (size_t i = 0; i < n; i++)
+        if (rows[i].valid)
+            p[m++] = rows[i].c.p;
+    wt_holm(p, m, p + n);
+    m = 0;
+    for (size_t i = 0; i < n; i++)
+        if (rows[i].valid)
+            rows[i].holm = p[n + m++];
+    free(p);
+    return WT_OK;
+}
+
+/* Without a curve in a group: a row that says how many the other has. */
+static wt_status count_units(const comparison_task *task, compare_row *r, wt_error *err)
+{
+    const double none = (double)NAN;
+    wt_group_summary of[2] = {{0}};
+    wt_status status = WT_OK;
+    *r = (compare_row){.low = none, .high = none, .holm = none};
+    for (int g = 0; status == WT_OK && g < 2; g++) {
+        const wt_group *group = &task->p->data[g].group;
+        r->n[g] = group->n;
+        if (group->n > 0)
+            status = wt_group_summarise(group, &of[g], err);
+    }
+    const wt_estimate unknown = {none, none, 0, "1"};
+    r->c = (wt_comparison){.by_spot = task->p->data[0].group.spot != NULL &&
+                                      task->p->data[1].group.spot != NULL,
+                           .n_bulk = of[0].n_spots,
+                           .n_track = of[1].n_spots,
+                           .unsettled = WT_ONE_SPOT,
+                           .log_ratio = unknown,
+                           .rate_slope = unknown,
+                           .interaction_p = none};
+    return status;
+}
+
+/* Where the curves do not say what their rates do, the DMA may. */
+static wt_status compare_rows(comparison_task *task, wt_error *err)
+{
+    compare_pair *p = task->p;
+    wt_status status = compare_find_known(p, task->job, task->work, false, &task->known, err);
+    if (status == WT_OK)
+        status = compare_bin(task, COMPARE_ALL_BINS, &task->rows[0], err);
+    if (status == WT_OK && task->rows[0].c.unsettled == WT_RATES_APART &&
+        (task->job->rubber != NULL || p->by_factor)) {
+        status = compare_find_known(p, task->job, task->work, true, &task->known, err);
+        if (status == WT_OK)
+            status = compare_bin(task, COMPARE_ALL_BINS, &task->rows[0], err);
+    }
+    for (size_t b = 0; status == WT_OK && b < p->n_bins; b++)
+        status = compare_bin(task, b, &task->rows[b + 1], err);
+    return status == WT_OK ? holm_rows(task->rows + 1, p->n_bins, err) : status;
+}
+
+wt_status compare_as_fitted(const wt_compare_job *job, const wt_job *work, wt_estimate *log_ratio,
+                            double *df, wt_error *err)
+{
+    compare_pair p = {0};
+    compare_row row = {.valid = false};
+    comparison_task task = {.p = &p, .job = job, .work = work};
+    *log_ratio = (wt_estimate){(double)NAN, (double)NAN, 0, "1"};
+    *df = (double)INFINITY;
+    wt_status status = compare_read(job, &p, err);
+    for (int g = 0; g < 2; g++)
+        p.data[g].misfit_error = 0;
+    if (status == WT_OK && p.data[0].group.n > 0 && p.data[1].group.n > 0) {
+        status = compare_find_known(&p, job, work, false, &task.known, err);
+        if (status == WT_OK)
+            status = compare_bin(&task, COMPARE_ALL_BINS, &row, err);
+    }
+    if (status == WT_OK && row.valid && !task.known.lever_not_stated) {
+        *log_ratio = row.c.log_ratio;
+        *df = row.c.df;
+    }
+    compare_pair_clear(&p);
+    return status;
+}
+
+/* ---- warnings -------------------------------------------------------------------------------- */
+
+static void warn_copies(const comparison_task *task)
+{
+    for (int g = 0; g < 2; g++) {
+        const wt_group_data *d = &task->p->data[g];
+        if (d->n_copies > 0)
+            wt_parselog_add(task->work->log, WT_WARNING, NULL, NULL,
+                            "%zu curves of the %s are there twice and count once: %s and %s hold "
+                            "the same",
+                            d->n_copies, compare_group_name[g], d->copy_of[0], d->copy_of[1]);
+    }
+}
+
+/* Welch's test at 5 % of normal deviates is wrong in 10 of 100 trials where two spots scatter five
+ * times as much as six, in 7 where they scatter alike, and in 6 of three spots against six: by two,
+ * Satterthwaite's degrees of freedom are known too badly. */
+static void warn_two_spots(const comparison_task *task)
+{
+    const wt_comparison *c = &task->rows[0].c;
+    if (!c->by_spot || (c->n_bulk == 2) == (c->n_track == 2) || c->n_bulk < 2 || c->n_track < 2)
+        return;
+    const int g = c->n_track == 2;
+    wt_parselog_add(task->work->log, WT_WARNING, NULL, NULL,
+                    "the two spots of the %s do not tell whether they scatter more than those of "
+                    "the %s; if they do, the interval is too narrow and a difference may be shown "
+                    "where there is none: measure a third spot",
+                    compare_group_name[g], compare_group_name[!g]);
+}
+
+/* What a single spot does not tell is taken from the others (compare_lone in fit). */
+static void warn_one_spot(const comparison_task *task)
+{
+    const wt_comparison *c = &task->rows[0].c;
+    if (c->unsettled != WT_SETTLED || (c->n_bulk > 1 && c->n_track > 1))
+        return;
+    if (c->scatter_given) {
+        wt_parselog_add(
+            task->work->log, WT_WARNING, NULL, NULL,
+            "the interval of the ratio rests on spots that scatter by %.3g %%, as given: "
+            "one spot does not tell it; three spots in each group would",
+            100 * task->job->spot_scatter);
+        return;
+    }
+    const int g = c->n_track == 1;
+    wt_parselog_add(task->work->log, WT_WARNING, NULL, NULL,
+                    "the %s has one spot only: it is taken to scatter up to twice as much as those "
+                    "of the %s; more spots would tell",
+                    compare_group_name[g], compare_group_name[!g]);
+}
+
+/* Rates in one group only are left out if there are others. */
+static void warn_rates(const comparison_task *task)
+{
+    const compare_pair *p = task->p;
+    const compare_row *all = &task->rows[0];
+    const size_t unknown[2] = {p->data[0].group.n, p->data[1].group.n};
+    size_t left_out = p->by_rate ? unknown[0] + unknown[1] : 0;
+    for (size_t b = 0; b < p->n_bins; b++) {
+        const compare_row *r = &task->rows[b + 1];
+        left_out -= p->by_rate ? r->n[0] + r->n[1] : 0;
+        if ((r->n[0] == 0) == (r->n[1] == 0))
+            continue;
+        wt_parselog_add(task->work->log, WT_WARNING, NULL, NULL,
+                        "curves at %s m/s are in one group only (bulk %zu, track %zu)%s",
+                        ends_of(r->low, r->high, 3).text, r->n[0], r->n[1],
+                        all->c.rates_by == WT_RATES_COMMON && all->c.unsettled != WT_RATES_APART
+                            ? "; the comparison leaves them out"
+                            : "");
+    }
+    if (left_out > 0)
+        wt_parselog_add(task->work->log, WT_WARNING, NULL, NULL,
+                        "%zu curves tell no indentation rate; the comparison leaves them out",
+                        left_out);
+}
+
+/* ---- the table ------------------------------------------------------------------------------- */
+
+TABLE_ROW_OF(comparison, COMPARISON, compare_row)
+
+/* The interval has room for what the ratio would be without the causes that may well be so. */
+static void add_rows(table_writer *t, const compare_row *rows, size_t n, bool silent, bool interval,
+                     const compare_unsaid *unsaid)
+{
+    for (size_t i = 0; i < n; i++) {
+        compare_row row = rows[i];
+        wt_comparison *c = &row.c;
+        const bool told = !silent && (i == 0 || row.valid);
+        if (!told)
+            c->ratio = (double)NAN;
+        if (!told || !interval || !row.valid)
+            c->ratio_low = c->ratio_high = c->t = c->df = c->p = row.holm = c->mann_whitney_p =
+                c->mann_whitney_smallest_p = c->effect_size = (double)NAN;
+        if (isinf(c->df))
+            c->df = (double)NAN; /* a normal error */
+        c->ratio_low *= exp(-unsaid->lower);
+        c->ratio_high *= exp(unsaid->higher);
+        comparison_add_row(t, &row);
+        comparison_put(t, COMPARISON_RATIO_LOW, c->ratio_low);
+        comparison_put(t, COMPARISON_RATIO_HIGH, c->ratio_high);
+    }
+}
+
+static const char *unit_words(const compare_pair *p, const wt_compare_job *job,
+                              const wt_comparison *c)
+{
+    if (!c->by_spot)
+        return "curve: no spots in the tables";
+    if (p->data[0].spots_given && p->data[1].spots_given)
+        return "spot";
+    if (job->map_spots)
+        return "spot: each place of a map counts as one";
+    return "spot: each file counts as one where none were named";
+}
+
+static const char *rates_words(const comparison_task *task)
+{
+    const wt_comparison *c = &task->rows[0].c;
+    if (!task->p->by_rate)
+        return "not known";
+    if (task->known.rates_by_dma || (task->p->by_factor && c->rates_by != WT_RATES_COMMON))
+        return "brought to one by the DMA";
+    if (task->p->by_factor)
+        return "those that both groups have, each brought to one by the DMA";
+    return c->rates_by == WT_RATES_WITHIN    ? "brought to one by the slope within the spots"
+           : c->rates_by == WT_RATES_BETWEEN ? "brought to one by the slope between the spots"
+                                             : "those that both groups have";
+}
+
+/* Half of what the ratios of the rates are apart, in ln; it goes on as an error of the one ratio.
+ */
+static double spread_of_rates(const compare_row *rates, size_t n)
+{
+    double low = (double)INFINITY, high = -(double)INFINITY;
+    for (size_t i = 0; i < n; i++)
+        if (rates[i].valid) {
+            low = fmin(low, rates[i].c.log_ratio.value);
+            high = fmax(high, rates[i].c.log_ratio.value);
+        }
+    return high > low ? (high - low) / 2 : 0;
+}
+
+TABLE_KEYS(comparison, COMPARISON, const char *differs, *settled_by, *would_explain, *unit, *rates,
+           *includes, *cantilevers, *cancels;
+           wt_estimate margin, rate_slope, ratio;
+           double interaction_p, ratio_df, calibration_share, spot_scatter;)
+
+/* The error that goes on to friction: in ln, as Student's t; not known without an interval. */
+static void find_ratio(const comparison_task *task, bool twisted, bool interval,
+                       comparison_keys *keys)
+{
+    const wt_comparison *c = &task->rows[0].c;
+    double error = interval ? c->log_ratio.standard_error : (double)NAN;
+    if (twisted)
+        error = hypot(error, spread_of_rates(task->rows + 1, task->p->n_bins));
+    /* any share of what else may make it is as likely */
+    error = hypot(error, hypot(task->unsaid.lower, task->unsaid.higher) / sqrt(3));
+    keys->ratio = (wt_estimate){c->ratio, c->ratio * error, 0, NULL};
+    if (interval && isfinite(c->df))
+        keys->ratio_df = c->df;
+    /* of the variance above: spring constants, sensitivities, tips, temperatures */
+    const double known = c->known_share * pow(c->log_ratio.standard_error / error, 2);
+    if (interval && known > 0)
+        keys->calibration_share = known;
+}
+
+static wt_status write_table(const comparison_task *task, wt_table **table, wt_error *err)
+{
+    const compare_pair *p = task->p;
+    const wt_comparison *c = &task->rows[0].c;
+    const size_t n_rates = task->n_rates;
+    const compare_verdict v = compare_judge(p, task->job, &task->known, &task->unsaid,
+                                            &task->rows[0], task->rows + 1, n_rates);
+    const bool interval = c->unsettled == WT_SETTLED && !task->known.lever_not_stated;
+    table_writer t = table_begin(&comparison_schema, err);
+    add_rows(&t, task->rows, n_rates + 1, v.silent, interval, &task->unsaid);
+    const bool given = interval && c->scatter_given;
+    char includes[384];
+    snprintf(includes, sizeof includes, "%s%s%s",
+             given ? "scatter of spots as given" : "scatter of the units", task->known.includes,
+             task->unsaid.plausible[0] != '\0' ? " + what else may well make the ratio" : "");
+    const double none = (double)NAN;
+    comparison_keys keys = {.differs = v.differs,
+                            .settled_by = v.settled_by,
+                            .would_explain = v.silent ? NULL : task->unsaid.would_explain,
+                            .unit = unit_words(p, task->job, c),
+                            .rates = rates_words(task),
+                            .includes = interval && !v.silent ? includes : NULL,
+                            .cantilevers = task->known.two_levers ? "two" : "one",
+                            .cancels = v.silent ? NULL : task->known.cancels,
+                            .margin = {task->job->margin, 0, 0, NULL},
+                            .rate_slope = c->rate_slope,
+                            .ratio = {none, none, 0, NULL},
+                            .interaction_p = c->interaction_p,
+                            .ratio_df = none,
+                            .calibration_share = none,
+                            .spot_scatter = given ? task->job->spot_scatter : none};
+    if (!v.silent)
+        find_ratio(task, v.twisted, interval, &keys);
+    comparison_set_keys(&t, &keys);
+    return table_end(&t, table);
+}
+
+wt_status compare_make_table(compare_pair *p, const wt_compare_job *job, const wt_job *work,
+                             wt_table **table, wt_error *err)
+{
+    comparison_task task = {.p = p, .job = job, .work = work};
+    const bool both = p->data[0].group.n > 0 && p->data[1].group.n > 0;
+    task.n_rates = both ? p->n_bins : 0;
+    task.rows = calloc(task.n_rates + 1, sizeof *task.rows);
+    if (task.rows == NULL)
+        return wt_fail(err, WT_E_MEMORY, "out of memory");
+    wt_status status = both ? compare_rows(&task, err) : count_units(&task, task.rows, err);
+    if (status == WT_OK && !both)
+        status = compare_find_known(p, job, work, false, &task.known, err);
+    if (status == WT_OK && both)
+        status = compare_find_unsaid(p, job, work, &task.rows[0], &task.unsaid, err);
+    if (status == WT_OK)
+        warn_copies(&task);
+    if (status == WT_OK && both) {
+        warn_two_spots(&task);
+        warn_one_spot(&task);
+        warn_rates(&task);
+    }
+    if (status == WT_OK)
+        status = write_table(&task, table, err);
+    free(task.rows);
+    return status;
+}

@@ -1,0 +1,314 @@
+/* Does the track differ from the bulk? Yes, no within a margin, or: cannot say, and what would
+ * settle it. SPDX-License-Identifier: GPL-3.0-or-later */
+#include "study/compare.h"
+
+#include "core/base/clocale.h"
+#include "core/base/number.h"
+
+#include <math.h>
+#include <string.h>
+
+/* Scatter of ln E between spots where none is measured, for the number of spots that is advised.
+ * Chosen: twice as much asks for four times the spots. */
+static const double scatter_assumed = 0.15;
+/* The customary one, and that of the intervals. */
+static const double level = 0.05;
+
+typedef struct verdict_words {
+    char text[48];
+} verdict_words;
+
+static verdict_words percent_words(double share)
+{
+    verdict_words w;
+    clocale_print(w.text, sizeof w.text, share < 0.0995 ? "%.2g %%" : "%.0f %%", 100 * share);
+    return w;
+}
+
+static verdict_words rate_words(double rate)
+{
+    verdict_words w;
+    wt_format_si(rate, "m/s", 2, w.text, sizeof w.text);
+    return w;
+}
+
+#define SAY(field, ...) clocale_print((field), sizeof(field), __VA_ARGS__)
+
+/* How many spots: at the scatter there is, for the difference there seems to be, but none smaller
+ * than the margin. */
+static void ask_for_spots(const wt_compare_job *job, const wt_comparison *c, compare_verdict *v)
+{
+    const double least = log1p(job->margin);
+    const double found = isnan(c->log_ratio.value) ? 0 : c->log_ratio.value;
+    const double difference = fabs(found) > least ? found : least;
+    const bool measured = c->scatter > 0;
+    const bool given = !measured && job->spot_scatter > 0;
+    const double scatter = measured ? c->scatter : given ? job->spot_scatter : scatter_assumed;
+    const size_t n = wt_spots_needed(difference, scatter);
+    char number[64];
+    if (n == 0)
+        snprintf(number, sizeof number, "more than 1000 spots");
+    else
+        snprintf(number, sizeof number, "%zu spots", n < 3 ? 3 : n);
+    const char *third = "";
+    if (c->by_spot && c->n_bulk == 2 && c->n_track > 2)
+        third = "a third spot in the bulk first, for two do not tell how much they scatter; ";
+    else if (c->by_spot && c->n_track == 2 && c->n_bulk > 2)
+        third = "a third spot in the track first, for two do not tell how much they scatter; ";
+    SAY(v->settled_by,
+        "%s%s in each group would show a difference of %s in four of five trials where spots "
+        "scatter by %s%s; more curves on a spot do not help",
+        third, number, percent_words(fabs(expm1(difference))).text, percent_words(scatter).text,
+        measured ? ", as they do here"
+        : given  ? ", as given"
+                 : " (assumed)");
+}
+
+static void name_rates(const compare_pair *p, int g, char *text, size_t size)
+{
+    size_t first = p->n_bins, last = 0;
+    for (size_t b = 0; b < p->n_bins; b++)
+        for (size_t i = 0; i < p->data[g].group.n; i++)
+            if (p->bin[g][i] == b) {
+                first = b < first ? b : first;
+                last = b;
+            }
+    if (first == p->n_bins)
+        snprintf(text, size, "not known");
+    else if (first == last)
+        snprintf(text, size, "%s", rate_words(p->high[last]).text);
+    else
+        snprintf(text, size, "%s to %s", rate_words(p->low[first]).text,
+                 rate_words(p->high[last]).text);
+}
+
+static void say_rates_apart(const compare_pair *p, bool twisted, compare_verdict *v)
+{
+    char bulk[112], track[112];
+    name_rates(p, 0, bulk, sizeof bulk);
+    name_rates(p, 1, track, sizeof track);
+    SAY(v->differs,
+        "cannot say: bulk (%s) and track (%s) have no indentation rate in common, and %s", bulk,
+        track,
+        twisted ? "their moduli change with the rate in different ways"
+                : "nothing says how the modulus depends on the rate");
+    SAY(v->settled_by, "curves of both at one rate%s",
+        twisted ? "" : ", or at several rates on each spot, or a DMA of the rubber");
+}
+
+/* What would have a modulus, where curves were rejected for this. */
+static const char *better_curves(wt_curve_verdict rejected_for)
+{
+    switch (rejected_for) {
+    case WT_CURVE_POOR_FIT:
+    case WT_CURVE_ADHESIVE:
+    case WT_CURVE_AMBIGUOUS:
+        return "what the contact law lacks: radius and half-angle of the tip as it is now (curves "
+               "on the bulk again after the track tell whether it wore), curves without a pull, a "
+               "DMA of the rubber for its loss, a larger depth if it is rough";
+    case WT_CURVE_NO_BASELINE:
+    case WT_CURVE_DRIFT:
+        return "curves that begin farther from the sample, with a straight baseline";
+    case WT_CURVE_NO_CONTACT:
+    case WT_CURVE_IMPRECISE:
+        return "curves that are pressed further, or with less noise";
+    case WT_CURVE_SATURATED:
+        return "curves that are pressed less far, or a stiffer lever";
+    case WT_CURVE_NEGATIVE:
+    case WT_CURVE_RIGID:
+        return "the sign of the deflection and the deflection sensitivity, or a stiffer lever";
+    default:
+        return "curves whose approach is there as a whole";
+    }
+}
+
+/* A group has no curve with a modulus: the other one is told by itself. */
+static bool judge_empty(const compare_pair *p, compare_verdict *v)
+{
+    const bool empty[2] = {p->data[0].group.n == 0, p->data[1].group.n == 0};
+    if (!empty[0] && !empty[1])
+        return false;
+    v->silent = true;
+    SAY(v->differs, "cannot say: ");
+    for (int g = 0; g < 2; g++) {
+        const wt_group_data *d = &p->data[g];
+        const size_t used = strlen(v->differs), told = strlen(v->settled_by);
+        if (!empty[g])
+            continue;
+        const char *also = g > 0 && empty[0] ? "; " : "";
+        if (d->group.n_rejected == 1)
+            clocale_print(v->differs + used, sizeof v->differs - used,
+                          "%sthe only curve of the %s has no modulus", also, compare_group_name[g]);
+        else
+            clocale_print(v->differs + used, sizeof v->differs - used,
+                          "%snone of the %zu curves of the %s has a modulus", also,
+                          d->group.n_rejected, compare_group_name[g]);
+        const char *better = better_curves(d->rejected_for);
+        if (d->n_rejected_for > 0) {
+            const size_t end = strlen(v->differs);
+            clocale_print(v->differs + end, sizeof v->differs - end, " (%zu: %s)",
+                          d->n_rejected_for, wt_curve_verdict_text(d->rejected_for));
+        }
+        if (strstr(v->settled_by, better) == NULL)
+            clocale_print(v->settled_by + told, sizeof v->settled_by - told, "%s%s",
+                          told > 0 ? "; " : "", better);
+    }
+    return true;
+}
+
+/* What keeps the ratio itself from being known. */
+static bool judge_conditions(const compare_pair *p, const compare_known *k, const compare_row *row,
+                             compare_verdict *v)
+{
+    const wt_comparison *c = &row->c;
+    v->silent = true;
+    if (k->temperature_not_known) {
+        SAY(v->differs, "cannot say: bulk and track were indented at different temperatures, and "
+                        "nothing says how the modulus changes with temperature");
+        SAY(v->settled_by, "a DMA of the rubber, the slope of ln E against temperature "
+                           "(temperature-slope), or curves at one temperature");
+    } else if (k->out_of_reach[0] != '\0') {
+        SAY(v->differs, "cannot say: the DMA does not reach %s", k->out_of_reach);
+        SAY(v->settled_by, "DMA isotherms at that temperature, %s",
+            k->rates_by_dma ? "or curves of both at one rate"
+                            : "the slope of ln E against temperature (temperature-slope), or "
+                              "curves at one temperature");
+    } else if (c->unsettled == WT_RATES_APART || c->unsettled == WT_RATES_TWIST) {
+        say_rates_apart(p, c->unsettled == WT_RATES_TWIST, v);
+    } else {
+        v->silent = false;
+    }
+    return v->silent;
+}
+
+/* What leaves it without an interval. */
+static bool judge_error(const compare_pair *p, const wt_compare_job *job, const compare_known *k,
+                        const compare_row *row, compare_verdict *v)
+{
+    const wt_comparison *c = &row->c;
+    if (c->unsettled == WT_ONE_SPOT) {
+        const bool both = c->n_bulk < 2 && c->n_track < 2;
+        const bool file = (c->n_bulk < 2 && !p->data[0].spots_given && !job->map_spots) ||
+                          (c->n_track < 2 && !p->data[1].spots_given && !job->map_spots);
+        SAY(v->differs,
+            "cannot say: %s measured on one spot only%s, so it is not known how much the modulus "
+            "changes from place to place",
+            both            ? "bulk and track were each"
+            : c->n_bulk < 2 ? "the bulk was"
+                            : "the track was",
+            file ? " (the curves of one file, none of them with a named spot)" : "");
+        ask_for_spots(job, c, v);
+        return true;
+    }
+    if (k->lever_not_stated) {
+        SAY(v->differs, "cannot say: bulk and track were indented with different cantilevers, and "
+                        "the error of a spring constant is not stated");
+        SAY(v->settled_by, "one cantilever for both, or the errors of the spring constants "
+                           "(spring-constant-error)");
+        return true;
+    }
+    return false;
+}
+
+/* A ratio for each rate: each is judged by itself, with p corrected for their number. */
+static void judge_twist(const compare_row *rates, size_t n, double interaction, compare_verdict *v)
+{
+    bool softer = false, stiffer = false;
+    for (size_t i = 0; i < n; i++) {
+        if (!rates[i].valid || !(rates[i].holm < level))
+            continue;
+        softer = softer || rates[i].c.ratio < 1;
+        stiffer = stiffer || rates[i].c.ratio > 1;
+    }
+    v->twisted = true;
+    if (!softer && !stiffer) {
+        SAY(v->differs,
+            "cannot say: the ratio depends on the rate (p %s), and at no single rate is a "
+            "difference shown",
+            number_chance(interaction).text);
+        SAY(v->settled_by, "more spots at each rate");
+        return;
+    }
+    SAY(v->differs,
+        "yes: the wear track is %s the bulk, by a ratio that depends on the rate (p %s)",
+        softer && stiffer ? "at some rates softer and at others stiffer than"
+        : softer          ? "softer than"
+                          : "stiffer than",
+        number_chance(interaction).text);
+}
+
+/* An interval that lacks something shows no difference to be small. */
+static void say_lacking(const wt_compare_job *job, const compare_known *k, compare_verdict *v)
+{
+    SAY(v->differs,
+        "cannot say: the interval of the ratio has no room for a difference above %s, but it does "
+        "not hold, for it is not known: %s",
+        percent_words(job->margin).text, k->lacks);
+    if (k->loss_not_known)
+        SAY(v->settled_by, "%s",
+            "curves whose samples have times, or a DMA of the rubber: either tells what the loss "
+            "of the curves does to their moduli");
+    else
+        SAY(v->settled_by, "the error or the effect of: %s", k->lacks);
+}
+
+/* What else may well make the ratio keeps the answer back. */
+static void say_unsaid(const compare_unsaid *unsaid, const char *seems, compare_verdict *v)
+{
+    SAY(v->differs, "cannot say: the wear track %s, but this may be as well: %s", seems,
+        unsaid->plausible);
+    SAY(v->settled_by, "%s", unsaid->settled_by);
+}
+
+compare_verdict compare_judge(const compare_pair *p, const wt_compare_job *job,
+                              const compare_known *known, const compare_unsaid *unsaid,
+                              const compare_row *row, const compare_row *rates, size_t n_rates)
+{
+    const wt_comparison *c = &row->c;
+    const double margin = log1p(job->margin);
+    compare_verdict v = {0};
+    if (judge_empty(p, &v) || judge_conditions(p, known, row, &v) ||
+        judge_error(p, job, known, row, &v))
+        return v;
+    if (c->interaction_p < level) {
+        judge_twist(rates, n_rates, c->interaction_p, &v);
+        if (strncmp(v.differs, "yes", 3) == 0 && unsaid->plausible[0] != '\0')
+            say_unsaid(unsaid, "seems to differ, by a ratio that depends on the rate", &v);
+        return v;
+    }
+    const double low = log(c->ratio_low), high = log(c->ratio_high);
+    const bool within = low > -margin && high < margin;
+    if (within && known->lacks[0] != '\0') {
+        say_lacking(job, known, &v);
+    } else if ((low > 0 || high < 0 || within) && unsaid->plausible[0] != '\0') {
+        say_unsaid(unsaid,
+                   high < 0  ? "seems softer"
+                   : low > 0 ? "seems stiffer"
+                             : "seems to differ by less than the margin",
+                   &v);
+    } else if (low > 0 || high < 0) {
+        SAY(v.differs, "yes: the wear track is %s than the bulk%s", high < 0 ? "softer" : "stiffer",
+            within ? ", by less than the margin" : "");
+    } else if (within) {
+        SAY(v.differs, "no: the wear track differs from the bulk by less than %s, the margin set",
+            percent_words(job->margin).text);
+    } else {
+        SAY(v.differs,
+            "cannot say: the interval of the ratio has room for no difference and for one above %s",
+            percent_words(job->margin).text);
+        const double known_error = known->offset.standard_error;
+        if (c->known_share > 0.5 && known->shown * known->shown > 0.5 * known_error * known_error)
+            SAY(v.settled_by, "%s",
+                "a DMA of the rubber, which tells the spectrum behind the loss, or curves with "
+                "straight baselines: what the curves lose and bend is most of the interval");
+        else if (c->known_share > 0.5)
+            SAY(v.settled_by, "%s",
+                known->two_levers
+                    ? "one cantilever for both groups: its errors cancel in the ratio"
+                    : "temperature and rate the same in both groups: their errors are most of "
+                      "the interval");
+        else
+            ask_for_spots(job, c, &v);
+    }
+    return v;
+}

@@ -1,0 +1,574 @@
+/* Coverage: the case drawn anew from its own fit many times, and how often the intervals that it
+ * then states hold what it was drawn from. SPDX-License-Identifier: GPL-3.0-or-later */
+#include "dma/master.h"
+#include "dma/rubber.h"
+#include "indentation/curve_set.h"
+#include "indentation/indent.h"
+#include "job/cost.h"
+#include "job/inputs.h"
+#include "job/random_draws.h"
+#include "study/coverage_share.h"
+#include "study/parametric_bootstrap.h"
+
+#include "core/base/param.h"
+#include "core/math/normal_quantile.h"
+#include "core/math/splitmix64.h"
+#include "core/table/table_rows.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+wt_coverage_job wt_coverage_job_defaults(void)
+{
+    return (wt_coverage_job){.trials = 0};
+}
+
+static const wt_param rows[] = {
+    {PARAM("coverage", wt_coverage_job, trials, WT_Q_NONE, FROM_TO(0, 100000)), .value = "N",
+     .help = "of a case, instead of the budget: how often its intervals hold in N trials drawn "
+             "from its own fit"},
+};
+PARAM_TABLE(wt_coverage_job_params, wt_coverage_job, rows, wt_coverage_job_defaults, NO_PARTS)
+
+/* Whose intervals are judged; the numbers of a setting come first. */
+enum { OF_SHIFTS = SETTING_NUMBERS, OF_C1, OF_C2, OF_CURVES, OF_CONTACT, OF_RATIO, N_JUDGED };
+static const char *judged_words(size_t k)
+{
+    static const char *const others[N_JUDGED] = {[OF_SHIFTS] = "shift factors",
+                                                 [OF_C1] = "WLF constant c1",
+                                                 [OF_C2] = "WLF constant c2",
+                                                 [OF_CURVES] = "moduli of the curves",
+                                                 [OF_CONTACT] = "contact points of the curves",
+                                                 [OF_RATIO] = "modulus ratio by its spots"};
+    return k < SETTING_NUMBERS ? setting_words[k] : others[k];
+}
+
+/* One trial of one number: whether the truth lies within, as a share where there are several. */
+typedef struct hit {
+    double one, both, deviation, variance; /* squares of the last two; `one` NaN: none was stated */
+} hit;
+
+typedef struct coverage {
+    const wt_coverage_job *job;
+    wt_job work; /* of one trial */
+    setting setting;
+    wt_estimate truth[SETTING_NUMBERS];
+    wt_master fit;       /* n_shifts 0: the material is held */
+    wt_master layer_fit; /* likewise, of the layer's own */
+    wt_group_data data[2];
+    scattered_group group[2];
+    bool has_groups, has_curves;
+    double log_ratio;
+    wt_contact_table *contact[2]; /* of the curves, as the next two */
+    wt_prony spectrum[2];         /* without terms: none */
+    curve_scratch **scratch;      /* [n_workers] */
+    unsigned n_workers;
+    hit *hits; /* [trials * N_JUDGED] */
+} coverage;
+
+static hit hit_of(double value, double error, double low, double high, double truth)
+{
+    if (!(error > 0) || !isfinite(value) || !isfinite(truth))
+        return (hit){(double)NAN, (double)NAN, (double)NAN, (double)NAN};
+    return (hit){fabs(value - truth) <= error, low <= truth && truth <= high,
+                 (value - truth) * (value - truth), error * error};
+}
+
+static hit judge_interval(wt_interval x, double truth)
+{
+    return hit_of(x.value, x.standard_error, x.low, x.high, truth);
+}
+
+/* Of a normal number whose truth is 0. */
+static hit judge_estimate(wt_estimate e)
+{
+    const double half = NORMAL_95 * e.standard_error;
+    return hit_of(e.value, e.standard_error, e.value - half, e.value + half, 0);
+}
+
+/* Of several alike: their sum with its number, and their mean. */
+typedef struct hit_sum {
+    hit of;
+    double n;
+} hit_sum;
+
+static void add_hit(hit_sum *sum, hit h)
+{
+    if (isnan(h.one))
+        return;
+    sum->of = (hit){sum->of.one + h.one, sum->of.both + h.both, sum->of.deviation + h.deviation,
+                    sum->of.variance + h.variance};
+    sum->n++;
+}
+
+static hit mean_hit(hit_sum sum)
+{
+    return (hit){sum.of.one / sum.n, sum.of.both / sum.n, sum.of.deviation / sum.n,
+                 sum.of.variance / sum.n};
+}
+
+/* Whether what the groups of a trial say goes into its friction. */
+static bool takes_ratio(const coverage *c)
+{
+    return c->has_groups && c->job->ratio_of_groups && c->setting.has_known &&
+           c->setting.known.modulus_ratio.standard_error > 0;
+}
+
+/* ---- one trial ------------------------------------------------------------------------------- */
+
+static hit judge_shifts(const wt_master *m, const double *truth)
+{
+    hit_sum sum = {0};
+    for (size_t k = 0; k < m->n_shifts; k++)
+        add_hit(&sum, judge_interval(m->shifts[k].log_a, truth[k]));
+    return mean_hit(sum);
+}
+
+/* What a trial finds of the shifts and the law. */
+static void judge_law(const wt_master *fit, const wt_master *truth, const double *shift, hit *hits)
+{
+    if (fit->n_shifts == truth->n_shifts)
+        hits[OF_SHIFTS] = judge_shifts(fit, shift);
+    if (fit->law.kind == WT_LAW_WLF && truth->law.kind == WT_LAW_WLF) {
+        hits[OF_C1] = judge_interval(fit->c1, truth->c1.value);
+        hits[OF_C2] = judge_interval(fit->c2, truth->c2.value);
+    }
+}
+
+/* Isotherms drawn anew and fitted as the case fits its own; hits NULL: of the layer. */
+static wt_status try_material(const coverage *c, const wt_rubber *own, const wt_master *truth,
+                              uint64_t seed, wt_rubber *rubber, hit *hits, wt_error *err)
+{
+    wt_sweep sweep = {0};
+    wt_master fit = {0};
+    double *shift = malloc((truth->n_shifts + 1) * sizeof *shift);
+    wt_status status = shift == NULL
+                           ? wt_fail(err, WT_E_MEMORY, "out of memory")
+                           : regenerate_sweep(&own->sweep, truth, seed, &sweep, shift, err);
+    if (status == WT_OK)
+        status = flow_rubber_fit(&sweep, &own->fit, own->poisson_ratio, FLOW_STORED_DRAWS, &c->work,
+                                 &fit, rubber, err);
+    if (status == WT_OK && hits != NULL)
+        judge_law(&fit, truth, shift, hits);
+    if (status == WT_OK) {
+        rubber->is_transverse = own->is_transverse;
+        rubber->transverse = own->transverse;
+    }
+    wt_sweep_clear(&sweep);
+    wt_master_clear(&fit);
+    free(shift);
+    return status;
+}
+
+/* The materials of a trial; those without isotherms are as given. */
+static wt_status try_materials(const coverage *c, uint64_t seed, setting *s, wt_rubber *bulk,
+                               wt_rubber *layer, hit *hits, wt_error *err)
+{
+    wt_status status = WT_OK;
+    if (c->fit.n_shifts > 0) {
+        status = try_material(c, &c->setting.rubber, &c->fit, seed, bulk, hits, err);
+        s->rubber = *bulk;
+        s->given = NULL;
+    }
+    if (status == WT_OK && c->layer_fit.n_shifts > 0) {
+        status =
+            try_material(c, &c->setting.layer_rubber, &c->layer_fit, mix64(seed), layer, NULL, err);
+        s->layer_rubber = *layer;
+    }
+    return status;
+}
+
+/* The force curves of a group drawn anew about moduli that scatter, fitted with the spectrum of the
+ * trial. The accepted ones follow one another. */
+static wt_status try_curves(const coverage *c, unsigned g, const wt_rubber *rubber, uint64_t seed,
+                            unsigned worker, double *modulus, long *spot, size_t *n, hit_sum *sums,
+                            wt_error *err)
+{
+    const wt_curve_set *set = c->job->curves[g];
+    const bool known = c->spectrum[g].n > 0;
+    wt_prony own = {0};
+    char ignored[256];
+    wt_status status = WT_OK;
+    size_t accepted = 0;
+    if (known && rubber != NULL)
+        status = flow_rubber_spectrum(rubber, curve_set_temperature(set), &own, ignored, err);
+    const wt_prony *fitted = !known ? NULL : rubber != NULL ? &own : &c->spectrum[g];
+    for (size_t i = 0; i < *n && status == WT_OK; i++) {
+        curve_again again;
+        status = curve_set_try(set, i, modulus[i], known ? &c->spectrum[g] : NULL, fitted,
+                               c->contact[g], mix64(seed + g), c->scratch[worker], &again, err);
+        if (status != WT_OK || !again.accepted)
+            continue;
+        add_hit(&sums[OF_CURVES], judge_estimate(again.log_level));
+        add_hit(&sums[OF_CONTACT], judge_estimate(again.contact_point));
+        modulus[accepted] = again.level;
+        spot[accepted++] = c->group[g].spot[i];
+    }
+    wt_prony_clear(&own);
+    *n = accepted;
+    return status;
+}
+
+/* rubber: of the trial, NULL where the material is held. */
+static wt_status try_groups(const coverage *c, const wt_rubber *rubber, uint64_t seed,
+                            unsigned worker, hit *hits, wt_comparison *comparison, wt_error *err)
+{
+    wt_group group[2];
+    wt_comparison found;
+    hit_sum sums[N_JUDGED] = {0};
+    const size_t n[2] = {c->group[0].n, c->group[1].n};
+    double *modulus = malloc((n[0] + n[1]) * sizeof *modulus);
+    long *spot = malloc((n[0] + n[1]) * sizeof *spot);
+    wt_status status =
+        modulus == NULL || spot == NULL ? wt_fail(err, WT_E_MEMORY, "out of memory") : WT_OK;
+    for (unsigned g = 0; g < 2 && status == WT_OK; g++) {
+        double *own = modulus + (g == 0 ? 0 : n[0]);
+        long *of = spot + (g == 0 ? 0 : n[0]);
+        regenerate_group(&c->group[g], seed, g, own);
+        group[g] = (wt_group){.modulus = own, .spot = c->group[g].spot, .n = n[g]};
+        if (!c->has_curves)
+            continue;
+        status = try_curves(c, g, rubber, seed, worker, own, of, &group[g].n, sums, err);
+        group[g].spot = of;
+    }
+    for (int k = OF_CURVES; k <= OF_CONTACT && status == WT_OK && c->has_curves; k++)
+        hits[k] = mean_hit(sums[k]);
+    if (status == WT_OK)
+        status = wt_compare(&group[0], &group[1], NULL, &found, err);
+    if (status == WT_OK)
+        hits[OF_RATIO] = hit_of(found.log_ratio.value, found.log_ratio.standard_error,
+                                log(found.ratio_low), log(found.ratio_high), c->log_ratio);
+    if (status == WT_OK)
+        *comparison = found;
+    free(modulus);
+    free(spot);
+    return status;
+}
+
+/* The ratio that the friction with the layer takes is that of the trial: of its spots, and of its
+ * calibration, which another time would have been off by another share of its error. */
+static void take_ratio(const coverage *c, const wt_comparison *found, uint64_t seed, setting *s)
+{
+    const wt_layer_known *truth = &c->setting.known;
+    const double error = truth->modulus_ratio.standard_error / truth->modulus_ratio.value;
+    const double calibration = sqrt(truth->calibration_share) * error;
+    const double off = found->log_ratio.value - c->log_ratio +
+                       calibration * flow_draw_normal(seed, 0, FLOW_DRAW_RATIO);
+    const double spread = hypot(found->log_ratio.standard_error, calibration);
+    wt_layer_known *known = &s->known;
+    known->modulus_ratio.value = truth->modulus_ratio.value * exp(off);
+    known->modulus_ratio.standard_error = spread * known->modulus_ratio.value;
+    known->calibration_share = pow(calibration / spread, 2);
+    if (!(calibration > 0)) /* else both have a part in it, as they had */
+        known->modulus_ratio_df = found->df;
+}
+
+static wt_status try_once(const coverage *c, size_t trial, unsigned worker, hit *hits,
+                          wt_error *err)
+{
+    const uint64_t seed = mix64(mix64(c->work.seed) + 1 + trial);
+    wt_estimate number[SETTING_NUMBERS];
+    wt_comparison found = {.df = (double)NAN}; /* no ratio is taken without groups */
+    wt_rubber rubber = {0}, layer = {0};
+    wt_job work = c->work;
+    setting s = c->setting;
+    work.seed += 1 + trial;
+    for (size_t k = 0; k < SETTING_NUMBERS; k++)
+        number[k] = (wt_estimate){(double)NAN, (double)NAN, (double)NAN, NULL};
+    wt_status status = try_materials(c, seed, &s, &rubber, &layer, hits, err);
+    regenerate_inputs(&s, seed);
+    if (status == WT_OK && c->has_groups)
+        status =
+            try_groups(c, c->fit.n_shifts > 0 ? &rubber : NULL, seed, worker, hits, &found, err);
+    if (status == WT_OK && takes_ratio(c))
+        take_ratio(c, &found, seed, &s);
+    if (status == WT_OK)
+        status = setting_compute(&s, &work, number, err);
+    for (size_t k = 0; k < SETTING_NUMBERS && status == WT_OK; k++) {
+        const double half = NORMAL_95 * number[k].standard_error;
+        hits[k] = hit_of(number[k].value, number[k].standard_error, number[k].value - half,
+                         number[k].value + half, c->truth[k].value);
+    }
+    wt_rubber_clear(&rubber);
+    wt_rubber_clear(&layer);
+    return status;
+}
+
+/* A trial without an answer counts in no row. */
+static wt_status try_one(void *user, size_t trial, unsigned worker)
+{
+    const coverage *c = user;
+    hit *hits = c->hits + trial * N_JUDGED;
+    wt_error ignored = WT_ERROR_INIT;
+    const wt_status status = try_once(c, trial, worker, hits, &ignored);
+    for (size_t k = 0; status != WT_OK && k < N_JUDGED; k++)
+        hits[k].one = (double)NAN;
+    return status == WT_E_MEMORY ? status : WT_OK;
+}
+
+/* ---- table ----------------------------------------------------------------------------------- */
+
+typedef struct tally {
+    size_t n;
+    double one, both, scatter;
+    coverage_share known;
+} tally;
+
+TABLE_ROW(coverage, COVERAGE, const char *number; tally found;)
+
+static tally count_hits(const coverage *c, size_t k)
+{
+    tally t = {.scatter = (double)NAN};
+    double deviation = 0, variance = 0;
+    for (size_t i = 0; i < c->job->trials; i++) {
+        const hit *h = &c->hits[i * N_JUDGED + k];
+        if (isnan(h->one))
+            continue;
+        t.n++;
+        t.one += h->one;
+        t.both += h->both;
+        deviation += h->deviation;
+        variance += h->variance;
+    }
+    if (t.n == 0)
+        return t;
+    t.one /= (double)t.n;
+    t.both /= (double)t.n;
+    t.scatter = sqrt(deviation / variance);
+    t.known = coverage_judge(t.both, t.n);
+    return t;
+}
+
+static size_t lost_trials(const coverage *c)
+{
+    size_t n = 0;
+    for (size_t i = 0; i < c->job->trials; i++) {
+        size_t stated = 0;
+        for (size_t k = 0; k < N_JUDGED; k++)
+            stated += isnan(c->hits[i * N_JUDGED + k].one) == 0;
+        n += stated == 0;
+    }
+    return n;
+}
+
+/* All numbers with their shares, or those of one verdict. */
+static void list_shares(const coverage *c, const char *verdict, char *text, size_t size)
+{
+    size_t n = 0;
+    text[0] = '\0';
+    for (size_t k = 0; k < N_JUDGED && n < size; k++) {
+        const tally found = count_hits(c, k);
+        if (found.n == 0 || (verdict != NULL && strcmp(found.known.verdict, verdict) != 0))
+            continue;
+        n += (size_t)snprintf(text + n, size - n, "%s%s", n > 0 ? ", " : "", judged_words(k));
+        if (verdict == NULL && n < size)
+            n += (size_t)snprintf(text + n, size - n, " %.0f %%", 100 * found.both);
+        else if (!isnan(found.known.trials) && n < size)
+            n += (size_t)snprintf(text + n, size - n, " (%.0f trials would tell)",
+                                  found.known.trials);
+    }
+}
+
+static void put_verdicts(const coverage *c, table_writer *t)
+{
+    char all[400], narrow[300], wide[300], unsettled[600], inputs[300];
+    list_shares(c, NULL, all, sizeof all);
+    list_shares(c, "too narrow", narrow, sizeof narrow);
+    list_shares(c, "too wide", wide, sizeof wide);
+    list_shares(c, "cannot say", unsettled, sizeof unsettled);
+    setting drawn = c->setting;
+    if (takes_ratio(c))
+        drawn.known.modulus_ratio.standard_error = 0;
+    regenerate_words(&drawn, inputs, sizeof inputs);
+    coverage_set_print(
+        t, COVERAGE_KEY_ANSWER,
+        "in %zu trial%s the 95 %% intervals held the truth: %s%s%s%s%s%s%s%s", c->job->trials,
+        c->job->trials == 1 ? "" : "s", all[0] != '\0' ? all : "none was stated",
+        narrow[0] != '\0' ? "; too narrow: " : "", narrow, wide[0] != '\0' ? "; too wide: " : "",
+        wide, unsettled[0] != '\0' ? "; cannot say: " : "", unsettled,
+        narrow[0] == '\0' && wide[0] == '\0' && unsettled[0] == '\0' && all[0] != '\0'
+            ? "; as far as so many tell, as often as stated"
+            : "");
+    coverage_set_print(t, COVERAGE_KEY_REGENERATED, "%s%s%s%s%s%s",
+                       c->fit.n_shifts == 0 ? "material as given"
+                       : c->setting.rubber.sweep.n_ramps > 0
+                           ? "isotherms that the temperature sweeps were fitted as"
+                           : "isotherms of the DMA",
+                       !drawn.has_known || !drawn.has_layer_rubber ? ""
+                       : c->layer_fit.n_shifts > 0 ? ", isotherms of the layer's DMA"
+                                                   : ", material of the layer as given",
+                       inputs[0] != '\0' ? ", " : "", inputs,
+                       !c->has_groups  ? ""
+                       : c->has_curves ? ", force curves of bulk and track"
+                                       : ", moduli of bulk and track",
+                       c->has_groups && !takes_ratio(c) ? " (not in the friction)" : "");
+    coverage_set_text(t, COVERAGE_KEY_CAUTION,
+                      "the case was drawn anew from its own fit and judged with the same model: "
+                      "this tells whether the errors are reckoned right and cannot reveal a wrong "
+                      "model, such as a wrong tip, roughness or law of friction; the table what_if "
+                      "has what the choices of the model do");
+}
+
+static wt_status make_table(const coverage *c, wt_table **table, wt_error *err)
+{
+    table_writer t = table_begin(&coverage_schema, err);
+    for (size_t k = 0; k < N_JUDGED; k++) {
+        const tally found = count_hits(c, k);
+        if (found.n > 0)
+            TABLE_ADD(coverage, &t, judged_words(k), found);
+    }
+    put_verdicts(c, &t);
+    coverage_set_value(&t, COVERAGE_KEY_TRIALS, (double)c->job->trials, (double)NAN, (double)NAN);
+    coverage_set_value(&t, COVERAGE_KEY_LOST, (double)lost_trials(c), (double)NAN, (double)NAN);
+    return table_end(&t, table);
+}
+
+/* ---- the job --------------------------------------------------------------------------------- */
+
+/* The groups as they were compared: factors on the spectrum if all curves have one. */
+static wt_status find_groups(coverage *c, wt_error *err)
+{
+    const wt_table *const tables[2] = {c->job->bulk, c->job->track};
+    bool factors = true;
+    wt_group group[2];
+    wt_comparison found;
+    if (tables[0] == NULL || tables[1] == NULL)
+        return WT_OK;
+    for (int g = 0; g < 2; g++) {
+        const wt_status status = wt_group_from_table(tables[g], false, &c->data[g], err);
+        if (status != WT_OK)
+            return status;
+        for (size_t i = 0; i < c->data[g].group.n; i++)
+            factors = factors && c->data[g].spectrum_factor[i] > 0;
+    }
+    c->has_groups = c->has_curves = true;
+    for (int g = 0; g < 2; g++) {
+        const wt_curve_set *set = c->job->curves[g];
+        const size_t n = curve_set_size(set);
+        if (n == 0 || n != c->data[g].group.n || curve_set_has_spectrum(set) != factors)
+            c->has_curves = false;
+    }
+    for (int g = 0; g < 2; g++) {
+        const wt_group_data *d = &c->data[g];
+        const double *of = factors ? d->spectrum_factor : d->modulus;
+        const double error = c->has_curves ? curve_set_variance(c->job->curves[g]) : 0;
+        c->has_groups =
+            regenerate_scatter(of, d->spot, d->group.n, error, &c->group[g]) && c->has_groups;
+        group[g] = (wt_group){.modulus = of, .spot = d->spot, .n = d->group.n};
+    }
+    if (c->has_groups && wt_compare(&group[0], &group[1], NULL, &found, NULL) == WT_OK)
+        c->log_ratio = found.log_ratio.value;
+    else
+        c->has_groups = false;
+    return WT_OK;
+}
+
+/* What the curves are made and fitted with. */
+static wt_status prepare_curves(coverage *c, unsigned threads, wt_error *err)
+{
+    char ignored[256];
+    wt_status status = WT_OK;
+    c->has_curves = c->has_curves && c->has_groups;
+    if (!c->has_curves)
+        return WT_OK;
+    for (int g = 0; g < 2 && status == WT_OK; g++) {
+        const wt_curve_set *set = c->job->curves[g];
+        status = indent_contact_table(curve_set_tip(set), &c->contact[g], err);
+        if (status == WT_OK && curve_set_has_spectrum(set))
+            status = flow_rubber_spectrum(&c->setting.rubber, curve_set_temperature(set),
+                                          &c->spectrum[g], ignored, err);
+    }
+    c->n_workers = wt_thread_count(threads);
+    c->scratch = status == WT_OK ? calloc(c->n_workers, sizeof(curve_scratch *)) : NULL;
+    for (unsigned i = 0; i < c->n_workers && c->scratch != NULL && status == WT_OK; i++)
+        if ((c->scratch[i] = curve_scratch_new(c->job->curves)) == NULL)
+            status = wt_fail(err, WT_E_MEMORY, "out of memory");
+    return status == WT_OK && c->scratch == NULL ? wt_fail(err, WT_E_MEMORY, "out of memory")
+                                                 : status;
+}
+
+/* The isotherms that a material is drawn anew from; none: its fit stays empty. */
+static wt_status fit_isotherms(const wt_rubber *rubber, wt_master *fit, wt_error *err)
+{
+    return rubber->kind == WT_RUBBER_SERIES && rubber->sweep.n_isotherms > 0
+               ? wt_master_fit(&rubber->sweep, &rubber->fit, NULL, fit, err)
+               : WT_OK;
+}
+
+/* A material of the layer without isotherms is taken as known. */
+static wt_status prepare_layer_rubber(coverage *c, wt_error *err)
+{
+    wt_rubber *const rubber = &c->setting.layer_rubber;
+    const wt_status status = c->setting.has_layer_rubber && c->setting.has_known
+                                 ? fit_isotherms(rubber, &c->layer_fit, err)
+                                 : WT_OK;
+    if (status == WT_OK && c->layer_fit.n_shifts == 0) {
+        rubber->n_draws = 0;
+        rubber->c1_error = rubber->c2_error = 0;
+    }
+    return status;
+}
+
+/* What the case says as it is: the truth from now on. */
+static wt_status take_truth(coverage *c, const wt_job *work, wt_error *err)
+{
+    const wt_coverage_job *job = c->job;
+    wt_status status = setting_make(job->sliding, job->layer, job->known, work, &c->setting, err);
+    if (status != WT_OK)
+        return status;
+    /* taken as known: no sweeps are made anew */
+    c->setting.softness.storage_error = c->setting.softness.loss_error = NULL;
+    c->work = *work;
+    c->work.threads = 1; /* the trials take the threads */
+    c->work.left_out = work->replicates < 2 ? WT_EXTRAS : WT_EXTRAS & ~(unsigned)WT_EXTRA_DRAWS;
+    c->work.drawn = NULL; /* of another material */
+    c->work.log = NULL;
+    c->work.progress = (wt_progress){0};
+    status = fit_isotherms(&c->setting.rubber, &c->fit, err);
+    if (status == WT_OK)
+        status = prepare_layer_rubber(c, err);
+    if (status == WT_OK)
+        status = find_groups(c, err);
+    if (status == WT_OK)
+        status = prepare_curves(c, work->threads, err);
+    for (size_t k = 0; k < SETTING_NUMBERS; k++)
+        c->truth[k] = (wt_estimate){(double)NAN, (double)NAN, (double)NAN, NULL};
+    wt_job plain = c->work;
+    plain.replicates = 0;
+    return status == WT_OK ? setting_compute(&c->setting, &plain, c->truth, err) : status;
+}
+
+wt_status wt_coverage_make(const wt_coverage_job *job, const wt_job *work, wt_table **table,
+                           wt_error *err)
+{
+    if (job == NULL || work == NULL || table == NULL || job->trials == 0)
+        return wt_fail(err, WT_E_ARG, "no coverage to count");
+    coverage c = {.job = job};
+    wt_status status = param_check(wt_coverage_job_params(), job, err);
+    if (status == WT_OK)
+        status = take_truth(&c, work, err);
+    if (status == WT_OK) {
+        c.hits = malloc(job->trials * N_JUDGED * sizeof *c.hits);
+        for (size_t i = 0; c.hits != NULL && i < job->trials * N_JUDGED; i++)
+            c.hits[i].one = (double)NAN;
+        status = c.hits == NULL ? wt_fail(err, WT_E_MEMORY, "out of memory")
+                                : wt_parallel_for(job->trials, work->threads, try_one, &c,
+                                                  &work->progress, "coverage");
+    }
+    if (status == WT_OK)
+        status = make_table(&c, table, err);
+    cost_say(work, (cost_summary){.items = (double)job->trials});
+    for (unsigned i = 0; i < c.n_workers && c.scratch != NULL; i++)
+        curve_scratch_free(c.scratch[i]);
+    free(c.scratch);
+    for (int g = 0; g < 2; g++) {
+        wt_group_data_clear(&c.data[g]);
+        wt_contact_table_free(c.contact[g]);
+        wt_prony_clear(&c.spectrum[g]);
+    }
+    wt_master_clear(&c.fit);
+    wt_master_clear(&c.layer_fit);
+    free(c.hits);
+    return status;
+}

@@ -1,0 +1,67 @@
+/* What trials tell of a share. SPDX-License-Identifier: GPL-3.0-or-later */
+#include "study/coverage_share.h"
+
+#include "core/math/normal_quantile.h"
+
+#include <math.h>
+#include <string.h>
+
+/* What intervals are said to hold; less than the second, twice as many misses, does not pass. A
+ * share within the last two is what is promised of them (tests/study): with enough trials any is
+ * off, and by so little it is no fault. */
+static const double stated = 0.95, least_held = 0.9, promised_low = 0.92, promised_high = 0.98;
+/* To each side: there are some ten numbers, and a false alarm among them is to be rare, 5 %. */
+static const double alarm = 0.0025;
+/* More than these are not run: days of computing, to tell 95.0 from 95.2 %. */
+static const size_t most_trials = 100000;
+
+static void set_interval(coverage_share *s, double share, double n)
+{
+    const double z = NORMAL_95, centre = (share + z * z / (2 * n)) / (1 + z * z / n);
+    const double half = z / (1 + z * z / n) * sqrt(share * (1 - share) / n + z * z / (4 * n * n));
+    s->low = fmax(0, centre - half);
+    s->high = fmin(1, centre + half);
+}
+
+/* Chance of at most `most` misses in n trials. */
+static double at_most(double most, double n)
+{
+    double sum = 0;
+    for (double k = 0; k <= most; k++)
+        sum += exp(lgamma(n + 1) - lgamma(k + 1) - lgamma(n - k + 1) + k * log(1 - stated) +
+                   (n - k) * log(stated));
+    return fmin(sum, 1);
+}
+
+static const char *verdict_of(double share, double n, double low)
+{
+    /* a part of a miss counts for neither alarm; what rounding makes of a whole one is one */
+    const double misses = n * (1 - share), most = ceil(misses - 1e-9), least = floor(misses + 1e-9);
+    if (share < promised_low && 1 - at_most(least - 1, n) < alarm)
+        return "too narrow";
+    if (share > promised_high && at_most(most, n) < alarm)
+        return "too wide";
+    return low >= least_held ? "holds" : "cannot say";
+}
+
+static coverage_share verdict_of_share(double share, size_t n)
+{
+    coverage_share s = {.trials = (double)NAN};
+    set_interval(&s, share, (double)n);
+    s.verdict = verdict_of(share, (double)n, s.low);
+    return s;
+}
+
+coverage_share coverage_judge(double share, size_t n)
+{
+    coverage_share s = verdict_of_share(share, n);
+    if (strcmp(s.verdict, "cannot say") != 0)
+        return s;
+    /* to a tenth: what the trials will find is not known better */
+    for (size_t more = n + 1; more < most_trials; more += more / 10 + 1)
+        if (strcmp(verdict_of_share(share, more).verdict, "cannot say") != 0) {
+            s.trials = (double)more;
+            break;
+        }
+    return s;
+}

@@ -1,0 +1,503 @@
+/* The error budget: the standard errors again with one source drawn at a time, beside what the
+ * arithmetic, the number of replicates and the choices of the model leave open.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#include "dma/strain_softening.h"
+#include "job/cost.h"
+#include "study/case_override.h"
+
+#include "core/base/array.h"
+#include "core/base/clocale.h"
+#include "core/table/table_rows.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+/* ---- what is measured or stated -------------------------------------------------------------- */
+
+typedef struct source {
+    const char *words, *remedy;
+    bool (*applies)(const setting *s);
+    bool (*stated)(const setting *s);
+    void (*hold)(setting *s); /* takes its error away */
+} source;
+
+static bool applies_always(const setting *s)
+{
+    (void)s;
+    return true;
+}
+
+static bool stated_rubber(const setting *s)
+{
+    return s->rubber.n_draws > 0 || s->rubber.c1_error > 0 || s->rubber.c2_error > 0;
+}
+
+static void hold_rubber(setting *s)
+{
+    s->given = NULL;
+    s->rubber.n_draws = 0;
+    s->rubber.c1_error = s->rubber.c2_error = 0;
+}
+
+#define OF_ESTIMATE(name, member)                                                                  \
+    static bool stated_##name(const setting *s)                                                    \
+    {                                                                                              \
+        return s->member.standard_error > 0;                                                       \
+    }                                                                                              \
+    static void hold_##name(setting *s)                                                            \
+    {                                                                                              \
+        s->member.standard_error = 0;                                                              \
+    }
+OF_ESTIMATE(pressure, sliding.pressure)
+OF_ESTIMATE(temperature, sliding.temperature)
+OF_ESTIMATE(shear, sliding.shear_stress)
+OF_ESTIMATE(wear, layer.specific_wear_rate)
+OF_ESTIMATE(energy, layer.critical_energy)
+OF_ESTIMATE(observed, layer.observed_thickness)
+OF_ESTIMATE(thickness, known.thickness)
+OF_ESTIMATE(slope, known.ratio_slope)
+
+/* As stated, or of a measured surface what its places, its modes and its law scatter by. */
+static bool stated_roughness(const setting *s)
+{
+    return s->surface.c0.standard_error > 0 || s->surface.modes_error != NULL;
+}
+
+static void hold_roughness(setting *s)
+{
+    s->surface.c0.standard_error = 0;
+    s->surface.modes_error = s->surface.law_error = s->surface.place_parts = NULL;
+    s->surface.n_sizes = 0;
+}
+
+/* What the spots tell, and what is known beside them: parts of one variance. */
+static bool stated_ratio(const setting *s)
+{
+    return s->known.modulus_ratio.standard_error > 0 && s->known.calibration_share < 1;
+}
+
+static void hold_ratio(setting *s)
+{
+    s->known.modulus_ratio.standard_error *= sqrt(s->known.calibration_share);
+    s->known.calibration_share = 1;
+}
+
+static bool stated_layer_rubber(const setting *s)
+{
+    return s->layer_rubber.n_draws > 0;
+}
+
+static void hold_layer_rubber(setting *s)
+{
+    s->layer_rubber.n_draws = 0;
+}
+
+static bool stated_calibration(const setting *s)
+{
+    return s->known.modulus_ratio.standard_error > 0;
+}
+
+static void hold_calibration(setting *s)
+{
+    s->known.modulus_ratio.standard_error *= sqrt(1 - s->known.calibration_share);
+    s->known.calibration_share = 0;
+}
+
+static bool has_softness(const setting *s)
+{
+    return s->has_softness;
+}
+
+static bool stated_softness(const setting *s)
+{
+    return s->has_softness && softness_has_errors(&s->softness);
+}
+
+static void hold_softness(setting *s)
+{
+    s->softness.storage_error = s->softness.loss_error = NULL;
+}
+
+static bool has_shear(const setting *s)
+{
+    return !isnan(s->sliding.shear_stress.value);
+}
+
+static bool has_layer(const setting *s)
+{
+    return s->has_layer;
+}
+
+static bool has_energy(const setting *s)
+{
+    return s->has_layer && !isnan(s->layer.critical_energy.value);
+}
+
+static bool has_observed(const setting *s)
+{
+    return s->has_layer && !isnan(s->layer.observed_thickness.value);
+}
+
+static bool has_thickness(const setting *s)
+{
+    return s->has_known && !s->has_layer;
+}
+
+static bool has_layer_rubber(const setting *s)
+{
+    return s->has_known && s->has_layer_rubber;
+}
+
+static bool has_ratio(const setting *s)
+{
+    return s->has_known && !s->has_layer_rubber;
+}
+
+/* Else the ratio does not go with the frequency. */
+static bool has_slope(const setting *s)
+{
+    return has_ratio(s) && (s->known.ratio_slope.value != 0 || stated_slope(s));
+}
+
+/* Else there is none, or it cancels. */
+static bool has_calibration(const setting *s)
+{
+    return has_ratio(s) && s->known.calibration_share > 0;
+}
+
+static const char calibration_remedy[] = "one cantilever for both groups, or spring constants, "
+                                         "sensitivities, tips and temperatures known "
+                                         "better";
+
+static const source sources[] = {
+    {"material", "a second DMA run; temperatures known better", applies_always, stated_rubber,
+     hold_rubber},
+    {"pressure", "the load and the nominal area known better", applies_always, stated_pressure,
+     hold_pressure},
+    {"temperature", "the temperature in sliding measured", applies_always, stated_temperature,
+     hold_temperature},
+    {"roughness", "more scans of the counter surface", applies_always, stated_roughness,
+     hold_roughness},
+    {"softening with strain", "more strain sweeps at the temperature of the contact", has_softness,
+     stated_softness, hold_softness},
+    {"shear stress", "more friction runs that give it", has_shear, stated_shear, hold_shear},
+    {"specific wear rate", "more or longer wear runs", has_layer, stated_wear, hold_wear},
+    {"critical energy", "more layers of known thickness", has_energy, stated_energy, hold_energy},
+    {"observed thickness", "the layer measured at more places", has_observed, stated_observed,
+     hold_observed},
+    {"layer thickness", "the layer measured at more places", has_thickness, stated_thickness,
+     hold_thickness},
+    {"modulus ratio", "more spots: four times as many halve it", has_ratio, stated_ratio,
+     hold_ratio},
+    {"slope of the modulus ratio", "more spots indented at rates further apart", has_slope,
+     stated_slope, hold_slope},
+    {"material of the layer", "a second DMA run of the layer's rubber", has_layer_rubber,
+     stated_layer_rubber, hold_layer_rubber},
+    {"calibration", calibration_remedy, has_calibration, stated_calibration, hold_calibration},
+};
+enum { SOURCES = COUNT_OF(sources) };
+
+/* ---- the work -------------------------------------------------------------------------------- */
+
+typedef struct outcome {
+    wt_estimate number[SETTING_NUMBERS];
+    double seconds;
+    bool computed;
+} outcome;
+
+typedef struct budget {
+    setting setting;
+    wt_job work; /* of one setting */
+    outcome values, all, of[SOURCES];
+    bool sensitivities; /* are asked for */
+    double by[SENSITIVITIES];
+    char lacks[256];
+} budget;
+
+/* `s` keeps what it is computed by. */
+static wt_status compute_outcome(const budget *b, setting *s, size_t replicates, outcome *o,
+                                 wt_error *err)
+{
+    wt_job work = b->work;
+    work.replicates = replicates;
+    for (size_t k = 0; k < SETTING_NUMBERS; k++)
+        o->number[k] = (wt_estimate){(double)NAN, (double)NAN, (double)NAN, NULL};
+    const double start = cost_clock(work.cost);
+    const wt_status status = setting_compute(s, &work, o->number, err);
+    o->seconds = cost_clock(work.cost) - start;
+    o->computed = status == WT_OK;
+    return status;
+}
+
+static wt_status compute_all(budget *b, wt_error *err)
+{
+    setting whole = b->setting;
+    whole.sliding.sensitivities = b->sensitivities;
+    wt_status status = compute_outcome(b, &whole, 0, &b->values, err);
+    memcpy(b->by, whole.by, sizeof b->by);
+    whole = b->setting;
+    if (status == WT_OK)
+        status = compute_outcome(b, &whole, b->work.replicates, &b->all, err);
+    for (size_t i = 0; i < SOURCES && status == WT_OK; i++) {
+        setting alone = b->setting;
+        if (!sources[i].applies(&b->setting))
+            continue;
+        if (!sources[i].stated(&b->setting)) {
+            const size_t length = strlen(b->lacks);
+            snprintf(b->lacks + length, sizeof b->lacks - length, "%s%s", length > 0 ? ", " : "",
+                     sources[i].words);
+            continue;
+        }
+        for (size_t k = 0; k < SOURCES; k++)
+            if (k != i)
+                sources[k].hold(&alone);
+        status = compute_outcome(b, &alone, b->work.replicates, &b->of[i], err);
+    }
+    return status;
+}
+
+/* ---- choices of the model -------------------------------------------------------------------- */
+
+static const struct {
+    what_if_column column;
+    error_budget_key key;
+} numbers[SETTING_NUMBERS] = {
+    [SETTING_HYSTERESIS] = {WHAT_IF_HYSTERESIS, ERROR_BUDGET_KEY_HYSTERESIS},
+    [SETTING_AREA_RATIO] = {WHAT_IF_AREA_RATIO, ERROR_BUDGET_KEY_AREA_RATIO},
+    [SETTING_FRICTION] = {WHAT_IF_FRICTION, ERROR_BUDGET_KEY_FRICTION},
+    [SETTING_THICKNESS] = {WHAT_IF_THICKNESS, ERROR_BUDGET_KEY_THICKNESS},
+    [SETTING_WITH_LAYER] = {WHAT_IF_WITH_LAYER, ERROR_BUDGET_KEY_WITH_LAYER}};
+
+typedef struct choice_range {
+    const char *words;
+    double low, high, half; /* of the number; half of what it is apart */
+} choice_range;
+
+/* The rows of one choice follow one another, and the first row of all is as used. Returns where the
+ * next choice begins. */
+static size_t range_of(const table_view *t, size_t row, what_if_column column, choice_range *range)
+{
+    double low = what_if_get(t, 0, column), high = low;
+    range->words = what_if_text(t, row, WHAT_IF_CHOICE);
+    for (; row < t->n_rows && strcmp(what_if_text(t, row, WHAT_IF_CHOICE), range->words) == 0;
+         row++) {
+        low = fmin(low, what_if_get(t, row, column)); /* fmin and fmax leave out NaN */
+        high = fmax(high, what_if_get(t, row, column));
+    }
+    *range = (choice_range){range->words, low, high, (high - low) / 2};
+    return row;
+}
+
+/* ---- table ----------------------------------------------------------------------------------- */
+
+typedef struct row {
+    const char *source, *kind, *remedy;
+    double error; /* of the number, absolute */
+    double share, seconds;
+} row;
+
+TABLE_ROW(error_budget, ERROR_BUDGET, const char *number; row of;)
+
+static void put_row(const char *number, double value, row r, table_writer *t)
+{
+    r.error /= fabs(value); /* 0 of 0 is not known */
+    TABLE_ADD(error_budget, t, number, r);
+}
+
+static void put_number_row(const budget *b, setting_number k, row r, table_writer *t)
+{
+    put_row(setting_words[k], b->values.number[k].value, r, t);
+}
+
+/* What a number rests on most. */
+typedef struct verdict {
+    const source *largest; /* NULL = none is known */
+    double share, together, numerical;
+    choice_range widest;
+} verdict;
+
+static void put_measured(const budget *b, setting_number k, verdict *v, table_writer *t)
+{
+    double sum = 0;
+    for (size_t i = 0; i < SOURCES; i++) {
+        const double error = b->of[i].number[k].standard_error;
+        if (b->of[i].computed && isfinite(error))
+            sum = hypot(sum, error);
+    }
+    for (size_t i = 0; i < SOURCES; i++) {
+        const double error = b->of[i].number[k].standard_error;
+        if (!b->of[i].computed || !(error > 0))
+            continue;
+        const double part = error / sum, share = part * part;
+        put_number_row(
+            b, k,
+            (row){sources[i].words, "measured", sources[i].remedy, error, share, b->of[i].seconds},
+            t);
+        if (v->largest == NULL || share > v->share) {
+            v->largest = &sources[i];
+            v->share = share;
+        }
+    }
+}
+
+static void put_model(const budget *b, setting_number k, const table_view *what_if, verdict *v,
+                      table_writer *t)
+{
+    for (size_t r = 1; r < what_if->n_rows;) {
+        choice_range range;
+        r = range_of(what_if, r, numbers[k].column, &range);
+        if (!(range.half > 0))
+            continue;
+        put_number_row(b, k,
+                       (row){range.words, "model", "a measurement that settles the choice",
+                             range.half, (double)NAN, cost_part(b->work.cost, range.words)},
+                       t);
+        if (range.half > v->widest.half)
+            v->widest = range;
+    }
+}
+
+/* Of what no error is stated, too: it says how well that must be known. */
+static void put_sensitivities(const budget *b, table_writer *t)
+{
+    const double value = b->values.number[SETTING_HYSTERESIS].value;
+    for (size_t i = 0; i < SENSITIVITIES && b->sensitivities; i++)
+        if (isfinite(b->by[i]))
+            put_number_row(b, SETTING_HYSTERESIS,
+                           (row){setting_sensitivities[i], "one per cent", "",
+                                 0.01 * fabs(b->by[i] * value), (double)NAN, (double)NAN},
+                           t);
+}
+
+static void put_advice(const budget *b, setting_number k, const verdict *v, table_writer *t)
+{
+    char text[640];
+    const double value = fabs(b->values.number[k].value);
+    const int decimals = v->widest.half < 0.1 * value ? 1 : 0;
+    size_t n = 0;
+#define SAY(...) n += n < sizeof text ? (size_t)snprintf(text + n, sizeof text - n, __VA_ARGS__) : 0
+    if (v->largest == NULL)
+        SAY(b->work.replicates < 2 ? "Without replicates no error is drawn."
+                                   : "No error of what it is made from is measured or stated.");
+    else
+        SAY("%.0f %% of its variance is the %s: %s.", 100 * v->share, v->largest->words,
+            v->largest->remedy);
+    if (v->widest.half > 0 && !(v->widest.half <= v->together)) /* together may be unknown */
+        SAY(" The choice of the %s moves it by %+.*f %% to %+.*f %%, %s: more of the same "
+            "measurements do not settle that.",
+            v->widest.words, decimals, 100 * (v->widest.low / value - 1), decimals,
+            100 * (v->widest.high / value - 1),
+            v->together > 0 ? "more than all measured errors" : "and no error is known beside it");
+    const double floor = fmax(v->together, v->widest.half);
+    if (isnan(v->numerical))
+        SAY(" What the arithmetic leaves open is not known.");
+    else if (v->numerical < 1e-2 * floor)
+        SAY(" The arithmetic is good to %.1g: a tighter tolerance buys nothing.",
+            v->numerical / value);
+    else if (floor > 0)
+        SAY(" The arithmetic is good to %.1g only: a tighter tolerance helps.",
+            v->numerical / value);
+#undef SAY
+    error_budget_set_text(t, numbers[k].key, text);
+}
+
+static void put_number(const budget *b, setting_number k, const table_view *what_if,
+                       table_writer *t)
+{
+    const wt_estimate *value = &b->values.number[k];
+    verdict v = {.together = b->all.number[k].standard_error, .numerical = value->numerical_error};
+    const double n = (double)b->work.replicates;
+    put_measured(b, k, &v, t);
+    if (isfinite(v.together)) {
+        put_number_row(
+            b, k, (row){"all together", "together", "", v.together, (double)NAN, b->all.seconds},
+            t);
+        put_number_row(b, k,
+                       (row){"number of replicates", "draws", "four times the replicates halve it",
+                             v.together / sqrt(2 * (n - 1)), (double)NAN, b->all.seconds},
+                       t);
+    }
+    put_number_row(b, k,
+                   (row){"arithmetic", "numerical", "a tighter tolerance", v.numerical, (double)NAN,
+                         b->values.seconds},
+                   t);
+    put_model(b, k, what_if, &v, t);
+    if (k == SETTING_HYSTERESIS)
+        put_sensitivities(b, t);
+    put_advice(b, k, &v, t);
+}
+
+/* The ratio itself: nothing has to be drawn, for what its spots and the calibration do to it is
+ * known. The time is that of the curves. */
+static void put_ratio(const budget *b, table_writer *t)
+{
+    static const char number[] = "modulus ratio";
+    const wt_layer_known *known = &b->setting.known;
+    const wt_estimate ratio = known->modulus_ratio;
+    const bool measured = known->modulus_ratio_df > 0;
+    const cost_of_stages curves = cost_stages(b->work.cost, "indentation");
+    const double spots = 1 - known->calibration_share, error = ratio.standard_error;
+    const char *own = measured ? "scatter of the spots" : "stated error";
+    const char *remedy = measured ? "more spots: four times as many halve it" : "a measurement";
+    char text[400];
+    if (!(error > 0))
+        return;
+    put_row(number, ratio.value,
+            (row){own, "measured", remedy, sqrt(spots) * error, spots, curves.seconds}, t);
+    if (known->calibration_share > 0)
+        put_row(number, ratio.value,
+                (row){"calibration", "measured", calibration_remedy,
+                      sqrt(known->calibration_share) * error, known->calibration_share,
+                      curves.seconds},
+                t);
+    put_row(number, ratio.value,
+            (row){"all together", "together", "", error, (double)NAN, curves.seconds}, t);
+    size_t n = (size_t)snprintf(text, sizeof text, "%.0f %% of its variance is the %s: %s.",
+                                100 * fmax(spots, known->calibration_share),
+                                spots >= known->calibration_share ? own : "calibration",
+                                spots >= known->calibration_share ? remedy : calibration_remedy);
+    if (curves.error >= 0) {
+        put_row(number, ratio.value,
+                (row){"arithmetic", "numerical", "", M_SQRT2 * curves.error * ratio.value,
+                      (double)NAN, curves.seconds},
+                t);
+        clocale_print(text + n, sizeof text - n,
+                      " The arithmetic of the fits is good to %.1g: it leaves nothing to be had.",
+                      M_SQRT2 * curves.error);
+    }
+    error_budget_set_text(t, ERROR_BUDGET_KEY_RATIO, text);
+}
+
+wt_status wt_error_budget_make(const wt_sliding *sliding, const wt_layer_job *layer,
+                               const wt_layer_known *known, const wt_table *what_if,
+                               const wt_job *work, wt_table **table, wt_error *err)
+{
+    if (work == NULL || table == NULL)
+        return wt_fail(err, WT_E_ARG, "no error budget to make");
+    budget b = {.work = *work, .sensitivities = sliding != NULL && sliding->sensitivities};
+    table_view moved = {0};
+    b.work.left_out = WT_EXTRAS;
+    b.work.drawn = NULL; /* of another material */
+    b.work.log = NULL;   /* what is to be said of these numbers has been said */
+    b.work.progress = (wt_progress){0};
+    wt_status status = setting_make(sliding, layer, known, work, &b.setting, err);
+    if (status == WT_OK && what_if != NULL)
+        status = table_bind(what_if, &what_if_schema, "", &moved, err);
+    if (status == WT_OK)
+        status = compute_all(&b, err);
+    if (status != WT_OK)
+        return status;
+    table_writer t = table_begin(&error_budget_schema, err);
+    for (size_t k = 0; k < SETTING_NUMBERS; k++)
+        if (isfinite(b.values.number[k].value))
+            put_number(&b, (setting_number)k, &moved, &t);
+    if (b.setting.has_known)
+        put_ratio(&b, &t);
+    if (b.lacks[0] != '\0')
+        error_budget_set_text(&t, ERROR_BUDGET_KEY_LACKS, b.lacks);
+    status = table_end(&t, table);
+    if (status == WT_OK)
+        cost_say(work, (cost_summary){.items = (double)wt_table_n_rows(*table)});
+    return status;
+}

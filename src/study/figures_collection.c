@@ -1,0 +1,319 @@
+/* Figures of cases side by side: a panel for each sample with the moduli of its bulk and tracks
+ * against the rate, and with their force curves; a panel for each condition with the friction of
+ * the samples; a panel for each constant that cases may have in common.
+ *
+ * SPDX-License-Identifier: GPL-3.0-or-later
+ */
+#include "report/drawing.h"
+
+#include "core/base/array.h"
+
+#include <math.h>
+#include <string.h>
+
+/* In each of which all groups may have a section. */
+enum { PANELS = 9 };
+
+typedef struct panels {
+    const char *name[PANELS];
+    size_t n;
+    bool too_many;
+} panels;
+
+/* The texts of a column, in the order of the table, which is that of the samples. */
+static panels find_panels(const table_view *table, const char *(*text)(const table_view *, size_t))
+{
+    panels found = {.n = 0};
+    for (size_t row = 0; row < table->n_rows; row++) {
+        const char *name = text(table, row);
+        bool seen = false;
+        for (size_t i = 0; i < found.n && !seen; i++)
+            seen = strcmp(found.name[i], name) == 0;
+        found.too_many = found.too_many || (!seen && found.n == PANELS);
+        if (!seen && found.n < PANELS)
+            found.name[found.n++] = name;
+    }
+    return found;
+}
+
+static const char *sample_of(const table_view *table, size_t row)
+{
+    return collected_modulus_text(table, row, COLLECTED_MODULUS_SAMPLE);
+}
+
+static const char *condition_of(const table_view *table, size_t row)
+{
+    return collected_friction_text(table, row, COLLECTED_FRICTION_CONDITION);
+}
+
+/* What is the same in all figures: panels beside one another with one scale. */
+typedef struct grid {
+    panels of;
+    unsigned panel, group; /* columns of the table */
+    unsigned data[4];
+    size_t n_data;
+    bool joined;   /* points with their intervals, joined */
+    bool signed_x; /* a linear axis */
+    int section[PANELS][DRAWING_GROUPS];
+} grid;
+
+/* False if there is nothing to draw. */
+static bool find_sections(figure_drawing *d, grid *g)
+{
+    d->x = d->y[0] = SPAN_EMPTY;
+    for (size_t i = 0; i < g->of.n; i++)
+        for (size_t k = 0; k < d->n_groups; k++) {
+            const row_filter rows = {{g->panel, g->group}, {g->of.name[i], d->groups[k]}, false};
+            g->section[i][k] =
+                drawing_section(d, d->table, d->groups[k], &rows, g->data, g->n_data, 2);
+            span_add_section(&d->x, d, g->section[i][k], 0, !g->signed_x);
+            for (size_t c = 1; c < g->n_data; c++)
+                span_add_section(&d->y[0], d, g->section[i][k], c, g->joined);
+        }
+    return d->status == WT_OK && !span_empty(&d->x) && !span_empty(&d->y[0]);
+}
+
+static void begin_grid(figure_drawing *d, const grid *g)
+{
+    const size_t columns = g->of.n < 3 ? g->of.n : g->of.n == 4 ? 2 : 3;
+    const size_t lines = (g->of.n + columns - 1) / columns;
+    d->width = columns == 1 ? 1 : columns == 2 ? 1.6 : 2;
+    d->height = 0.95 * (double)lines;
+    /* room for the key above the first, two names in a line, and as much above the others, so that
+     * all are of one size */
+    text_format(&d->script, "set tmargin %zu\nset multiplot layout %zu,%zu\n",
+                3 + (d->n_groups + 1) / 2, lines, columns);
+    drawing_axis(d, "x", &d->figure->x, NULL, d->x);
+    drawing_axis(d, "y", &d->figure->y[0], NULL, d->y[0]);
+}
+
+/* A group that the first panel lacks stands in its key all the same. */
+static void draw_panel(figure_drawing *d, const grid *g, size_t i)
+{
+    if (g->of.name[i][0] != '\0')
+        plot_heading(d, g->of.name[i]);
+    text_add(&d->script, i == 0 ? "" : "unset key\n");
+    for (size_t k = 0; k < d->n_groups; k++) {
+        const int section = g->section[i][k];
+        if (section < 0 && i > 0)
+            continue;
+        if (section < 0)
+            plot_other(d, g->joined ? "NaN with yerrorlines ls %zu" : "NaN with lines ls %zu",
+                       k + 1);
+        else if (g->joined)
+            plot_item(d, section,
+                      "($1*x_unit):($2*y_unit):($3*y_unit):($4*y_unit) with yerrorlines ls %zu",
+                      k + 1);
+        else
+            plot_item(d, section, "($1*x_unit):($2*y_unit) with %s ls %zu",
+                      drawing_rows(d, section) > 1 ? "lines" : "points", k + 1);
+        if (i == 0)
+            plot_title(d, drawing_group_name(d, d->groups[k]));
+        else
+            text_add(&d->script, " notitle");
+    }
+    plot_end(d);
+}
+
+static void draw_grid(figure_drawing *d, grid *g)
+{
+    if (!find_sections(d, g))
+        return;
+    begin_grid(d, g);
+    for (size_t i = 0; i < g->of.n; i++)
+        draw_panel(d, g, i);
+    text_add(&d->script, "unset multiplot\n");
+    if (g->of.too_many)
+        text_say(&d->caption, " The first %d only.", PANELS);
+}
+
+static void draw_moduli(figure_drawing *d)
+{
+    grid g = {.of = find_panels(d->table, sample_of),
+              .panel = COLLECTED_MODULUS_SAMPLE,
+              .group = COLLECTED_MODULUS_PLACE,
+              .data = {COLLECTED_MODULUS_RATE, COLLECTED_MODULUS_MODULUS,
+                       COLLECTED_MODULUS_MODULUS_LOW, COLLECTED_MODULUS_MODULUS_HIGH},
+              .n_data = 4,
+              .joined = true};
+    draw_grid(d, &g);
+}
+
+static void draw_friction(figure_drawing *d)
+{
+    grid g = {.of = find_panels(d->table, condition_of),
+              .panel = COLLECTED_FRICTION_CONDITION,
+              .group = COLLECTED_FRICTION_SAMPLE,
+              .data = {COLLECTED_FRICTION_VELOCITY, COLLECTED_FRICTION_FRICTION},
+              .n_data = 2};
+    draw_grid(d, &g);
+}
+
+static const char *sample_of_force(const table_view *table, size_t row)
+{
+    return collected_force_text(table, row, COLLECTED_FORCE_SAMPLE);
+}
+
+static void draw_force(figure_drawing *d)
+{
+    grid g = {.of = find_panels(d->table, sample_of_force),
+              .panel = COLLECTED_FORCE_SAMPLE,
+              .group = COLLECTED_FORCE_PLACE,
+              .data = {COLLECTED_FORCE_INDENTATION, COLLECTED_FORCE_FORCE},
+              .n_data = 2,
+              .signed_x = true};
+    draw_grid(d, &g);
+}
+
+/* ---- constants in common --------------------------------------------------------------------- */
+
+/* A constant of one name: the rows of a panel. */
+typedef struct constant_panel {
+    const char *constant, *of;
+    int section;
+} constant_panel;
+
+static size_t find_constants(figure_drawing *d, constant_panel shown[PANELS], bool *too_many)
+{
+    static const unsigned data[] = {SHARED_MEMBERS_NUMBER, SHARED_MEMBERS_RATIO,
+                                    SHARED_MEMBERS_RATIO_LOW, SHARED_MEMBERS_RATIO_HIGH};
+    size_t n = 0;
+    *too_many = false;
+    for (size_t row = 0; row < d->table->n_rows; row++) {
+        const char *constant = shared_members_text(d->table, row, SHARED_MEMBERS_CONSTANT),
+                   *of = shared_members_text(d->table, row, SHARED_MEMBERS_OF);
+        bool seen = false;
+        for (size_t i = 0; i < n && !seen; i++)
+            seen = strcmp(shown[i].constant, constant) == 0 && strcmp(shown[i].of, of) == 0;
+        *too_many = *too_many || (!seen && n == PANELS);
+        if (seen || n == PANELS)
+            continue;
+        const row_filter rows = {
+            {SHARED_MEMBERS_CONSTANT, SHARED_MEMBERS_OF}, {constant, of}, false};
+        shown[n] = (constant_panel){constant, of,
+                                    drawing_section(d, d->table, constant, &rows, data, 4, 2)};
+        for (size_t c = 1; c < 4; c++)
+            span_add_section(&d->y[0], d, shown[n].section, c, true);
+        n++;
+    }
+    return n;
+}
+
+/* Bytes of a name that have room below or above a panel of three in a row. */
+enum { NAME = 22, HEADING = 32 };
+
+static void name_members(figure_drawing *d, const constant_panel *panel)
+{
+    const char *before = "";
+    text_add(&d->script, "set xtics (");
+    for (size_t row = 0; row < d->table->n_rows; row++) {
+        if (strcmp(shared_members_text(d->table, row, SHARED_MEMBERS_CONSTANT), panel->constant) !=
+                0 ||
+            strcmp(shared_members_text(d->table, row, SHARED_MEMBERS_OF), panel->of) != 0)
+            continue;
+        text_add(&d->script, before);
+        growing_text name = {0};
+        text_name(&name, shared_members_text(d->table, row, SHARED_MEMBERS_MEMBER), NAME);
+        text_tic(&d->script, text_string(&name));
+        text_done(&name, &d->script);
+        text_format(&d->script, " %.0f", shared_members_get(d->table, row, SHARED_MEMBERS_NUMBER));
+        before = ", ";
+    }
+    text_add(&d->script, ") noenhanced rotate by -40 scale 0\n");
+}
+
+static void draw_constants(figure_drawing *d)
+{
+    constant_panel shown[PANELS];
+    bool too_many;
+    d->y[0] = SPAN_EMPTY;
+    const size_t n = find_constants(d, shown, &too_many);
+    if (d->status != WT_OK || span_empty(&d->y[0]))
+        return;
+    const size_t columns = n < 3 ? n : n == 4 ? 2 : 3, lines = (n + columns - 1) / columns;
+    d->width = columns == 1 ? 1 : columns == 2 ? 1.6 : 2;
+    d->height = (double)lines;
+    text_format(&d->script,
+                "set bmargin 7\nset rmargin 6\nset multiplot layout %zu,%zu\n"
+                "unset key\n",
+                lines, columns);
+    drawing_axis(d, "y", &d->figure->y[0], NULL, d->y[0]);
+    for (size_t i = 0; i < n; i++) {
+        growing_text of = {0};
+        text_name(&of, shown[i].of, HEADING);
+        text_add(&d->script, "set title ");
+        text_quoted(&d->script, say(d->language, shown[i].constant));
+        text_add(&d->script, ".\"\\n\".");
+        text_quoted(&d->script, text_string(&of));
+        text_add(&d->script, " noenhanced\n");
+        text_done(&of, &d->script);
+        text_format(&d->script, "set xrange [0.5:%zu.5]\n", drawing_rows(d, shown[i].section));
+        name_members(d, &shown[i]);
+        plot_other(d, "y_unit with lines ls 12");
+        plot_item(d, shown[i].section,
+                  "1:($2*y_unit):($3*y_unit):($4*y_unit) with yerrorbars ls 1");
+        plot_end(d);
+    }
+    text_add(&d->script, "unset multiplot\n");
+    if (too_many)
+        text_say(&d->caption, " The first %d only.", PANELS);
+}
+
+static void caption_friction(figure_drawing *d)
+{
+    const char *part = collected_friction_words(d->table, COLLECTED_FRICTION_KEY_PART);
+    if (part != NULL && strcmp(part, "hysteresis") == 0)
+        text_words(&d->caption, " Of hysteresis alone: not all cases have a shear stress.");
+}
+
+const figure_description figures_collection[] = {
+    {.name = "collected_modulus",
+     .title = "Modulus of bulk and wear tracks against the indentation rate",
+     .table = &collected_modulus_schema,
+     .by_group = true,
+     .group = COLLECTED_MODULUS_PLACE,
+     .x = {COLLECTED_MODULUS_RATE, AXIS_LOG, "Indentation rate"},
+     .y = {{COLLECTED_MODULUS_MODULUS, AXIS_LOG, "Modulus E"}},
+     .curves = {CURVE(COLLECTED_MODULUS_MODULUS, OWN, .with_errors = true)},
+     .nothing = "no case has moduli at known indentation rates",
+     .words = "Geometric mean of the modulus at each indentation rate, a panel for each sample "
+              "(bars: 95 % intervals, with what is stated of levers and tips).",
+     .draw = draw_moduli},
+    {.name = "collected_friction",
+     .title = "Friction of all samples against velocity",
+     .table = &collected_friction_schema,
+     .by_group = true,
+     .group = COLLECTED_FRICTION_SAMPLE,
+     .x = {COLLECTED_FRICTION_VELOCITY, AXIS_LOG, "Sliding velocity"},
+     .y = {{COLLECTED_FRICTION_FRICTION, AXIS_NUMBER, "Friction coefficient μ"}},
+     .curves = {CURVE(COLLECTED_FRICTION_FRICTION, OWN)},
+     .nothing = "no case has friction",
+     .words = "Friction coefficient of every sample without the modified layer, a panel for each "
+              "condition.",
+     .draw = draw_friction,
+     .caption = caption_friction},
+    {.name = "collected_force",
+     .title = "Force against indentation, of bulk, wear tracks and what stands beside",
+     .table = &collected_force_schema,
+     .by_group = true,
+     .group = COLLECTED_FORCE_PLACE,
+     .x = {COLLECTED_FORCE_INDENTATION, AXIS_LINEAR, "Indentation"},
+     .y = {{COLLECTED_FORCE_FORCE, AXIS_LINEAR, "Force"}},
+     .curves = {CURVE(COLLECTED_FORCE_FORCE, OWN)},
+     .nothing = "no case has a force curve",
+     .words = "Loading part of the curve with the median modulus of each group, counted from its "
+              "contact point, a panel for each sample.",
+     .draw = draw_force},
+    {.name = "shared_constants",
+     .title = "Constants that cases may have in common",
+     .table = &shared_members_schema,
+     .x = {SHARED_MEMBERS_NUMBER, AXIS_NUMBER, "Case"},
+     .y = {{SHARED_MEMBERS_RATIO, AXIS_LOG, "Over the shared value"}},
+     .curves = {CURVE(SHARED_MEMBERS_RATIO, OWN, .with_errors = true)},
+     .nothing = "no two cases tell a constant",
+     .words = "Value of each case over the one that they share, a panel for each constant and what "
+              "it may be common to (bars: intervals that hold together in 95 %). Whether one value "
+              "suffices is in the table.",
+     .draw = draw_constants},
+    {.name = NULL},
+};

@@ -1,0 +1,318 @@
+/* The accepted part of an indentation table as a group.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#include "weartrack/flow.h"
+
+#include "core/base/array.h"
+#include "core/math/splitmix64.h"
+#include "core/table/registry.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+typedef struct named {
+    const char *spot;
+    double x, y; /* the place, where that counts as a spot; else 0 */
+    size_t item;
+} named;
+
+static int by_number(double a, double b)
+{
+    return (a > b) - (a < b);
+}
+
+static int by_spot(const named *x, const named *y)
+{
+    const int order = strcmp(x->spot, y->spot);
+    if (order != 0)
+        return order;
+    return x->x != y->x ? by_number(x->x, y->x) : by_number(x->y, y->y);
+}
+
+static int by_name(const void *a, const void *b)
+{
+    const named *x = a, *y = b;
+    int order = by_spot(x, y);
+    return order != 0 ? order : (x->item > y->item) - (x->item < y->item);
+}
+
+/* Numbers the spots in the order of their first appearance. There may be one for each curve, so
+ * equal ones are found by sorting. */
+static void number_spots(named *names, size_t n, long *spot)
+{
+    long next = 0;
+    qsort(names, n, sizeof *names, by_name);
+    for (size_t i = 0, first = 0; i < n; i++) {
+        if (by_spot(&names[i], &names[first]) != 0)
+            first = i;
+        spot[names[i].item] = (long)names[first].item;
+    }
+    /* The first of a name comes before the others, and has its number when they ask for it. */
+    for (size_t i = 0; i < n; i++)
+        spot[i] = spot[i] == (long)i ? next++ : spot[spot[i]];
+}
+
+/* ---- copies ---------------------------------------------------------------------------------- */
+
+/* A digest of what was measured on a curve; 0 if that is the modulus alone, which two curves may
+ * share. */
+static uint64_t digest_of(const table_view *t, size_t row)
+{
+    static const indentation_column columns[] = {
+        INDENTATION_MODULUS,     INDENTATION_MODULUS_STANDARD_ERROR, INDENTATION_CONTACT_POINT,
+        INDENTATION_NOISE,       INDENTATION_BASELINE_TILT,          INDENTATION_MAX_FORCE,
+        INDENTATION_LACK_OF_FIT, INDENTATION_MAX_INDENTATION};
+    uint64_t digest = 1;
+    size_t known = 0;
+    for (size_t i = 0; i < COUNT_OF(columns); i++) {
+        const double value = indentation_get(t, row, columns[i]);
+        uint64_t bits = i;
+        if (!isnan(value)) {
+            known++;
+            memcpy(&bits, &value, sizeof bits);
+        }
+        digest = mix64(digest ^ mix64(bits + i));
+    }
+    return known >= 3 ? digest : 0;
+}
+
+static int by_digest(const void *a, const void *b)
+{
+    const wt_curve_digest *x = a, *y = b;
+    if (x->digest != y->digest)
+        return x->digest < y->digest ? -1 : 1;
+    return (x->item > y->item) - (x->item < y->item);
+}
+
+/* Curves that are in the group twice are taken once. `row_of` of the curves taken is their row. */
+static void drop_copies(const table_view *t, wt_group_data *d, size_t *row_of)
+{
+    wt_curve_digest *const all = d->digest;
+    const size_t n = d->n_digests;
+    qsort(all, n, sizeof *all, by_digest);
+    size_t kept = 0;
+    for (size_t i = 0, first = 0; i < n; i++) {
+        const bool copy = i > 0 && all[i].digest != 0 && all[i].digest == all[first].digest;
+        if (!copy) {
+            first = i;
+            all[kept++] = all[i];
+            continue;
+        }
+        if (d->n_copies++ == 0) {
+            d->copy_of[0] = indentation_text(t, row_of[all[first].item], INDENTATION_FILE);
+            d->copy_of[1] = indentation_text(t, row_of[all[i].item], INDENTATION_FILE);
+        }
+        row_of[all[i].item] = SIZE_MAX;
+    }
+    d->n_digests = kept;
+}
+
+/* ---- a table --------------------------------------------------------------------------------- */
+
+/* The rows of the curves with a modulus, accepted or doubtful, each one once. */
+static wt_status find_rows(const table_view *t, wt_group_data *d, size_t *row_of, wt_error *err)
+{
+    size_t n = 0;
+    for (size_t row = 0; row < t->n_rows; row++) {
+        const double modulus = indentation_get(t, row, INDENTATION_MODULUS);
+        if (!wt_curve_usable_id(indentation_text(t, row, INDENTATION_VERDICT))) {
+            d->group.n_rejected++;
+            continue;
+        }
+        if (!(modulus > 0) || !isfinite(modulus)) {
+            wt_fail(err, WT_E_RANGE, "an accepted curve has no positive modulus");
+            wt_error_place(err, "table %s, row %zu", wt_table_name(t->table), row + 1);
+            wt_error_found(err, "%g Pa", modulus);
+            return WT_E_RANGE;
+        }
+        d->digest[n] = (wt_curve_digest){digest_of(t, row), n};
+        row_of[n++] = row;
+    }
+    d->n_digests = n;
+    drop_copies(t, d, row_of);
+    for (size_t i = 0; i < n; i++)
+        if (row_of[i] != SIZE_MAX)
+            row_of[d->group.n++] = row_of[i];
+    return WT_OK;
+}
+
+static void count_rejected(const table_view *t, wt_group_data *d)
+{
+    size_t counts[WT_CURVE_UNREADABLE + 1] = {0};
+    for (size_t row = 0; row < t->n_rows; row++) {
+        const char *verdict = indentation_text(t, row, INDENTATION_VERDICT);
+        for (int v = WT_CURVE_ACCEPTED; v <= WT_CURVE_UNREADABLE; v++)
+            counts[v] += strcmp(verdict, wt_curve_verdict_id((wt_curve_verdict)v)) == 0 ? 1 : 0;
+    }
+    for (int v = WT_CURVE_ACCEPTED; v <= WT_CURVE_UNREADABLE; v++)
+        if (!wt_curve_usable((wt_curve_verdict)v) && counts[v] > d->n_rejected_for) {
+            d->rejected_for = (wt_curve_verdict)v;
+            d->n_rejected_for = counts[v];
+        }
+}
+
+/* How its spots were found: the words of the table; one without is not of this program. */
+static void note_spots(const table_view *t, wt_group_data *d)
+{
+    const char *spots = indentation_words(t, INDENTATION_KEY_SPOTS);
+    d->spots_given =
+        spots != NULL ? strncmp(spots, "named", 5) == 0 : indentation_has(t, INDENTATION_SPOT);
+}
+
+/* The spot of an accepted curve; with `each_place` a place in it, unless the user named the spots.
+ */
+static named name_of(const table_view *t, size_t row, size_t item, bool each_place,
+                     const wt_group_data *d)
+{
+    named n = {indentation_text(t, row, INDENTATION_SPOT), 0, 0, item};
+    if (!each_place || d->spots_given)
+        return n;
+    n.x = indentation_get(t, row, INDENTATION_X);
+    n.y = indentation_get(t, row, INDENTATION_Y);
+    if (!isfinite(n.x) || !isfinite(n.y)) { /* a place that is not known is its own */
+        n.x = indentation_get(t, row, INDENTATION_CURVE);
+        n.y = 0;
+    }
+    return n;
+}
+
+/* What curves show; none where they were not asked, NaN where it is there and not known. */
+static double shown_error(const table_view *t, indentation_key key)
+{
+    return indentation_words(t, key) == NULL ? 0 : indentation_value(t, key).value;
+}
+
+/* The cube root of a mean of squares is nearly normal (Wilson and Hilferty 1931). */
+static void read_misfits(const table_view *t, bool each_place, named *names, wt_group_data *d)
+{
+    for (size_t row = 0; row < t->n_rows; row++) {
+        const double lack = indentation_get(t, row, INDENTATION_LACK_OF_FIT);
+        if (!isfinite(lack))
+            continue;
+        names[d->n_fitted] = name_of(t, row, d->n_fitted, each_place, d);
+        d->lack_of_fit[d->n_fitted++] = cbrt(lack);
+    }
+    number_spots(names, d->n_fitted, d->fitted_spot);
+}
+
+/* What a curve shows of a pull, and how far it was pressed. */
+static void read_signs(const table_view *t, size_t row, size_t i, wt_group_data *d)
+{
+    d->pull[i] = fmax(indentation_get(t, row, INDENTATION_ADHESION_FORCE),
+                      indentation_get(t, row, INDENTATION_PULL_OFF_FORCE));
+    d->max_force[i] = indentation_get(t, row, INDENTATION_MAX_FORCE);
+    d->max_indentation[i] = indentation_get(t, row, INDENTATION_MAX_INDENTATION);
+}
+
+/* NaN where it is not there. */
+static double plain_number(const table_view *t, indentation_key key)
+{
+    double value = (double)NAN;
+    const char *words = indentation_words(t, key);
+    if (words != NULL && !wt_number_parse(words, strlen(words), '.', &value))
+        value = (double)NAN;
+    return value;
+}
+
+/* What its curves share. */
+static void read_common(const table_view *t, wt_group_data *d)
+{
+    d->sensitivity = indentation_value(t, INDENTATION_KEY_SENSITIVITY);
+    d->tip = indentation_words(t, INDENTATION_KEY_TIP);
+    d->several_levers = indentation_words(t, INDENTATION_KEY_SPRING_CONSTANTS) != NULL;
+    d->several_sensitivities = indentation_words(t, INDENTATION_KEY_SENSITIVITIES) != NULL;
+    d->several_tips =
+        d->tip != NULL && strncmp(d->tip, INDENTATION_SEVERAL, strlen(INDENTATION_SEVERAL)) == 0;
+    for (int i = 0; i < WT_COMMON_SOURCES; i++) {
+        const indentation_key error = (indentation_key)(INDENTATION_KEY_LEVER_ERROR + i),
+                              gain = (indentation_key)(INDENTATION_KEY_LEVER_GAIN + i);
+        d->common_error[i] = indentation_value(t, error).value;
+        d->common_gain[i] = indentation_value(t, gain);
+    }
+    d->loss_error = shown_error(t, INDENTATION_KEY_LOSS_ERROR);
+    d->bend_error = shown_error(t, INDENTATION_KEY_BEND_ERROR);
+    d->misfit_error = shown_error(t, INDENTATION_KEY_MISFIT_ERROR);
+    d->pooled_misfit = plain_number(t, INDENTATION_KEY_POOLED_MISFIT);
+    d->pooled_misfit_chance = plain_number(t, INDENTATION_KEY_POOLED_MISFIT_CHANCE);
+}
+
+wt_status wt_group_from_table(const wt_table *table, bool each_place, wt_group_data *data,
+                              wt_error *err)
+{
+    if (table == NULL || data == NULL)
+        return wt_fail(err, WT_E_ARG, "no indentation table");
+    table_view t;
+    wt_status status = table_bind(table, &indentation_schema, "", &t, err);
+    if (status != WT_OK)
+        return status;
+    size_t allocated = t.n_rows > 0 ? t.n_rows : 1;
+    wt_group_data d = {0};
+    named *names = malloc(allocated * sizeof *names);
+    size_t *row_of = malloc(allocated * sizeof *row_of);
+    d.modulus = malloc(allocated * sizeof *d.modulus);
+    d.spot = malloc(allocated * sizeof *d.spot);
+    d.indentation_rate = malloc(allocated * sizeof *d.indentation_rate);
+    d.equivalent_frequency = malloc(allocated * sizeof *d.equivalent_frequency);
+    d.spectrum_factor = malloc(allocated * sizeof *d.spectrum_factor);
+    d.digest = malloc(allocated * sizeof *d.digest);
+    d.pull = malloc(allocated * sizeof *d.pull);
+    d.lack_of_fit = malloc(allocated * sizeof *d.lack_of_fit);
+    d.fitted_spot = malloc(allocated * sizeof *d.fitted_spot);
+    d.max_force = malloc(allocated * sizeof *d.max_force);
+    d.max_indentation = malloc(allocated * sizeof *d.max_indentation);
+    if (names == NULL || row_of == NULL || d.modulus == NULL || d.spot == NULL ||
+        d.indentation_rate == NULL || d.equivalent_frequency == NULL || d.spectrum_factor == NULL ||
+        d.digest == NULL || d.pull == NULL || d.lack_of_fit == NULL || d.fitted_spot == NULL ||
+        d.max_force == NULL || d.max_indentation == NULL)
+        status = wt_fail(err, WT_E_MEMORY, "out of memory");
+    else
+        status = find_rows(&t, &d, row_of, err);
+    if (status == WT_OK) {
+        note_spots(&t, &d);
+        count_rejected(&t, &d);
+    }
+    double gain = 0;
+    for (size_t i = 0; status == WT_OK && i < d.group.n; i++) {
+        d.modulus[i] = indentation_get(&t, row_of[i], INDENTATION_MODULUS);
+        names[i] = name_of(&t, row_of[i], i, each_place, &d);
+        d.indentation_rate[i] = indentation_get(&t, row_of[i], INDENTATION_RATE);
+        d.equivalent_frequency[i] =
+            indentation_get(&t, row_of[i], INDENTATION_EQUIVALENT_FREQUENCY);
+        d.spectrum_factor[i] = indentation_get(&t, row_of[i], INDENTATION_SPECTRUM_FACTOR);
+        gain += indentation_get(&t, row_of[i], INDENTATION_SENSITIVITY_GAIN);
+        read_signs(&t, row_of[i], i, &d);
+    }
+    if (status == WT_OK) {
+        number_spots(names, d.group.n, d.spot);
+        read_misfits(&t, each_place, names, &d);
+        d.group.modulus = d.modulus;
+        d.group.spot = indentation_has(&t, INDENTATION_SPOT) ? d.spot : NULL;
+        d.spring_constant = indentation_value(&t, INDENTATION_KEY_SPRING_CONSTANT);
+        d.sensitivity_gain = gain / (double)d.group.n;
+        read_common(&t, &d);
+        *data = d;
+        d = (wt_group_data){0};
+    }
+    free(names);
+    free(row_of);
+    wt_group_data_clear(&d);
+    return status;
+}
+
+void wt_group_data_clear(wt_group_data *data)
+{
+    if (data == NULL)
+        return;
+    free(data->modulus);
+    free(data->spot);
+    free(data->indentation_rate);
+    free(data->equivalent_frequency);
+    free(data->spectrum_factor);
+    free(data->digest);
+    free(data->pull);
+    free(data->lack_of_fit);
+    free(data->fitted_spot);
+    free(data->max_force);
+    free(data->max_indentation);
+    *data = (wt_group_data){0};
+}

@@ -1,0 +1,30 @@
+/* Two ratios of moduli against each other. SPDX-License-Identifier: GPL-3.0-or-later */
+#include "core/math/students_t.h"
+#include "weartrack/fit.h"
+
+#include <gsl/gsl_cdf.h>
+#include <math.h>
+
+/* The part of one in the sum of which Satterthwaite takes the freedom; a normal error has none. */
+static double freedom_part(const wt_log_ratio *ratio)
+{
+    const double variance = ratio->standard_error * ratio->standard_error;
+    return isnan(ratio->df) ? 0 : variance * variance / ratio->df;
+}
+
+wt_log_ratio_difference wt_log_ratio_compare(const wt_log_ratio *a, const wt_log_ratio *b)
+{
+    const double nan = (double)NAN;
+    wt_log_ratio_difference d = {a->value - b->value, nan, nan, nan, nan};
+    const double error = hypot(a->standard_error, b->standard_error);
+    if (!isfinite(d.value) || !(error > 0) || !isfinite(error))
+        return d;
+    const double part = freedom_part(a) + freedom_part(b), t = fabs(d.value) / error;
+    if (part > 0)
+        d.df = error * error * error * error / part;
+    const double reach = error * students_t_quantile(part > 0 ? d.df : (double)INFINITY);
+    d.low = d.value - reach;
+    d.high = d.value + reach;
+    d.p = 2 * (part > 0 ? gsl_cdf_tdist_Q(t, d.df) : gsl_cdf_ugaussian_Q(t));
+    return d;
+}

@@ -1,0 +1,82 @@
+/* Whether what the curves of two groups show beside the modulus (a pull, a misfit) differs.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#include "core/base/arena.h"
+#include "core/base/array.h"
+#include "core/math/students_t.h"
+#include "weartrack/fit.h"
+
+#include <gsl/gsl_cdf.h>
+#include <math.h>
+#include <stdlib.h>
+
+typedef struct spot_sign {
+    long spot;
+    double value;
+} spot_sign;
+
+static int by_spot(const void *a, const void *b)
+{
+    const spot_sign *x = a, *y = b;
+    if (x->spot != y->spot)
+        return x->spot < y->spot ? -1 : 1;
+    return (x->value > y->value) - (x->value < y->value);
+}
+
+/* Of the means of the spots, of finite values. */
+static moments spot_moments(const double *values, const long *spots, size_t n, pool *memory)
+{
+    size_t kept = 0, units = 0;
+    spot_sign *signs = pool_alloc(memory, n + 1, sizeof *signs);
+    double *means = pool_numbers(memory, n + 1);
+    if (memory->failed)
+        return (moments){0};
+    for (size_t i = 0; i < n; i++)
+        if (isfinite(values[i]))
+            signs[kept++] = (spot_sign){spots != NULL ? spots[i] : (long)i, values[i]};
+    qsort(signs, kept, sizeof *signs, by_spot);
+    for (size_t from = 0, to; from < kept; from = to) {
+        double sum = 0;
+        for (to = from; to < kept && signs[to].spot == signs[from].spot; to++)
+            sum += signs[to].value;
+        means[units++] = sum / (double)(to - from);
+    }
+    return moments_of(means, units);
+}
+
+wt_status wt_compare_signs(const double *const values[2], const long *const spots[2],
+                           const size_t n[2], wt_sign_comparison *signs, wt_error *err)
+{
+    pool memory = {0};
+    moments m[2];
+    for (int g = 0; g < 2; g++)
+        m[g] = spot_moments(values[g], spots[g], n[g], &memory);
+    const bool failed = memory.failed;
+    pool_free(&memory);
+    if (failed)
+        return wt_fail(err, WT_E_MEMORY, "out of memory");
+    const t_error parts[] = {{sqrt(m[0].variance / m[0].n), m[0].n - 1},
+                             {sqrt(m[1].variance / m[1].n), m[1].n - 1}};
+    const t_error welch = t_error_sum(parts, COUNT_OF(parts));
+    const double unknown = (double)NAN;
+    *signs = (wt_sign_comparison){
+        {m[0].n > 0 ? m[0].mean : unknown, m[1].n > 0 ? m[1].mean : unknown}, {unknown, unknown}};
+    if (!(fmin(m[0].n, m[1].n) > 1))
+        return WT_OK;
+    const double difference = m[1].mean - m[0].mean;
+    if (!(welch.error > 0)) { /* none scatters: they are equal, or they are not */
+        signs->larger_chance[1] = difference > 0 ? 0 : 1;
+        signs->larger_chance[0] = difference < 0 ? 0 : 1;
+        return WT_OK;
+    }
+    signs->larger_chance[1] = gsl_cdf_tdist_Q(difference / welch.error, welch.df);
+    signs->larger_chance[0] = gsl_cdf_tdist_P(difference / welch.error, welch.df);
+    return WT_OK;
+}
+
+double wt_chance_of_both(double a, double b)
+{
+    if (isnan(a) || isnan(b))
+        return isnan(a) ? b : a;
+    const double product = a * b;
+    return product > 0 ? product * (1 - log(product)) : 0;
+}

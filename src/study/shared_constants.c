@@ -1,0 +1,314 @@
+/* Constants that cases have in common: of a compound, of a severity, or of all cases. One weighted
+ * fit of each, and whether one value suffices: by chi-squared, corrected for how many are looked
+ * at, it differs; it is one where all that it is of lies within the margin.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#include "study/collect.h"
+
+#include "core/base/array.h"
+#include "core/base/clocale.h"
+#include "core/table/table_rows.h"
+#include "study/numerics/shared_value.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* The customary one, and that of the intervals. */
+static const double level = 0.05;
+
+TABLE_ROW(shared_constants, SHARED_CONSTANTS, const char *constant, *over, *of; wt_interval value;
+          const char *unit; double n, chi_squared, df, p, holm_p; const char *suffices;)
+TABLE_KEYS(shared_constants, SHARED_CONSTANTS, double tested, different, undecided;
+           const char *includes, *left_out, *settled_by; double margin;)
+TABLE_ROW(shared_members, SHARED_MEMBERS, const char *constant, *over, *of, *member;
+          double number, value; const char *unit; wt_interval ratio;)
+
+typedef enum common_to { OF_SAMPLE, OF_CONDITION, OF_ALL, COMMONS } common_to;
+static const char *const common_words[COMMONS] = {"sample", "condition", "all cases"};
+
+/* What it is a constant of, as far as the theory goes, and of all cases. */
+static const struct {
+    const char *unit;
+    common_to of;
+} constants[SHARED_N] = {[SHARED_WEAR] = {"m^2/N", OF_CONDITION},
+                         [SHARED_SHEAR] = {"Pa", OF_ALL},
+                         [SHARED_RATE] = {"1", OF_SAMPLE}};
+
+/* Values that may be one. */
+typedef struct shared_row {
+    shared_constant constant;
+    common_to common;
+    const char *of;
+    const case_value **members; /* [n] */
+    shared_deviation *deviation;
+    size_t n;
+    shared_value found;
+    double holm_p;
+    const char *suffices;
+} shared_row;
+
+typedef struct shared_rows {
+    shared_row *rows;
+    size_t n;
+    double margin;
+} shared_rows;
+
+static const char one[] = "one", differs[] = "differs", open_[] = "cannot say";
+
+/* ---- which ----------------------------------------------------------------------------------- */
+
+/* What the case of a value has in common with others; NULL: nothing is said of it. */
+static const char *name_of(const case_value *v, common_to common)
+{
+    const char *name = common == OF_SAMPLE      ? v->of->sample
+                       : common == OF_CONDITION ? v->of->condition
+                                                : "";
+    return common != OF_ALL && name[0] == '\0' ? NULL : name;
+}
+
+static void free_rows(shared_rows *list)
+{
+    for (size_t i = 0; i < list->n; i++) {
+        free(list->rows[i].members);
+        free(list->rows[i].deviation);
+    }
+    free(list->rows);
+}
+
+/* The row of all values that have the name of this one; none if it is not the first of them, or
+ * alone. */
+static wt_status add_row(shared_rows *list, const case_values *values, size_t first,
+                         common_to common, wt_error *err)
+{
+    const case_value *v = &values->of[first];
+    const char *name = name_of(v, common);
+    shared_row row = {.constant = v->constant, .common = common, .of = name};
+    if (name == NULL)
+        return WT_OK;
+    row.members = calloc(values->n, sizeof *row.members);
+    row.deviation = calloc(values->n, sizeof *row.deviation);
+    shared_row *grown = array_grow(list->rows, list->n, sizeof *grown);
+    if (grown != NULL)
+        list->rows = grown;
+    for (size_t i = 0; row.members != NULL && i < values->n; i++) {
+        const char *other =
+            values->of[i].constant == v->constant ? name_of(&values->of[i], common) : NULL;
+        if (other != NULL && strcmp(other, name) == 0)
+            row.members[row.n++] = &values->of[i];
+    }
+    const bool room = row.members != NULL && row.deviation != NULL && grown != NULL;
+    const shared_row *last = list->n > 0 ? &list->rows[list->n - 1] : NULL;
+    const bool again = common == OF_ALL && last != NULL && last->constant == v->constant &&
+                       last->n == row.n; /* all cases are of one sample or condition */
+    if (room && row.n > 1 && row.members[0] == v && !again) {
+        list->rows[list->n++] = row;
+        return WT_OK;
+    }
+    free(row.members);
+    free(row.deviation);
+    return room ? WT_OK : wt_fail(err, WT_E_MEMORY, "out of memory");
+}
+
+/* Of each constant those of what it is a constant of, then all. */
+static wt_status find_rows(shared_rows *list, const case_values *values, wt_error *err)
+{
+    wt_status status = WT_OK;
+    for (shared_constant c = 0; status == WT_OK && c < SHARED_N; c++)
+        for (int all = constants[c].of == OF_ALL; status == WT_OK && all < 2; all++)
+            for (size_t i = 0; status == WT_OK && i < values->n; i++)
+                if (values->of[i].constant == c)
+                    status = add_row(list, values, i, all ? OF_ALL : constants[c].of, err);
+    return status;
+}
+
+/* ---- fit and verdict ------------------------------------------------------------------------- */
+
+static wt_status fit_row(shared_row *row, wt_error *err)
+{
+    const size_t n = row->n;
+    wt_log_ratio *of = malloc(n * sizeof *of);
+    double *common = malloc(n * n * sizeof *common);
+    wt_status status = WT_OK;
+    if (of == NULL || common == NULL)
+        status = wt_fail(err, WT_E_MEMORY, "out of memory");
+    for (size_t i = 0; status == WT_OK && i < n; i++) {
+        of[i] = row->members[i]->log;
+        for (size_t k = 0; k < n; k++)
+            common[i * n + k] = shared_covariance(row->members[i], row->members[k]);
+    }
+    if (status == WT_OK)
+        status = shared_value_fit(of, common, n, &row->found, row->deviation, err);
+    free(of);
+    free(common);
+    return status;
+}
+
+/* The first of them whose error is not whole, which makes any verdict one of part of it; or NULL.
+ */
+static const case_value *partly_known(const shared_row *row)
+{
+    for (size_t i = 0; i < row->n; i++)
+        if (row->members[i]->lacks != NULL && row->members[i]->lacks[0] != '\0')
+            return row->members[i];
+    return NULL;
+}
+
+/* Is all that it is of within the margin? */
+static bool is_within(const shared_row *row, double margin)
+{
+    const double least = log1p(margin);
+    bool within = true;
+    for (size_t i = 0; i < row->n; i++)
+        within = within && row->deviation[i].low > -least && row->deviation[i].high < least;
+    return within;
+}
+
+static wt_status judge(shared_rows *list, wt_error *err)
+{
+    double *p = malloc((2 * list->n + 1) * sizeof *p);
+    if (p == NULL)
+        return wt_fail(err, WT_E_MEMORY, "out of memory");
+    for (size_t i = 0; i < list->n; i++)
+        p[i] = list->rows[i].found.p;
+    wt_holm(p, list->n, p + list->n);
+    for (size_t i = 0; i < list->n; i++) {
+        shared_row *row = &list->rows[i];
+        row->holm_p = p[list->n + i];
+        row->suffices = partly_known(row) != NULL      ? open_
+                        : row->holm_p < level          ? differs
+                        : is_within(row, list->margin) ? one
+                                                       : open_;
+    }
+    free(p);
+    return WT_OK;
+}
+
+/* ---- tables ---------------------------------------------------------------------------------- */
+
+/* By how much smaller errors would settle a row, its values as they are: all of them within the
+ * margin, or one beside 0. */
+static double needed_of(const shared_row *row, double margin)
+{
+    double within = 0, beside = (double)INFINITY;
+    for (size_t i = 0; i < row->n; i++) {
+        const shared_deviation *d = &row->deviation[i];
+        const double half = (d->high - d->low) / 2, room = log1p(margin) - fabs(d->value);
+        within = fmax(within, room > 0 ? half / room : (double)INFINITY);
+        beside = fmin(beside, half / fabs(d->value));
+    }
+    return fmin(within, beside);
+}
+
+static void ask_for_errors(const shared_rows *list, char *text, size_t size)
+{
+    for (size_t i = 0; i < list->n; i++) {
+        const case_value *v = partly_known(&list->rows[i]);
+        char name[256];
+        if (v == NULL)
+            continue;
+        shared_name(v, name, sizeof name);
+        clocale_append(text, size,
+                       "%sthe error of the %s of %s is not whole before that of %s is "
+                       "known",
+                       text[0] != '\0' ? "; " : "", shared_words[v->constant], name, v->lacks);
+        return;
+    }
+}
+
+static void ask_for_more(const shared_rows *list, char *text, size_t size)
+{
+    const shared_row *nearest = NULL;
+    double least = (double)INFINITY;
+    for (size_t i = 0; i < list->n; i++) {
+        const shared_row *row = &list->rows[i];
+        const double needed = needed_of(row, list->margin);
+        if (row->suffices == open_ && partly_known(row) == NULL && needed < least) {
+            least = needed;
+            nearest = row;
+        }
+    }
+    if (nearest != NULL)
+        clocale_print(
+            text, size,
+            "errors smaller by a factor of about %.2g, of each case, would settle the nearest of "
+            "them, the %s of %s%s%s",
+            fmax(1.1, least), shared_words[nearest->constant], common_words[nearest->common],
+            nearest->of[0] != '\0' ? " " : "", nearest->of);
+    ask_for_errors(list, text, size);
+}
+
+static void say_left_out(const case_values *values, char *text, size_t size)
+{
+    clocale_print(text, size, "%s", values->left_out);
+    if (values->unnamed > 0)
+        clocale_append(text, size, "; and %zu more", values->unnamed);
+}
+
+static wt_status list_constants(const shared_rows *list, const case_values *values,
+                                wt_table **table, wt_error *err)
+{
+    char left_out[sizeof values->left_out + 32] = ""; /* and how many more */
+    char settled_by[900] = "";
+    double different = 0, undecided = 0;
+    table_writer w = table_begin(&shared_constants_schema, err);
+    for (size_t i = 0; i < list->n; i++) {
+        const shared_row *row = &list->rows[i];
+        const shared_value *f = &row->found;
+        const double value = exp(f->value);
+        different += row->suffices == differs;
+        undecided += row->suffices == open_;
+        TABLE_ADD(shared_constants, &w, shared_words[row->constant], common_words[row->common],
+                  row->of, (wt_interval){value, value * f->error, exp(f->low), exp(f->high)},
+                  constants[row->constant].unit, (double)row->n, f->chi_squared, f->df, f->p,
+                  row->holm_p, row->suffices);
+    }
+    ask_for_more(list, settled_by, sizeof settled_by);
+    say_left_out(values, left_out, sizeof left_out);
+    TABLE_SET(shared_constants, &w, (double)list->n, different, undecided,
+              "what those of the cases include, and that an error by a DMA with its shift law, by "
+              "strain sweeps or by scans of a surface that cases share may be one; not what else "
+              "they share, such as a load cell",
+              left_out, settled_by, list->margin);
+    return table_end(&w, table);
+}
+
+static wt_status list_members(const shared_rows *list, wt_table **table, wt_error *err)
+{
+    table_writer w = table_begin(&shared_members_schema, err);
+    for (size_t i = 0; i < list->n; i++) {
+        const shared_row *row = &list->rows[i];
+        table_block(&w);
+        for (size_t k = 0; k < row->n; k++) {
+            char name[256];
+            const shared_deviation *d = &row->deviation[k];
+            shared_name(row->members[k], name, sizeof name);
+            TABLE_ADD(shared_members, &w, shared_words[row->constant], common_words[row->common],
+                      row->of, name, (double)(k + 1), exp(row->members[k]->log.value),
+                      constants[row->constant].unit,
+                      (wt_interval){exp(d->value), (double)NAN, exp(d->low), exp(d->high)});
+        }
+    }
+    return table_end(&w, table);
+}
+
+wt_status collect_constants(const collected_case *cases, size_t n, double margin,
+                            wt_collection_tables *tables, wt_error *err)
+{
+    case_values values;
+    shared_rows list = {.margin = margin};
+    wt_status status = shared_values_of(cases, n, &values, err);
+    if (status == WT_OK)
+        status = find_rows(&list, &values, err);
+    for (size_t i = 0; status == WT_OK && i < list.n; i++)
+        status = fit_row(&list.rows[i], err);
+    if (status == WT_OK)
+        status = judge(&list, err);
+    if (status == WT_OK && (list.n > 0 || (n > 1 && values.left_out[0] != '\0')))
+        status = list_constants(&list, &values, &tables->shared_constants, err);
+    if (status == WT_OK && list.n > 0)
+        status = list_members(&list, &tables->shared_members, err);
+    free_rows(&list);
+    free(values.of);
+    return status;
+}

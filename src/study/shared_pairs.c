@@ -1,0 +1,364 @@
+/* Critical energy and specific wear rate that cases have in common, together: what fixes one of
+ * them moves the other, so that each alone may agree where the pair does not. Cases are set side by
+ * side by what is known of their layers in the same way. SPDX-License-Identifier: GPL-3.0-or-later
+ */
+#include "study/collect.h"
+
+#include "core/base/arena.h"
+#include "core/base/array.h"
+#include "core/base/clocale.h"
+#include "core/math/normal_quantile.h"
+#include "core/table/table_rows.h"
+#include "layer/numerics/correlated_pair.h"
+#include "study/numerics/shared_value.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* The customary one, and that of the intervals. */
+static const double level = 0.05;
+
+TABLE_ROW(collected_constants, COLLECTED_CONSTANTS, const char *sample, *condition, *by;
+          wt_interval energy, wear; constant_axes axes;)
+TABLE_ROW(shared_pairs, SHARED_PAIRS, const char *by, *over, *of; double n;
+          const char *one_energy, *one_wear, *one_pair; wt_interval energy, wear;
+          constant_axes axes; double chi_squared, df, holm_p;)
+TABLE_KEYS(shared_pairs, SHARED_PAIRS, const char *one_of_all; double tests;
+           const char *left_out, *settled_by; double margin;)
+
+/* What a case knows in one way, a row of its table "identification". */
+typedef struct told_pair {
+    const collected_case *of;
+    const char *by, *lacks; /* lacks: "" where its error is whole */
+    constant_pair pair;
+    wt_interval energy, wear;
+    constant_axes axes;
+    bool fixed; /* there is a covariance */
+} told_pair;
+
+typedef struct told_pairs {
+    told_pair *of;
+    size_t n;
+    char left_out[1000];
+} told_pairs;
+
+typedef enum common_to { OF_SAMPLE, OF_CONDITION, OF_ALL, COMMONS } common_to;
+static const char *const common_words[COMMONS] = {"sample", "condition", "all cases"};
+static const char one[] = "one", differs[] = "differs", open_[] = "cannot say";
+
+/* The tests of a row. */
+enum { OF_ENERGY, OF_WEAR, OF_PAIR_, TESTS };
+
+typedef struct pair_row {
+    const char *by, *of;
+    common_to common;
+    const told_pair **members; /* [n] */
+    size_t n;
+    shared_pair found;
+    double p[TESTS], holm_p[TESTS];
+    double off[OF_PAIR_]; /* the farthest end of what a case is off the shared value */
+    const char *says[TESTS];
+} pair_row;
+
+typedef struct pair_rows {
+    pair_row *of;
+    size_t n;
+} pair_rows;
+
+/* ---- what the cases tell --------------------------------------------------------------------- */
+
+static pair_covariance covariance_of(double energy, double wear, double correlation)
+{
+    /* what does not scatter has no correlation */
+    return (pair_covariance){energy * energy, wear * wear,
+                             isnan(correlation) ? 0 : correlation * energy * wear};
+}
+
+static wt_interval interval_at(const table_view *v, size_t row, unsigned first)
+{
+    return (wt_interval){identification_get(v, row, first), identification_get(v, row, first + 1),
+                         identification_get(v, row, first + 2),
+                         identification_get(v, row, first + 3)};
+}
+
+static told_pair pair_at(const collected_case *c, const table_view *v, size_t row)
+{
+    const char *lacks = identification_words(v, IDENTIFICATION_KEY_LACKS);
+    told_pair t = {.of = c,
+                   .by = identification_text(v, row, IDENTIFICATION_BY),
+                   .lacks = lacks != NULL ? lacks : "",
+                   .energy = interval_at(v, row, IDENTIFICATION_ENERGY),
+                   .wear = interval_at(v, row, IDENTIFICATION_WEAR)};
+    const double of_energy = t.energy.standard_error / t.energy.value,
+                 of_wear = t.wear.standard_error / t.wear.value,
+                 correlation = identification_get(v, row, IDENTIFICATION_CORRELATION);
+    t.axes.correlation = correlation;
+    t.axes.loose_error = identification_get(v, row, IDENTIFICATION_LOOSE_ERROR);
+    t.axes.tight_error = identification_get(v, row, IDENTIFICATION_TIGHT_ERROR);
+    snprintf(t.axes.loose, sizeof t.axes.loose, "%s",
+             identification_text(v, row, IDENTIFICATION_LOOSE));
+    t.pair = (constant_pair){
+        log(t.energy.value), log(t.wear.value), covariance_of(of_energy, of_wear, correlation),
+        covariance_of(identification_get(v, row, IDENTIFICATION_ENERGY_INPUTS),
+                      identification_get(v, row, IDENTIFICATION_WEAR_INPUTS),
+                      identification_get(v, row, IDENTIFICATION_CORRELATION_INPUTS))};
+    /* correlation 1 leaves no pair, and a result that lacks these columns no part in common */
+    t.fixed = of_energy > 0 && of_wear > 0 && fabs(correlation) < 1 - 1e-6 &&
+              !isnan(t.pair.inputs.energy + t.pair.inputs.wear);
+    return t;
+}
+
+static wt_status add_case(const collected_case *c, told_pairs *to, wt_error *err)
+{
+    table_view v;
+    const wt_status status = table_bind_of(c->result, &identification_schema, "", &v, err);
+    if (status != WT_OK) {
+        wt_error_file(err, c->file);
+        return status;
+    }
+    for (size_t row = 0; row < v.n_rows; row++) {
+        const told_pair t = pair_at(c, &v, row);
+        told_pair *grown = array_grow(to->of, to->n, sizeof *grown);
+        if (grown == NULL)
+            return wt_fail(err, WT_E_MEMORY, "out of memory");
+        to->of = grown;
+        grown[to->n++] = t;
+        if (!t.fixed && !isnan(t.energy.value)) {
+            const char *why = identification_text(&v, row, IDENTIFICATION_NOTE);
+            clocale_append(to->left_out, sizeof to->left_out, "%s%s, %s: %s",
+                           to->left_out[0] != '\0' ? "; " : "", c->sample, c->condition,
+                           why[0] != '\0' ? why : "the errors of both are one");
+        }
+    }
+    return WT_OK;
+}
+
+static wt_status list_told(const told_pairs *told, wt_table **table, wt_error *err)
+{
+    table_writer w = table_begin(&collected_constants_schema, err);
+    for (size_t i = 0; i < told->n; i++) {
+        const told_pair *t = &told->of[i];
+        TABLE_ADD(collected_constants, &w, t->of->sample, t->of->condition, t->by, t->energy,
+                  t->wear, t->axes);
+    }
+    return table_end(&w, table);
+}
+
+/* ---- which are set side by side -------------------------------------------------------------- */
+
+static const char *name_of(const told_pair *t, common_to common)
+{
+    const char *name = common == OF_SAMPLE      ? t->of->sample
+                       : common == OF_CONDITION ? t->of->condition
+                                                : "";
+    return common != OF_ALL && name[0] == '\0' ? NULL : name;
+}
+
+static bool same(const told_pair *a, const told_pair *b, common_to common)
+{
+    const char *of_a = name_of(a, common), *of_b = name_of(b, common);
+    return b->fixed && strcmp(a->by, b->by) == 0 && of_a != NULL && of_b != NULL &&
+           strcmp(of_a, of_b) == 0;
+}
+
+/* The row of which this is the first; none if it is alone, or all cases are of one name. */
+static wt_status add_row(const told_pairs *told, size_t first, common_to common, pair_rows *rows,
+                         pool *memory, wt_error *err)
+{
+    const told_pair *t = &told->of[first];
+    pair_row row = {.by = t->by, .common = common, .of = name_of(t, common)};
+    size_t others = 0;
+    row.members = pool_alloc(memory, told->n, sizeof *row.members);
+    pair_row *grown = array_grow(rows->of, rows->n, sizeof *grown);
+    if (grown != NULL)
+        rows->of = grown;
+    if (row.members == NULL || grown == NULL)
+        return wt_fail(err, WT_E_MEMORY, "out of memory");
+    for (size_t i = 0; i < told->n; i++) {
+        if (same(t, &told->of[i], common))
+            row.members[row.n++] = &told->of[i];
+        others += same(t, &told->of[i], OF_ALL);
+    }
+    if (row.n > 1 && row.members[0] == t && (common == OF_ALL || row.n < others))
+        grown[rows->n++] = row;
+    return WT_OK;
+}
+
+/* ---- fit and verdicts ------------------------------------------------------------------------ */
+
+static double part_of(pair_covariance c, int which)
+{
+    return which == OF_ENERGY ? c.energy : c.wear;
+}
+
+/* One of the two constants by itself. */
+static wt_status fit_one(pair_row *row, const bool *common, int which, pool *memory, wt_error *err)
+{
+    const size_t n = row->n;
+    wt_log_ratio *of = pool_alloc(memory, n, sizeof *of);
+    double *covariance = pool_numbers(memory, n * n);
+    shared_deviation *deviation = pool_alloc(memory, n, sizeof *deviation);
+    shared_value found;
+    if (of == NULL || covariance == NULL || deviation == NULL)
+        return wt_fail(err, WT_E_MEMORY, "out of memory");
+    for (size_t i = 0; i < n; i++) {
+        const constant_pair *p = &row->members[i]->pair;
+        of[i] = (wt_log_ratio){which == OF_ENERGY ? p->energy : p->wear,
+                               sqrt(part_of(p->whole, which)), (double)NAN};
+        for (size_t k = 0; k < n; k++)
+            if (common[i * n + k])
+                covariance[i * n + k] =
+                    sqrt(part_of(p->inputs, which) * part_of(row->members[k]->pair.inputs, which));
+    }
+    const wt_status status = shared_value_fit(of, covariance, n, &found, deviation, err);
+    row->p[which] = found.p;
+    for (size_t i = 0; status == WT_OK && i < n; i++)
+        row->off[which] = fmax(row->off[which], fmax(-deviation[i].low, deviation[i].high));
+    return status;
+}
+
+static wt_status fit_row(pair_row *row, pool *memory, wt_error *err)
+{
+    const size_t n = row->n;
+    constant_pair *pairs = pool_alloc(memory, n, sizeof *pairs);
+    bool *common = pool_alloc(memory, n * n, sizeof *common);
+    if (pairs == NULL || common == NULL)
+        return wt_fail(err, WT_E_MEMORY, "out of memory");
+    for (size_t i = 0; i < n; i++) {
+        pairs[i] = row->members[i]->pair;
+        for (size_t k = 0; k < n; k++)
+            common[i * n + k] =
+                i != k && inputs_may_be_common(row->members[i]->of, row->members[k]->of);
+    }
+    wt_status status = shared_pair_fit(pairs, common, n, &row->found, err);
+    row->p[OF_PAIR_] = row->found.p;
+    for (int which = 0; status == WT_OK && which < OF_PAIR_; which++)
+        status = fit_one(row, common, which, memory, err);
+    return status;
+}
+
+/* The first of them whose error is not whole, which makes any verdict one of part of it; or NULL.
+ */
+static const told_pair *partly_known(const pair_row *row)
+{
+    for (size_t i = 0; i < row->n; i++)
+        if (row->members[i]->lacks[0] != '\0')
+            return row->members[i];
+    return NULL;
+}
+
+static wt_status judge(pair_rows *rows, double margin, pool *memory, wt_error *err)
+{
+    double *p = pool_numbers(memory, 2 * TESTS * rows->n + 1), *corrected = p + TESTS * rows->n;
+    if (p == NULL)
+        return wt_fail(err, WT_E_MEMORY, "out of memory");
+    for (size_t i = 0; i < TESTS * rows->n; i++)
+        p[i] = rows->of[i / TESTS].p[i % TESTS];
+    wt_holm(p, TESTS * rows->n, corrected);
+    for (size_t i = 0; i < rows->n; i++) {
+        pair_row *row = &rows->of[i];
+        bool within = true;
+        for (int k = 0; k < TESTS; k++) {
+            within = within && (k == OF_PAIR_ || row->off[k] < log1p(margin));
+            const bool near = k == OF_PAIR_ ? within : row->off[k] < log1p(margin);
+            row->holm_p[k] = corrected[TESTS * i + (size_t)k];
+            row->says[k] = partly_known(row) != NULL ? open_
+                           : row->holm_p[k] < level  ? differs
+                           : near                    ? one
+                                                     : open_;
+        }
+    }
+    return WT_OK;
+}
+
+/* ---- tables ---------------------------------------------------------------------------------- */
+
+static wt_interval shared_interval(double value, double variance)
+{
+    const double error = sqrt(variance);
+    return (wt_interval){exp(value), exp(value) * error, exp(value - NORMAL_95 * error),
+                         exp(value + NORMAL_95 * error)};
+}
+
+/* Across the combination that is known least the pair is known well, and only what moves that
+ * combination tells more of the two. */
+static void say_settled_by(const pair_rows *rows, char *text, size_t size)
+{
+    for (size_t i = 0; i < rows->n; i++) {
+        const pair_row *row = &rows->of[i];
+        const told_pair *lacks = partly_known(row);
+        const constant_axes axes = constant_axes_of(row->found.covariance);
+        if (lacks != NULL) {
+            clocale_print(text, size, "the error of %s, %s is not whole before that of %s is known",
+                          lacks->of->sample, lacks->of->condition, lacks->lacks);
+            return;
+        }
+        if (row->says[OF_PAIR_] == open_ && text[0] == '\0')
+            clocale_print(
+                text, size,
+                "what narrows %s, which is known least (to a factor of %.3g): a wear rate "
+                "or a running-in time with a smaller error, of each case",
+                axes.loose, exp(NORMAL_95 * axes.loose_error));
+    }
+}
+
+/* Of all cases, by every way to know them: where one differs the layers do. */
+static const char *say_all(const pair_rows *rows)
+{
+    const char *said = NULL;
+    for (size_t i = 0; i < rows->n; i++) {
+        const char *const here = rows->of[i].says[OF_PAIR_];
+        if (rows->of[i].common == OF_ALL && (said == NULL || here == differs || said == one))
+            said = here;
+    }
+    return said;
+}
+
+static wt_status list_rows(const pair_rows *rows, const told_pairs *told, double margin,
+                           wt_table **table, wt_error *err)
+{
+    char settled_by[400] = "";
+    table_writer w = table_begin(&shared_pairs_schema, err);
+    for (size_t i = 0; i < rows->n; i++) {
+        const pair_row *r = &rows->of[i];
+        const shared_pair *f = &r->found;
+        TABLE_ADD(shared_pairs, &w, r->by, common_words[r->common], r->of, (double)r->n,
+                  r->says[OF_ENERGY], r->says[OF_WEAR], r->says[OF_PAIR_],
+                  shared_interval(f->energy, f->covariance.energy),
+                  shared_interval(f->wear, f->covariance.wear), constant_axes_of(f->covariance),
+                  f->chi_squared, 2 * ((double)r->n - 1), r->holm_p[OF_PAIR_]);
+    }
+    say_settled_by(rows, settled_by, sizeof settled_by);
+    TABLE_SET(shared_pairs, &w, say_all(rows), (double)(TESTS * rows->n), told->left_out,
+              settled_by, margin);
+    return table_end(&w, table);
+}
+
+wt_status collect_layer_constants(const collected_case *cases, size_t n, double margin,
+                                  wt_collection_tables *tables, wt_error *err)
+{
+    told_pairs told = {.n = 0};
+    pair_rows rows = {NULL, 0};
+    pool memory = {0};
+    wt_status status = WT_OK;
+    for (size_t i = 0; status == WT_OK && i < n; i++)
+        status = add_case(&cases[i], &told, err);
+    for (common_to c = 0; status == WT_OK && c < COMMONS; c++)
+        for (size_t i = 0; status == WT_OK && i < told.n; i++)
+            if (told.of[i].fixed && name_of(&told.of[i], c) != NULL)
+                status = add_row(&told, i, c, &rows, &memory, err);
+    for (size_t i = 0; status == WT_OK && i < rows.n; i++)
+        status = fit_row(&rows.of[i], &memory, err);
+    if (status == WT_OK)
+        status = judge(&rows, margin, &memory, err);
+    if (status == WT_OK && told.n > 0)
+        status = list_told(&told, &tables->collected_constants, err);
+    if (status == WT_OK && rows.n > 0)
+        status = list_rows(&rows, &told, margin, &tables->shared_pairs, err);
+    pool_free(&memory);
+    free(rows.of);
+    free(told.of);
+    return status;
+}

@@ -1,0 +1,344 @@
+/* What each case tells of the constants that cases may have in common: the specific wear rate as
+ * measured, the shear stress that its record asks for, and the factor of its moduli over a decade
+ * of the indentation rate. SPDX-License-Identifier: GPL-3.0-or-later */
+#include "study/collect.h"
+
+#include "core/base/array.h"
+#include "core/math/normal_quantile.h"
+#include "core/math/students_t.h"
+#include "core/table/registry.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+static wt_status bind(const collected_case *c, const table_schema *schema, const char *suffix,
+                      table_view *view, wt_error *err)
+{
+    const wt_status status = table_bind_of(c->result, schema, suffix, view, err);
+    if (status != WT_OK)
+        wt_error_file(err, c->file);
+    return status;
+}
+
+const char *const shared_words[SHARED_N] = {[SHARED_WEAR] = "specific wear rate",
+                                            [SHARED_SHEAR] = "shear stress",
+                                            [SHARED_RATE] = "modulus over a decade of rate"};
+
+void shared_name(const case_value *v, char *text, size_t size)
+{
+    snprintf(text, size, "%s%s%s%s%s", v->of->sample, v->of->condition[0] != '\0' ? ", " : "",
+             v->of->condition, v->group != NULL ? ", " : "", v->group != NULL ? v->group : "");
+}
+
+static void leave_out(case_values *from, const case_value *v, const char *why)
+{
+    char name[256];
+    const size_t used = strlen(from->left_out);
+    shared_name(v, name, sizeof name);
+    const char *between = used > 0 ? "; " : "";
+    const int length =
+        snprintf(NULL, 0, "%s%s of %s: %s", between, shared_words[v->constant], name, why);
+    if (from->unnamed > 0 || used + (size_t)length >= sizeof from->left_out)
+        from->unnamed++;
+    else
+        snprintf(from->left_out + used, sizeof from->left_out - used, "%s%s of %s: %s", between,
+                 shared_words[v->constant], name, why);
+}
+
+/* Is it of what was measured for a value that was taken before? Then it counts once. */
+static bool counts_already(case_values *to, const case_value *value)
+{
+    const char *const roles[SHARED_N] = {
+        [SHARED_WEAR] = "record", [SHARED_SHEAR] = "record", [SHARED_RATE] = value->group};
+    for (size_t i = 0; i < to->n; i++) {
+        const case_value *v = &to->of[i];
+        const bool alike =
+            v->constant == value->constant &&
+            (value->group == NULL || (v->group != NULL && strcmp(v->group, value->group) == 0));
+        const files_common files =
+            alike ? files_in_common(v->of, value->of, &roles[value->constant], 1) : FILES_APART;
+        char name[256], why[400];
+        if (files < FILES_OF_ONE_NAME)
+            continue;
+        shared_name(v, name, sizeof name);
+        snprintf(why, sizeof why,
+                 files == FILES_COMMON ? "its files are those of %s, which count once"
+                                       : "its files have names and sizes of those of %s and no "
+                                         "digest tells them apart (--no-provenance)",
+                 name);
+        leave_out(to, value, why);
+        return true;
+    }
+    return false;
+}
+
+/* Known of its logarithm; one that is not above 0, or whose interval reaches it, has none. */
+static wt_status add_value(case_values *to, case_value value, wt_error *err)
+{
+    const char *why = NULL;
+    if (isnan(value.log.value) || counts_already(to, &value))
+        return WT_OK;
+    if (isinf(value.log.value))
+        why = "it is not above zero";
+    else if (isinf(value.log.standard_error))
+        why = "its interval reaches zero";
+    else if (!(value.log.standard_error > 0))
+        why = "no error is stated";
+    if (why != NULL) {
+        leave_out(to, &value, why);
+        return WT_OK;
+    }
+    case_value *grown = array_grow(to->of, to->n, sizeof *grown);
+    if (grown == NULL)
+        return wt_fail(err, WT_E_MEMORY, "out of memory");
+    to->of = grown;
+    grown[to->n++] = value;
+    return WT_OK;
+}
+
+/* Infinite: there is none. */
+static double logarithm(double value)
+{
+    return isnan(value) || value > 0 ? log(value) : (double)INFINITY;
+}
+
+static wt_status add_wear(const collected_case *c, case_values *to, wt_error *err)
+{
+    table_view wear;
+    const wt_status status = bind(c, &wear_schema, "", &wear, err);
+    if (status != WT_OK)
+        return status;
+    const wt_estimate k = wear_value(&wear, WEAR_KEY_RATE);
+    const double df = wear_value(&wear, WEAR_KEY_RATE_DF).value,
+                 reach = k.standard_error * (isnan(df) ? NORMAL_95 : students_t_quantile(df)),
+                 error = reach >= k.value ? (double)INFINITY : k.standard_error / k.value;
+    return add_value(
+        to, (case_value){.constant = SHARED_WEAR, .of = c, .log = {logarithm(k.value), error, df}},
+        err);
+}
+
+/* The variance of the shear stress by files, which other cases may have, too. */
+static wt_status find_parts(const collected_case *c, double variance, double parts[SHARED_FILES_N],
+                            wt_error *err)
+{
+    table_view sources;
+    const wt_status status = bind(c, &validation_sources_schema, "", &sources, err);
+    for (size_t row = 0; status == WT_OK && row < sources.n_rows; row++) {
+        const double of = validation_sources_get(&sources, row, VALIDATION_SOURCES_NEEDED_SHARE);
+        const shared_files k =
+            shared_files_of(validation_sources_text(&sources, row, VALIDATION_SOURCES_SOURCE));
+        if (of > 0 && k < SHARED_FILES_N)
+            parts[k] += of * variance;
+    }
+    return status;
+}
+
+/* What the error of the shear stress lacks; that of the one used is no part of it. */
+static const char *lacks_of(const collected_case *c)
+{
+    const char *lacks = friction_words(&c->tables.friction, FRICTION_KEY_ERROR_LACKS);
+    return lacks != NULL && strcmp(lacks, "shear stress") != 0 ? lacks : NULL;
+}
+
+static wt_status add_shear(const collected_case *c, case_values *to, wt_error *err)
+{
+    table_view record;
+    wt_status status = bind(c, &validation_schema, "", &record, err);
+    if (status != WT_OK)
+        return status;
+    const double value = validation_value(&record, VALIDATION_KEY_NEEDED).value,
+                 low = validation_value(&record, VALIDATION_KEY_NEEDED_LOW).value,
+                 high = validation_value(&record, VALIDATION_KEY_NEEDED_HIGH).value,
+                 error = low <= 0 ? (double)INFINITY : log(high / low) / (2 * NORMAL_95);
+    case_value v = {.constant = SHARED_SHEAR,
+                    .of = c,
+                    .log = {logarithm(value), error, (double)NAN},
+                    .lacks = lacks_of(c)};
+    status = find_parts(c, error * error, v.by_files, err);
+    return status == WT_OK ? add_value(to, v, err) : status;
+}
+
+/* ---- moduli against rate --------------------------------------------------------------------- */
+
+/* Sums over the curves of a spot, of x = lg rate and y = ln E. */
+typedef struct spot_line {
+    const char *spot;
+    double n, x, y, xx, xy;
+} spot_line;
+
+/* The curves that were taken: of lg rate and angular frequency of equal loading. */
+typedef struct rate_ends {
+    double low, high, slow, fast;
+} rate_ends;
+
+/* What a fit by the spectrum of the DMA takes from it is the modulus at 1/(loading time) over what
+ * the whole way in sees. Where |E*| is as omega^n and the force as depth^m that is
+ * Gamma(m + 1 - n) but for a factor, so that an error of n goes into ln E with the digamma function
+ * there: at m = 2 and n = 0, of cones and pyramids, the largest of all tips and rubbers. */
+static const double per_exponent = 0.9228;
+
+/* The error of n at a frequency, by that of tan delta = tan(pi n / 2) of the nearest point; NaN: no
+ * point has one. */
+static double exponent_error(const table_view *master, double frequency)
+{
+    double nearest = (double)INFINITY, error = (double)NAN;
+    for (size_t row = 0; row < master->n_rows; row++) {
+        const double off = fabs(log(master_curve_get(master, row, MASTER_CURVE_ANGULAR_FREQUENCY) /
+                                    frequency)),
+                     tan_delta = master_curve_get(master, row, MASTER_CURVE_FITTED_LOSS_FACTOR),
+                     wide = master_curve_get(master, row, MASTER_CURVE_FITTED_LOSS_FACTOR_HIGH) -
+                            master_curve_get(master, row, MASTER_CURVE_FITTED_LOSS_FACTOR_LOW);
+        if (off < nearest && isfinite(wide)) {
+            nearest = off;
+            error = wide / (2 * NORMAL_95) * M_2_PI / (1 + tan_delta * tan_delta);
+        }
+    }
+    return error;
+}
+
+/* Of the slope, by the spectrum that all curves have in common, which no scatter of spots shows: 0
+ * where the curves are without it, or the result does not hold what it was made of; NaN where that
+ * has no errors. At another
+ * temperature frequencies are reduced ones, of which the shift is not known here: then the largest
+ * error of all. */
+static wt_status find_spectrum_variance(const collected_case *c, const table_view *curves,
+                                        const rate_ends *ends, double *variance, wt_error *err)
+{
+    table_view master;
+    const double temperature =
+        indentation_value(curves, INDENTATION_KEY_SPECTRUM_TEMPERATURE).value;
+    const wt_status status = bind(c, &master_curve_schema, "", &master, err);
+    *variance = 0;
+    if (status != WT_OK || isnan(temperature) || master.n_rows == 0 || !(ends->high > ends->low))
+        return status;
+    const double close = 0.01, /* K, of temperatures that are written in both scales */
+        reference = master_curve_value(&master, MASTER_CURVE_KEY_REFERENCE_TEMPERATURE).value;
+    double slow = exponent_error(&master, ends->slow), fast = exponent_error(&master, ends->fast);
+    if (!(fabs(temperature - reference) < close))
+        for (size_t row = 0; row < master.n_rows; row++) {
+            const double of = exponent_error(
+                &master, master_curve_get(&master, row, MASTER_CURVE_ANGULAR_FREQUENCY));
+            slow = fmax(slow, of);
+            fast = fmax(fast, of);
+        }
+    const double error = per_exponent * hypot(slow, fast) / (ends->high - ends->low);
+    *variance = error * error;
+    return WT_OK;
+}
+
+static const char *spot_of(const table_view *curves, size_t row)
+{
+    const char *spot = indentation_text(curves, row, INDENTATION_SPOT);
+    return spot != NULL && spot[0] != '\0' ? spot : indentation_text(curves, row, INDENTATION_FILE);
+}
+
+static void widen_ends(rate_ends *ends, double rate, double frequency)
+{
+    if (!(rate > ends->low)) {
+        ends->low = rate;
+        ends->slow = frequency;
+    }
+    if (!(rate < ends->high)) {
+        ends->high = rate;
+        ends->fast = frequency;
+    }
+}
+
+static wt_status add_curve(const table_view *curves, size_t row, spot_line **lines, size_t *n,
+                           rate_ends *ends, wt_error *err)
+{
+    const char *spot = spot_of(curves, row),
+               *verdict = indentation_text(curves, row, INDENTATION_VERDICT);
+    const double x = log10(indentation_get(curves, row, INDENTATION_RATE)),
+                 y = log(indentation_get(curves, row, INDENTATION_MODULUS));
+    if (spot == NULL || !isfinite(x) || !isfinite(y) ||
+        (strcmp(verdict, "accepted") != 0 && strcmp(verdict, "doubtful") != 0))
+        return WT_OK;
+    size_t i = 0;
+    while (i < *n && strcmp((*lines)[i].spot, spot) != 0)
+        i++;
+    if (i == *n) {
+        spot_line *grown = array_grow(*lines, *n, sizeof *grown);
+        if (grown == NULL)
+            return wt_fail(err, WT_E_MEMORY, "out of memory");
+        *lines = grown;
+        grown[(*n)++] = (spot_line){.spot = spot};
+    }
+    spot_line *l = &(*lines)[i];
+    widen_ends(ends, x, 1 / indentation_get(curves, row, INDENTATION_LOAD_TIME));
+    l->n += 1;
+    l->x += x;
+    l->y += y;
+    l->xx += x * x;
+    l->xy += x * y;
+    return WT_OK;
+}
+
+/* The spots are the units: the line of each by least squares, and how these scatter. Rates that
+ * differ by less than this (decades, standard deviation) make no line. */
+static wt_log_ratio slope_of(const spot_line *lines, size_t n)
+{
+    const double least = 0.05;
+    double *slope = malloc((n + 1) * sizeof *slope);
+    size_t known = 0;
+    wt_log_ratio of = {(double)NAN, (double)NAN, (double)NAN};
+    for (size_t i = 0; slope != NULL && i < n; i++) {
+        const spot_line *l = &lines[i];
+        const double square = l->xx / l->n - l->x / l->n * (l->x / l->n);
+        if (square > least * least)
+            slope[known++] = (l->xy / l->n - l->x / l->n * (l->y / l->n)) / square;
+    }
+    if (known > 1) {
+        const moments m = moments_of(slope, known);
+        of = (wt_log_ratio){m.mean, sqrt(m.variance / m.n), m.n - 1};
+    }
+    free(slope);
+    return of;
+}
+
+static wt_status add_rates(const collected_case *c, const char *group, case_values *to,
+                           wt_error *err)
+{
+    table_view curves;
+    spot_line *lines = NULL;
+    rate_ends ends = {(double)NAN, (double)NAN, (double)NAN, (double)NAN};
+    size_t n = 0;
+    double variance = 0;
+    wt_status status = bind(c, &indentation_schema, group, &curves, err);
+    for (size_t row = 0; status == WT_OK && row < curves.n_rows; row++)
+        status = add_curve(&curves, row, &lines, &n, &ends, err);
+    if (status == WT_OK)
+        status = find_spectrum_variance(c, &curves, &ends, &variance, err);
+    if (status == WT_OK) {
+        case_value v = {
+            .constant = SHARED_RATE, .of = c, .group = group, .log = slope_of(lines, n)};
+        v.by_files[SHARED_SPECTRUM] = isnan(variance) ? 0 : variance;
+        if (isnan(variance))
+            v.log.standard_error = (double)NAN;
+        else if (variance > 0) {
+            const t_error all = t_error_with((t_error){v.log.standard_error, v.log.df}, variance);
+            v.log.standard_error = all.error;
+            v.log.df = all.df;
+        }
+        status = add_value(to, v, err);
+    }
+    free(lines);
+    return status;
+}
+
+wt_status shared_values_of(const collected_case *cases, size_t n, case_values *to, wt_error *err)
+{
+    static const char *const groups[] = {"bulk", "track"};
+    wt_status status = WT_OK;
+    *to = (case_values){.n = 0};
+    for (size_t i = 0; status == WT_OK && i < n; i++)
+        status = add_wear(&cases[i], to, err);
+    for (size_t i = 0; status == WT_OK && i < n; i++)
+        status = add_shear(&cases[i], to, err);
+    for (size_t i = 0; status == WT_OK && i < n; i++)
+        for (size_t g = 0; status == WT_OK && g < COUNT_OF(groups); g++)
+            status = add_rates(&cases[i], groups[g], to, err);
+    return status;
+}

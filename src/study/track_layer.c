@@ -1,0 +1,326 @@
+/* The thickness of the layer that the curves of bulk and track allow, beside that of the theory or
+ * one that is given: what the tables of indentation hold of depth, the test of each thickness, and
+ * the modulus against depth of bulk, track and such layers.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#include "study/track_layer.h"
+
+#include "core/base/number.h"
+#include "core/math/normal_quantile.h"
+#include "core/table/result_value.h"
+#include "core/table/table_rows.h"
+#include "indentation/indent.h"
+#include "study/compare.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* ---- what the tables hold -------------------------------------------------------------------- */
+
+/* The curves of a group that tell of depth, with what all share. */
+typedef struct depth_group {
+    wt_depth_curve *curve; /* [n] */
+    size_t n;
+    bool there; /* the table has the columns */
+    track_obstacle obstacle;
+    wt_tip tip;
+    wt_contact_table *contact;
+    double poisson_ratio;
+    wt_curve_depth depth;
+} depth_group;
+
+static void read_curve(const table_view *t, size_t row, double k, wt_depth_curve *to)
+{
+    *to = (wt_depth_curve){.modulus = indentation_get(t, row, INDENTATION_MODULUS),
+                           .depth = indentation_get(t, row, INDENTATION_MAX_INDENTATION),
+                           .spring_constant = k,
+                           .baseline = indentation_get(t, row, INDENTATION_BASELINE_LENGTH),
+                           .window = indentation_get(t, row, INDENTATION_MISFIT_LENGTH),
+                           .curvature = indentation_get(t, row, INDENTATION_BASELINE_CURVATURE),
+                           .loss_error = indentation_get(t, row, INDENTATION_LOSS_ERROR)};
+    for (unsigned i = 0; i < WT_CURVE_WAVES; i++)
+        to->misfit[i] =
+            indentation_get(t, row, (indentation_column)(INDENTATION_MISFIT_WAVE_1 + i));
+}
+
+/* A table may be of any hand: a curve without all of it tells nothing. */
+static bool is_whole(const wt_depth_curve *c)
+{
+    bool whole = c->modulus > 0 && c->depth > 0 && c->baseline > 0 && c->window > 0 &&
+                 isfinite(c->curvature) && isfinite(c->modulus) && isfinite(c->depth) &&
+                 isfinite(c->baseline) && isfinite(c->window);
+    for (size_t i = 0; i < WT_CURVE_WAVES; i++)
+        whole = whole && isfinite(c->misfit[i]);
+    return whole;
+}
+
+static wt_status read_curves(const table_view *t, double k, depth_group *g, wt_error *err)
+{
+    const char *last = NULL;
+    long spots = 0;
+    g->curve = calloc(t->n_rows > 0 ? t->n_rows : 1, sizeof *g->curve);
+    if (g->curve == NULL)
+        return wt_fail(err, WT_E_MEMORY, "out of memory");
+    for (size_t row = 0; row < t->n_rows; row++) {
+        wt_depth_curve *to = &g->curve[g->n];
+        const char *spot = indentation_text(t, row, INDENTATION_SPOT);
+        read_curve(t, row, k, to);
+        if (!is_whole(to))
+            continue;
+        spots += last == NULL || strcmp(last, spot) != 0;
+        last = spot;
+        to->spot = spots;
+        g->n++;
+    }
+    return WT_OK;
+}
+
+/* The law of a layer is that of incompressible rubber. At 0.45 a thin sample on a rigid base is 8 %
+ * less stiff by the base than at 0.5 (Dimitriadis et al., Biophys. J. 82 (2002) 2798), a layer on
+ * rubber of less contrast less. */
+static const double least_poisson_ratio = 0.45;
+
+/* tip: in words; NULL: none that is understood. */
+static track_obstacle obstacle_of(const depth_group *g, const char *tip, double k)
+{
+    if (!g->there)
+        return (track_obstacle){"the tables of bulk and track say nothing of depth",
+                                "the same curves once more through this version of weartrack "
+                                "indent, which writes it"};
+    if (!(k > 0))
+        return (track_obstacle){"curves of one group have several levers, or none is stated",
+                                "one lever in a group, its spring constant stated"};
+    if (tip == NULL)
+        return (track_obstacle){"curves of one group have several tips, or none is stated",
+                                "one tip in bulk and track, its shape stated"};
+    if (!(g->poisson_ratio >= least_poisson_ratio && g->poisson_ratio <= 0.5))
+        return (track_obstacle){"the law of a layer is that of incompressible rubber, which a "
+                                "Poisson's ratio below 0.45, or one that is not stated, is not",
+                                "a Poisson's ratio of rubber (0.5) in weartrack indent, if the "
+                                "sample is rubber"};
+    if (strstr(tip, "; sample ") != NULL)
+        return (track_obstacle){"a layer on a thin sample is none of which the law is known",
+                                "curves on a thick piece of the sample"};
+    return (track_obstacle){NULL, NULL};
+}
+
+static wt_status read_group(const wt_table *table, depth_group *g, wt_error *err)
+{
+    table_view t;
+    wt_status status = table_bind(table, &indentation_schema, "", &t, err);
+    if (status != WT_OK)
+        return status;
+    const char *tip = indentation_words(&t, INDENTATION_KEY_TIP),
+               *poisson = indentation_words(&t, INDENTATION_KEY_POISSON_RATIO);
+    const double k = indentation_value(&t, INDENTATION_KEY_SPRING_CONSTANT).value;
+    const bool known = tip != NULL && tip_of_any_description(tip, &g->tip);
+    g->there = indentation_has(&t, INDENTATION_MISFIT_WAVE_1);
+    g->poisson_ratio = number_of(poisson);
+    g->obstacle = obstacle_of(g, known ? tip : NULL, k);
+    if (g->obstacle.why != NULL)
+        return WT_OK;
+    status = read_curves(&t, k, g, err);
+    if (status == WT_OK)
+        status = indent_contact_table(&g->tip, &g->contact, err);
+    return status == WT_OK
+               ? wt_curve_depth_make(g->contact, g->poisson_ratio, g->curve, g->n, &g->depth, err)
+               : status;
+}
+
+static void group_clear(depth_group *g)
+{
+    free(g->curve);
+    wt_contact_table_free(g->contact);
+}
+
+/* The one given, with an error of which normal ones have 95 %, else that of the theory. */
+static wt_status find_other(const wt_compare_job *job, const wt_table *layer, track_other *to,
+                            wt_error *err)
+{
+    const double none = (double)NAN;
+    finding_tables tables = {0};
+    *to = (track_other){.thickness = {none, none, none, none}, .from = ""};
+    if (job->expected_thickness.value > 0) {
+        const wt_estimate *given = &job->expected_thickness;
+        const double reach = NORMAL_95 * given->standard_error;
+        to->from = "what is given";
+        to->given = true;
+        to->thickness = (wt_interval){given->value, given->standard_error, given->value - reach,
+                                      given->value + reach};
+        return WT_OK;
+    }
+    if (layer == NULL)
+        return WT_OK;
+    const wt_status status = table_bind(layer, &layer_schema, "", &tables.layer, err);
+    if (status != WT_OK)
+        return status;
+    const finding f = finding_of_thickness(&tables);
+    to->from = isnan(layer_value(&tables.layer, LAYER_KEY_OBSERVED_THICKNESS).value)
+                   ? "the balance of formation and wear"
+                   : "the balance, whose critical energy is from an observed thickness";
+    to->thickness = (wt_interval){f.number.value, f.number.standard_error, f.low, f.high};
+    to->lacks = f.lacks;
+    return WT_OK;
+}
+
+/* ---- the table ------------------------------------------------------------------------------- */
+
+TABLE_ROW(track_layer, TRACK_LAYER, const char *curve; double depth; wt_interval modulus;)
+
+TABLE_KEYS(track_layer, TRACK_LAYER, const char *allowed, *agree, *settled_by, *other_from;
+           double deepest, contact_radius, thickness, low, high, least, layer_ratio, other,
+           other_low, other_high, both_low, both_high, over_low, over_high;)
+
+static double finite_or_none(double value)
+{
+    return isfinite(value) && value > 0 ? value : (double)NAN;
+}
+
+static void set_keys(table_writer *t, const track_findings *f)
+{
+    const wt_layer_profile *p = &f->profile;
+    track_words words;
+    track_words_make(f, &words);
+    const double thickness = p->thickness.value;
+    track_layer_keys keys = {.allowed = words.allowed,
+                             .agree = words.agree,
+                             .settled_by = words.settled_by,
+                             .other_from = f->other.from,
+                             .deepest = finite_or_none(p->depth),
+                             .contact_radius = finite_or_none(p->contact_radius),
+                             .thickness = thickness,
+                             .low = finite_or_none(p->thickness.low),
+                             .high = finite_or_none(p->thickness.high),
+                             .least = p->least,
+                             .layer_ratio = (double)NAN,
+                             .other = finite_or_none(f->other.thickness.value),
+                             .other_low = finite_or_none(f->other.thickness.low),
+                             .other_high = finite_or_none(f->other.thickness.high),
+                             .both_low = finite_or_none(f->agreement.low),
+                             .both_high = finite_or_none(f->agreement.high),
+                             .over_low = finite_or_none(f->agreement.ratio_low),
+                             .over_high = finite_or_none(f->agreement.ratio_high)};
+    if (p->says == WT_ALLOWS_BETWEEN) /* at no depth it is that of the layer */
+        keys.layer_ratio = wt_layer_modulus(p, f->ratio, thickness, 0);
+    track_layer_set_keys(t, &keys);
+}
+
+static void measured_rows(table_writer *t, const char *name, const wt_curve_depth *d)
+{
+    table_block(t);
+    for (size_t i = 0; i < WT_DEPTHS && !isnan(d->change.value); i++)
+        TABLE_ADD(track_layer, t, name, d->depth[i], d->modulus[i]);
+}
+
+/* A layer that has the ratio of the moduli, as deep as one sees it go over into the bulk. */
+static void layer_rows(table_writer *t, const char *name, const track_findings *f, double bulk,
+                       double thickness)
+{
+    enum { POINTS = 40 };                                     /* of a line that looks smooth */
+    const double shallow = 0.2, deep = 5, none = (double)NAN; /* of the depth; of the thickness */
+    const wt_layer_profile *p = &f->profile;
+    const double from = log(shallow * p->depth), to = log(fmax(deep * thickness, 2 * p->depth));
+    if (!(thickness > 0) || !isfinite(thickness) || !(bulk > 0))
+        return;
+    table_block(t);
+    for (size_t i = 0; i < POINTS; i++) {
+        const double depth = exp(from + (to - from) * (double)i / (POINTS - 1));
+        double g, slope;
+        wt_contact_function(f->tip, depth, &g, &slope);
+        const double over = wt_layer_modulus(p, f->ratio, thickness, slope / 2);
+        if (!isnan(over))
+            TABLE_ADD(track_layer, t, name, depth, {bulk * over, none, none, none});
+    }
+}
+
+static wt_status make_table(const depth_group group[2], const track_findings *f, wt_table **table,
+                            wt_error *err)
+{
+    table_writer t = table_begin(&track_layer_schema, err);
+    set_keys(&t, f);
+    for (int g = 0; g < 2 && f->obstacle.why == NULL; g++)
+        measured_rows(&t, compare_group_name[g], &group[g].depth);
+    if (f->profile.n_steps > 1) {
+        const double bulk = group[1].depth.modulus[WT_DEPTHS - 1].value / f->ratio;
+        const wt_layer_allows says = f->profile.says;
+        if (says == WT_ALLOWS_BETWEEN)
+            layer_rows(&t, "layer of the curves", f, bulk, f->profile.thickness.value);
+        if (says == WT_ALLOWS_THICKER || says == WT_ALLOWS_THINNER)
+            layer_rows(&t, says == WT_ALLOWS_THICKER ? "thinnest layer" : "thickest layer", f, bulk,
+                       says == WT_ALLOWS_THICKER ? f->profile.thickness.low
+                                                 : f->profile.thickness.high);
+        layer_rows(&t, f->other.given ? "layer as given" : "layer of the theory", f, bulk,
+                   f->other.thickness.value);
+    }
+    return table_end(&t, table);
+}
+
+/* ln of the ratio with its error, which the comparison knows. */
+static wt_status find_profile(const depth_group group[2], const wt_compare_job *job,
+                              const wt_job *work, track_findings *f, wt_error *err)
+{
+    const wt_contact_table *const contact[2] = {group[0].contact, group[1].contact};
+    const wt_depth_curve *const curve[2] = {group[0].curve, group[1].curve};
+    const size_t n[2] = {group[0].n, group[1].n};
+    wt_job quiet = *work; /* the comparison itself has given its warnings */
+    quiet.log = NULL;
+    wt_estimate log_ratio;
+    double df;
+    wt_status status = compare_as_fitted(job, &quiet, &log_ratio, &df, err);
+    if (status != WT_OK)
+        return status;
+    f->ratio = exp(log_ratio.value);
+    f->ratio_error = log_ratio.standard_error;
+    if (!(f->ratio > 0) || !(f->ratio_error >= 0)) {
+        f->obstacle = (track_obstacle){
+            "the ratio of the moduli of track and bulk is not known with its error; the "
+            "comparison says why",
+            "what the comparison says of that ratio"};
+        return WT_OK;
+    }
+    char words[2][256];
+    for (int g = 0; g < 2; g++)
+        wt_tip_describe(&group[g].tip, words[g], sizeof words[g]);
+    if (strcmp(words[0], words[1]) != 0) {
+        f->obstacle = (track_obstacle){
+            "bulk and track were indented with different tips, so that the bulk does not "
+            "show what of the change with depth is the tip's",
+            "curves of the bulk and of the track with one tip"};
+        return WT_OK;
+    }
+    f->tip = &group[1].tip;
+    status = wt_layer_profile_make(contact, group[1].poisson_ratio, curve, n, log_ratio, df,
+                                   &f->profile, err);
+    if (status == WT_OK)
+        f->agreement = wt_layer_compare(&f->profile, f->other.thickness);
+    return status;
+}
+
+wt_status wt_track_layer_make(const wt_compare_job *job, const wt_table *layer, const wt_job *work,
+                              wt_table **table, wt_error *err)
+{
+    if (job == NULL || job->bulk == NULL || job->track == NULL || work == NULL || table == NULL)
+        return wt_fail(err, WT_E_ARG, "no bulk, no track or no room for what is made of them");
+    const double none = (double)NAN;
+    const wt_table *const tables[2] = {job->bulk, job->track};
+    depth_group group[2] = {{.n = 0}, {.n = 0}};
+    track_findings f = {.profile.thickness = {none, none, none, none},
+                        .profile.least = none,
+                        .agreement = {none, none, none, none, false, false},
+                        .ratio = none,
+                        .ratio_error = none};
+    wt_status status = find_other(job, layer, &f.other, err);
+    for (int g = 0; status == WT_OK && g < 2; g++) {
+        status = read_group(tables[g], &group[g], err);
+        if (f.obstacle.why == NULL)
+            f.obstacle = group[g].obstacle;
+    }
+    if (status == WT_OK && f.obstacle.why == NULL)
+        status = find_profile(group, job, work, &f, err);
+    const bool silent = !group[0].there && !group[1].there && !(job->expected_thickness.value > 0);
+    if (status == WT_OK && !silent)
+        status = make_table(group, &f, table, err);
+    group_clear(&group[0]);
+    group_clear(&group[1]);
+    return status;
+}

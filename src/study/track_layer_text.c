@@ -1,0 +1,243 @@
+/* What the curves say of the thickness of the layer, whether another source agrees, and what would
+ * settle it, in words. SPDX-License-Identifier: GPL-3.0-or-later */
+#include "study/track_layer.h"
+
+#include "core/base/clocale.h"
+#include "core/math/root.h"
+#include "indentation/law/thin_layer.h"
+
+#include <math.h>
+#include <string.h>
+
+typedef struct length_words {
+    char text[32];
+} length_words;
+
+static length_words metres(double value)
+{
+    length_words w;
+    wt_format_si(value, "m", 3, w.text, sizeof w.text);
+    return w;
+}
+
+typedef struct range_words {
+    char text[80];
+} range_words;
+
+/* Of thicknesses; an end that is not above zero or not finite is none. */
+static range_words between(double low, double high)
+{
+    range_words w;
+    const bool from = low > 0 && isfinite(low), to = high > 0 && isfinite(high);
+    clocale_print(w.text, sizeof w.text, "%s%s%s%s",
+                  from && to ? ""
+                  : from     ? "at least "
+                  : to       ? "up to "
+                             : "any",
+                  from ? metres(low).text : "", from && to ? " to " : "",
+                  to ? metres(high).text : "");
+    return w;
+}
+
+/* ---- what would settle it -------------------------------------------------------------------- */
+
+typedef struct wanted_contact {
+    const wt_tip *tip;
+    double radius;
+} wanted_contact;
+
+static bool is_too_shallow(double depth, void *user)
+{
+    const wanted_contact *w = user;
+    double g, slope;
+    wt_contact_function(w->tip, depth, &g, &slope);
+    return slope < 2 * w->radius;
+}
+
+/* Of this tip for a contact radius; infinity where 1000 times as deep does not do. */
+static double depth_for(const wt_tip *tip, double depth, double radius)
+{
+    enum { HALVES = 50 }; /* to 1e-12 of the depth */
+    double low = 0, high = 1000 * depth;
+    wanted_contact w = {tip, radius};
+    if (is_too_shallow(high, &w))
+        return (double)INFINITY;
+    root_halve(is_too_shallow, &w, &low, &high, 0, HALVES);
+    return high;
+}
+
+/* Another contact radius, as an indentation of this tip or as a sphere. The force that the layer is
+ * told from the bulk by goes with contact radius over thickness. */
+static void say_contact(const track_findings *f, double radius, char *text, size_t size)
+{
+    const wt_layer_profile *p = &f->profile;
+    const double depth = f->tip != NULL ? depth_for(f->tip, p->depth, radius) : (double)INFINITY;
+    char deep[96] = "";
+    if (isfinite(depth))
+        clocale_print(deep, sizeof deep, "indentations of %s with this tip, or ",
+                      metres(depth).text);
+    clocale_print(text, size,
+                  "contacts with a radius of %s, which are %s%s with a sphere of %s, in bulk and "
+                  "track: as many curves would then tell a layer of that thickness",
+                  metres(radius).text, deep, metres(p->depth).text,
+                  metres(radius * radius / p->depth).text);
+}
+
+static bool ratio_is_open(const track_findings *f)
+{
+    return !(fabs(log(f->ratio)) > 2 * f->ratio_error);
+}
+
+static bool has_no_error(const track_findings *f)
+{
+    return isnan(f->other.thickness.low) || isnan(f->other.thickness.high);
+}
+
+/* Whether an error that is not known may change the verdict. */
+static bool is_partial(const track_findings *f)
+{
+    return f->other.lacks != NULL && (f->agreement.differ || f->agreement.agree);
+}
+
+static void say_settled(const track_findings *f, char *text, size_t size)
+{
+    const wt_layer_profile *p = &f->profile;
+    const bool other = f->other.thickness.value > 0;
+    text[0] = '\0';
+    const bool told = other && (f->agreement.agree || f->agreement.differ) && !is_partial(f);
+    if (told)
+        return;
+    if (f->obstacle.why != NULL)
+        clocale_print(text, size, "%s", f->obstacle.settled_by);
+    else if (p->says == WT_ALLOWS_UNKNOWN)
+        clocale_print(
+            text, size,
+            "12 curves without adhesion in the bulk and in the track, with one tip, lever "
+            "and depth, better on three spots or more each");
+    else if (p->says == WT_ALLOWS_BEYOND)
+        clocale_print(text, size,
+                      "a section across the track under a microscope: of such moduli the curves "
+                      "do not tell a thickness");
+    else if (other && has_no_error(f))
+        clocale_print(text, size, "a standard error of the thickness by %s", f->other.from);
+    else if (ratio_is_open(f))
+        clocale_print(text, size,
+                      "more spots in bulk and track, until the ratio of their moduli is "
+                      "told from 1");
+    else if (p->says == WT_ALLOWS_NONE)
+        clocale_print(text, size,
+                      "curves at a second rate or with a second tip, in bulk and track: "
+                      "what is not of the layer changes with them");
+    else if (other && is_partial(f))
+        clocale_print(text, size, "a stated error of %s", f->other.lacks);
+    else if (p->says == WT_ALLOWS_THICKER && other)
+        say_contact(f, p->contact_radius * f->other.thickness.value / p->thickness.low, text, size);
+    else if (p->says == WT_ALLOWS_THICKER)
+        clocale_print(text, size,
+                      "deeper indentations in bulk and track, or a wider tip: the bound "
+                      "goes with the contact radius");
+    else if (p->says == WT_ALLOWS_THINNER)
+        clocale_print(text, size, "shallower indentations in bulk and track, or a sharper tip");
+    else
+        clocale_print(text, size, "more curves on more spots in bulk and track");
+}
+
+/* ---- what the curves allow ------------------------------------------------------------------- */
+
+static void say_allowed(const track_findings *f, char *text, size_t size)
+{
+    const wt_layer_profile *p = &f->profile;
+    const length_words low = metres(p->thickness.low), high = metres(p->thickness.high),
+                       least = metres(p->least), depth = metres(p->depth);
+    if (f->obstacle.why != NULL)
+        clocale_print(text, size, "cannot say: %s", f->obstacle.why);
+    else if (p->says == WT_ALLOWS_BEYOND)
+        clocale_print(text, size,
+                      "cannot say: the law of a layer is known for moduli of %g to %g times that "
+                      "of the bulk, the modulus of the track is %.3g of it",
+                      THIN_LAYER_LEAST_RATIO, THIN_LAYER_LARGEST_RATIO, f->ratio);
+    else if (p->says == WT_ALLOWS_UNKNOWN && p->n[0] >= WT_DEPTH_LEAST_CURVES &&
+             p->n[1] >= WT_DEPTH_LEAST_CURVES)
+        clocale_print(text, size,
+                      "cannot say: no change with depth can be fitted to what the contact law "
+                      "leaves of the curves of bulk and track");
+    else if (p->says == WT_ALLOWS_UNKNOWN)
+        clocale_print(text, size,
+                      "cannot say: %zu curves of the bulk and %zu of the track tell of depth, %d "
+                      "of each are needed, without adhesion or loss whose effect is not known",
+                      p->n[0], p->n[1], WT_DEPTH_LEAST_CURVES);
+    else if (p->says == WT_ALLOWS_ANY)
+        clocale_print(text, size, "every thickness that was tried, from %s on: %s", least.text,
+                      ratio_is_open(f)
+                          ? "the moduli of track and bulk are not told apart"
+                          : "the curves do not tell how the modulus changes with depth");
+    else if (p->says == WT_ALLOWS_THICKER)
+        clocale_print(text, size,
+                      "at least %s (95 %%): down to %s the modulus of the track changes no more "
+                      "than that of the bulk, as it would if the bulk were nearer",
+                      low.text, depth.text);
+    else if (p->says == WT_ALLOWS_THINNER)
+        clocale_print(text, size,
+                      "less than %s (95 %%): down to %s the modulus of the track changes more than "
+                      "with a thicker layer; how thin the law of a layer, which ends at %s, does "
+                      "not tell",
+                      high.text, depth.text, least.text);
+    else if (p->says == WT_ALLOWS_NONE)
+        clocale_print(text, size,
+                      "none: down to %s the modulus of the track changes as no layer on this bulk "
+                      "would make it",
+                      depth.text);
+    else
+        clocale_print(text, size,
+                      "%s (95 %% interval %s to %s): down to %s the modulus of the track goes "
+                      "to that of the bulk as it would with such a layer",
+                      metres(p->thickness.value).text, low.text, high.text, depth.text);
+}
+
+/* ---- whether both agree ---------------------------------------------------------------------- */
+
+static void say_agree(const track_findings *f, char *text, size_t size)
+{
+    const track_other *o = &f->other;
+    const wt_layer_profile *p = &f->profile;
+    text[0] = '\0';
+    if (o->from[0] == '\0')
+        return;
+    if (!(o->thickness.value > 0) || !isfinite(o->thickness.value)) {
+        clocale_print(text, size, "cannot say: %s gives no thickness above zero", o->from);
+        return;
+    }
+    const length_words here = metres(o->thickness.value);
+    const range_words both = between(f->agreement.low, f->agreement.high);
+    if (f->obstacle.why != NULL || p->says == WT_ALLOWS_UNKNOWN || p->says == WT_ALLOWS_BEYOND)
+        clocale_print(text, size, "cannot say: the curves do not tell");
+    else if (p->says == WT_ALLOWS_NONE)
+        clocale_print(text, size, "cannot say: something else than a layer changes the curves");
+    else if (has_no_error(f))
+        clocale_print(text, size, "cannot say: the error of %s by %s is not known", here.text,
+                      o->from);
+    else if (is_partial(f))
+        clocale_print(text, size,
+                      "cannot say: the interval of %s by %s lacks the error of %s, and with it "
+                      "the curves might %s it",
+                      here.text, o->from, o->lacks, f->agreement.differ ? "allow" : "not allow");
+    else if (f->agreement.differ)
+        clocale_print(text, size, "no: %s by %s (95 %% interval: %s) is not what the curves allow",
+                      here.text, o->from, between(o->thickness.low, o->thickness.high).text);
+    else if (f->agreement.agree)
+        clocale_print(text, size, "yes, within a factor of %g: %s by %s; both together allow %s",
+                      WT_LAYER_MARGIN, here.text, o->from, both.text);
+    else
+        clocale_print(
+            text, size,
+            "cannot say: the curves allow the %s by %s, and others that differ from it by "
+            "more than a factor of %g; both together allow %s",
+            here.text, o->from, WT_LAYER_MARGIN, both.text);
+}
+
+void track_words_make(const track_findings *found, track_words *words)
+{
+    say_allowed(found, words->allowed, sizeof words->allowed);
+    say_agree(found, words->agree, sizeof words->agree);
+    say_settled(found, words->settled_by, sizeof words->settled_by);
+}

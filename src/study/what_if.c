@@ -1,0 +1,582 @@
+/* The "what if" job: friction and layer with one choice of the model moved at a time. What can be
+ * moved, how far and why is the list `choices`.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#include "study/what_if.h"
+#include "friction/sliding_contact.h"
+#include "job/cost.h"
+
+#include "core/base/array.h"
+#include "core/base/clocale.h"
+#include "core/table/registry.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* ---- choices --------------------------------------------------------------------------------- */
+
+enum { MOST_TRIED = 4, WORDS = 64 }; /* as the longest list below; one line of a table */
+
+/* A choice without a measurement. */
+typedef struct choice {
+    const char *words; /* in a sentence, after "if the" */
+    const char *unit;  /* of its value; NULL: it has words */
+    const char *why;   /* why it is moved so far */
+    const char *lacks; /* why it does not apply, where it does not; NULL: not worth a word */
+    bool (*applies)(const setting *s);
+    double (*value)(const setting *s);                /* if it has a unit, */
+    void (*name)(const setting *s, char text[WORDS]); /* else */
+    void (*move)(const setting *used, double tried, setting *s);
+    double tried[MOST_TRIED]; /* [n] factors, values, or which of what can be chosen */
+    size_t n;
+} choice;
+
+#define TRIED(...) {__VA_ARGS__}, COUNT_OF(((double[]){__VA_ARGS__}))
+
+static double limit_value(double value, double low, double high)
+{
+    return fmax(fmin(value, high), low);
+}
+
+static bool applies_always(const setting *s)
+{
+    (void)s;
+    return true;
+}
+
+/* The densities are known between these wavenumbers only. */
+static double first_known(const setting *s)
+{
+    return s->surface.self_affine ? 0 : s->surface.spectrum.wavenumber[0];
+}
+
+static double last_known(const setting *s)
+{
+    const wt_power_spectrum *p = &s->surface.spectrum;
+    return s->surface.self_affine ? (double)INFINITY : p->wavenumber[p->n - 1];
+}
+
+/* The roll-off of a self-affine law, else the cut-off on the other side. */
+static double roll_off(const setting *s, double other)
+{
+    return s->surface.self_affine ? s->surface.qr : other;
+}
+
+static double value_q1(const setting *s)
+{
+    return s->surface.q1;
+}
+
+/* No surface has waves below the size of a molecule [m]. */
+#define SHORTEST_WAVE 1e-9
+
+static void move_q1(const setting *used, double factor, setting *s)
+{
+    const double q1 = used->surface.q1,
+                 lowest = fmin(fmax(2 * used->surface.q0, roll_off(used, 0)), q1),
+                 highest = fmax(fmin(2 * M_PI / SHORTEST_WAVE, last_known(used)), q1);
+    s->surface.q1 = limit_value(factor * q1, lowest, highest);
+}
+
+static bool is_measured(const setting *s)
+{
+    return s->surface.reliable_to > 0;
+}
+
+/* As far as its spectrum goes: beyond that its law would have to be asked for. */
+static void move_measured_end(const setting *used, double where_steep, setting *s)
+{
+    const double end = where_steep > 0 ? used->surface.steep : used->surface.reliable_to;
+    const bool known = end > 2 * used->surface.q0 && end < last_known(used);
+    s->surface.q1 = known ? end : used->surface.q1;
+}
+
+static double value_q0(const setting *s)
+{
+    return s->surface.q0;
+}
+
+/* A law without a roll-off is tied to its q0. */
+static bool has_q0(const setting *s)
+{
+    return !s->surface.self_affine || s->surface.qr > s->surface.q0;
+}
+
+static void move_q0(const setting *used, double factor, setting *s)
+{
+    const double q0 = used->surface.q0,
+                 highest = fmax(fmin(used->surface.q1 / 2, roll_off(used, (double)INFINITY)), q0);
+    s->surface.q0 = limit_value(factor * q0, fmin(first_known(used), q0), highest);
+}
+
+static double value_gamma(const setting *s)
+{
+    return s->sliding.gamma;
+}
+
+/* Scaraggi and Persson, J. Phys. Condens. Matter 27 (2015) 105102; Persson 2001. */
+static void move_gamma(const setting *used, double tried, setting *s)
+{
+    (void)used;
+    s->sliding.gamma = tried;
+}
+
+static bool has_strain(const setting *s)
+{
+    return s->has_softness;
+}
+
+static double value_strain(const setting *s)
+{
+    return s->sliding.strain_factor;
+}
+
+static void move_strain(const setting *used, double factor, setting *s)
+{
+    s->sliding.strain_factor = limit_value(factor * used->sliding.strain_factor, 0.01, 100);
+}
+
+static bool has_flash(const setting *s)
+{
+    return s->sliding.flash.on;
+}
+
+static void name_flash(const setting *s, char text[WORDS])
+{
+    snprintf(text, WORDS, "%s", s->sliding.flash.on ? "counted" : "not counted");
+}
+
+static void move_flash(const setting *used, double on, setting *s)
+{
+    (void)used;
+    s->sliding.flash.on = on > 0;
+}
+
+static double value_conductivity(const setting *s)
+{
+    return s->sliding.flash.diffusivity * s->sliding.flash.heat_capacity;
+}
+
+/* With the heat capacity as it is, which rubbers differ in by little. */
+static void move_conductivity(const setting *used, double factor, setting *s)
+{
+    s->sliding.flash.diffusivity = factor * used->sliding.flash.diffusivity;
+}
+
+static double value_contact_size(const setting *s)
+{
+    return s->sliding.flash.contact_size;
+}
+
+static void move_contact_size(const setting *used, double factor, setting *s)
+{
+    s->sliding.flash.contact_size = factor * used->sliding.flash.contact_size;
+}
+
+/* Else it is not what the surface feels. */
+static bool has_poisson(const setting *s)
+{
+    const wt_rubber *r = &s->rubber;
+    return !r->is_transverse || isnan(r->transverse.plane_poisson) ||
+           isnan(r->transverse.axial_poisson);
+}
+
+static double value_poisson(const setting *s)
+{
+    return s->rubber.poisson_ratio;
+}
+
+static void move_poisson(const setting *used, double tried, setting *s)
+{
+    (void)used;
+    s->rubber.poisson_ratio = tried;
+    s->given = NULL;
+}
+
+/* A thickness that is put in moves with nothing. */
+static bool has_profile(const setting *s)
+{
+    return s->has_layer && isnan(s->layer.observed_thickness.value);
+}
+
+static void name_profile(const setting *s, char text[WORDS])
+{
+    if (s->layer.profile == WT_PROFILE_PERSSON)
+        snprintf(text, WORDS, "exponential");
+    else
+        clocale_print(text, WORDS, "incompressible, m = %.3g", s->layer.local_friction);
+}
+
+/* Below 0: without local friction, and exponential. */
+static void move_profile(const setting *used, double local_friction, setting *s)
+{
+    (void)used;
+    s->layer.profile = local_friction < 0 ? WT_PROFILE_PERSSON : WT_PROFILE_INCOMPRESSIBLE;
+    s->layer.local_friction = fmax(local_friction, 0);
+}
+
+static bool has_vertical(const setting *s)
+{
+    return s->rubber.sweep.n_isotherms > 1;
+}
+
+static void name_vertical(const setting *s, char text[WORDS])
+{
+    static const char *const names[] = {[WT_VERTICAL_NONE] = "none",
+                                        [WT_VERTICAL_PHYSICAL] = "physical",
+                                        [WT_VERTICAL_FREE] = "free",
+                                        [WT_VERTICAL_TIED] = "tied"};
+    snprintf(text, WORDS, "%s", names[s->vertical]);
+}
+
+static void move_vertical(const setting *used, double tried, setting *s)
+{
+    (void)used;
+    s->vertical = (wt_vertical_shift)tried;
+}
+
+static bool has_shear(const setting *s)
+{
+    return s->has_known && !isnan(s->sliding.shear_stress.value);
+}
+
+static void name_shear(const setting *s, char text[WORDS])
+{
+    snprintf(text, WORDS, "%s", s->known.bulk_shear ? "that of the bulk" : "scaled by the ratio");
+}
+
+static void move_shear(const setting *used, double other, setting *s)
+{
+    s->known.bulk_shear = used->known.bulk_shear != (other > 0);
+}
+
+static const choice choices[] = {
+    {"largest wavenumber q1", "rad/m",
+     "a decade down and up, as far as the counter surface is known: nothing measures which waves "
+     "still reach the rubber",
+     "", applies_always, value_q1, NULL, move_q1, TRIED(0.1, 0.3, 3, 10)},
+    {"end of the measured spectrum", "rad/m",
+     "where its reliable range ends, and where the rms slope reaches 1.3, by practice the last "
+     "that rubber follows",
+     NULL, is_measured, value_q1, NULL, move_measured_end, TRIED(0, 1)},
+    {"smallest wavenumber q0", "rad/m",
+     "half and twice, as far as the counter surface is known: the longest waves of a measured "
+     "spectrum are its least certain",
+     "the roughness has no roll-off", has_q0, value_q0, NULL, move_q0, TRIED(0.5, 2)},
+    {"factor gamma of partial contact", "1",
+     "1 is Persson's theory of 2001, 0.5 its later correction for partial contact", "",
+     applies_always, value_gamma, NULL, move_gamma, TRIED(0.5, 1)},
+    {"strain over slope", "1",
+     "half and twice: the strain at a wavenumber is of the order of the rms slope up to there, no "
+     "more is known",
+     NULL, has_strain, value_strain, NULL, move_strain, TRIED(0.5, 2)},
+    {"flash temperature", NULL,
+     "counted or not: it is not validated against measured friction here, and the heat of shearing "
+     "the contact is not in it",
+     NULL, has_flash, NULL, name_flash, move_flash, TRIED(0)},
+    {"heat conductivity of the rubber", "W/(m K)",
+     "half and twice: fillers make it up to some times that of the rubber alone, and it is seldom "
+     "measured",
+     NULL, has_flash, value_conductivity, NULL, move_conductivity, TRIED(0.5, 2)},
+    {"size of a macroscopic contact", "m",
+     "half and twice: how long a place is warmed is known by its order only", NULL, has_flash,
+     value_contact_size, NULL, move_contact_size, TRIED(0.5, 2)},
+    {"Poisson ratio", "1",
+     "0.5 is that of rubber, 0.4 that of a glass, as which the shortest waves feel it",
+     "a transversely isotropic material has two others", has_poisson, value_poisson, NULL,
+     move_poisson, TRIED(0.4, 0.5)},
+    {"vertical shift", NULL, "all four; which of them is right the isotherms do not say",
+     "no isotherms to fit again", has_vertical, NULL, name_vertical, move_vertical,
+     TRIED(WT_VERTICAL_NONE, WT_VERTICAL_PHYSICAL, WT_VERTICAL_FREE, WT_VERTICAL_TIED)},
+    {"depth profile", NULL,
+     "exponential, or of a half-space that keeps its volume, without local friction and with m = "
+     "1: how energy falls off with depth is not measured",
+     "no thickness is calculated from the energy", has_profile, NULL, name_profile, move_profile,
+     TRIED(-1, 0, 1)},
+    {"shear stress of the layer", NULL,
+     "scaled by the modulus ratio or not: it is not measured on the layer",
+     "no layer with a modulus ratio, or no shear stress", has_shear, NULL, name_shear, move_shear,
+     TRIED(1)},
+};
+
+/* "2e5", where C has 2e+05. */
+static void short_number(double value, char text[WORDS])
+{
+    clocale_print(text, WORDS, "%.3g", value);
+    char *from = strstr(text, "e+"), *to = from;
+    if (from == NULL)
+        return;
+    from += strspn(from, "e+0");
+    *to++ = 'e';
+    memmove(to, from, strlen(from) + 1);
+}
+
+static void name_choice(const choice *c, const setting *s, char text[WORDS])
+{
+    if (c->unit == NULL) {
+        c->name(s, text);
+        return;
+    }
+    short_number(c->value(s), text);
+    const size_t length = strlen(text);
+    if (c->unit[0] != '1')
+        snprintf(text + length, WORDS - length, " %s", c->unit);
+}
+
+/* What a setting comes to. */
+typedef struct outcome {
+    const choice *choice; /* NULL: as used */
+    setting setting;
+    char used[WORDS], tried[WORDS];
+    double number[SETTING_NUMBERS];
+    double error;   /* the largest relative numerical one of them */
+    double seconds; /* NaN: not timed */
+    char note[512];
+} outcome;
+
+/* ---- all of them ----------------------------------------------------------------------------- */
+
+typedef struct what_if {
+    wt_job work; /* of one setting */
+    outcome *outcomes;
+    size_t n;
+} what_if;
+
+static wt_status compute_outcome(outcome *o, const wt_job *work, wt_error *err)
+{
+    wt_estimate number[SETTING_NUMBERS];
+    for (size_t k = 0; k < SETTING_NUMBERS; k++)
+        number[k].value = (double)NAN;
+    const wt_status status = setting_compute(&o->setting, work, number, err);
+    for (size_t k = 0; k < SETTING_NUMBERS; k++) {
+        o->number[k] = status == WT_OK ? number[k].value : (double)NAN;
+        if (fabs(o->number[k]) > 0) /* fmax leaves out NaN */
+            o->error = fmax(o->error, number[k].numerical_error / fabs(o->number[k]));
+    }
+    return status;
+}
+
+static wt_status compute_one(void *user, size_t i, unsigned worker)
+{
+    const what_if *w = user;
+    outcome *o = &w->outcomes[1 + i];
+    wt_error why = WT_ERROR_INIT;
+    wt_rubber refitted = {0};
+    wt_status status = WT_OK;
+    const double start = cost_clock(w->work.cost);
+    (void)worker;
+    if (o->choice->move == move_vertical) {
+        status = wt_rubber_refit(&o->setting.rubber, o->setting.vertical, &refitted, &why);
+        o->setting.rubber = refitted;
+        o->setting.given = NULL;
+    }
+    if (status == WT_OK)
+        status = compute_outcome(o, &w->work, &why);
+    wt_rubber_clear(&refitted);
+    o->seconds = cost_clock(w->work.cost) - start;
+    if (status == WT_OK || status == WT_E_MEMORY || status == WT_E_INTERNAL)
+        return status;
+    snprintf(o->note, sizeof o->note, "%s%s%s", why.message,
+             why.expected[0] != '\0' ? ", expected " : "", why.expected);
+    return WT_OK;
+}
+
+static outcome *add_outcome(what_if *w, const choice *c, const setting *s)
+{
+    outcome *o = &w->outcomes[w->n++];
+    *o = (outcome){.choice = c, .setting = *s};
+    for (size_t k = 0; k < SETTING_NUMBERS; k++)
+        o->number[k] = (double)NAN;
+    return o;
+}
+
+/* A limit may leave nothing to try on one side. */
+static void add_choice(what_if *w, const choice *c, const setting *used)
+{
+    char as_used[WORDS], tried[WORDS];
+    name_choice(c, used, as_used);
+    setting moved = *used;
+    for (size_t i = 0; i < c->n; i++) {
+        c->move(used, c->tried[i], &moved);
+        name_choice(c, &moved, tried);
+        if (strcmp(tried, as_used) != 0) {
+            outcome *o = add_outcome(w, c, &moved);
+            memcpy(o->used, as_used, WORDS);
+            memcpy(o->tried, tried, WORDS);
+        }
+        moved = *used;
+    }
+}
+
+static void add_choices(what_if *w, const setting *used)
+{
+    add_outcome(w, NULL, used);
+    for (size_t i = 0; i < COUNT_OF(choices); i++)
+        if (choices[i].applies(used))
+            add_choice(w, &choices[i], used);
+}
+
+static outcome *new_outcomes(wt_error *err)
+{
+    outcome *const outcomes = malloc((1 + COUNT_OF(choices) * MOST_TRIED) * sizeof *outcomes);
+    if (outcomes == NULL)
+        wt_fail(err, WT_E_MEMORY, "out of memory");
+    return outcomes;
+}
+
+wt_status what_if_settings(const setting *used, setting **settings, size_t *n, wt_error *err)
+{
+    what_if w = {.outcomes = new_outcomes(err)};
+    if (w.outcomes == NULL)
+        return WT_E_MEMORY;
+    add_choices(&w, used);
+    *n = w.n;
+    *settings = malloc(w.n * sizeof **settings);
+    for (size_t i = 0; *settings != NULL && i < w.n; i++)
+        (*settings)[i] = w.outcomes[i].setting;
+    free(w.outcomes);
+    return *settings != NULL ? WT_OK : wt_fail(err, WT_E_MEMORY, "out of memory");
+}
+
+/* ---- table ----------------------------------------------------------------------------------- */
+
+static const struct {
+    what_if_column value, change;
+} numbers[SETTING_NUMBERS] = {
+    [SETTING_HYSTERESIS] = {WHAT_IF_HYSTERESIS, WHAT_IF_HYSTERESIS_CHANGE},
+    [SETTING_AREA_RATIO] = {WHAT_IF_AREA_RATIO, WHAT_IF_AREA_RATIO_CHANGE},
+    [SETTING_FRICTION] = {WHAT_IF_FRICTION, WHAT_IF_FRICTION_CHANGE},
+    [SETTING_THICKNESS] = {WHAT_IF_THICKNESS, WHAT_IF_THICKNESS_CHANGE},
+    [SETTING_WITH_LAYER] = {WHAT_IF_WITH_LAYER, WHAT_IF_WITH_LAYER_CHANGE}};
+
+static void put_outcome(const what_if *w, const outcome *o, table_writer *t)
+{
+    table_row(t);
+    what_if_put_text(t, WHAT_IF_CHOICE, o->choice != NULL ? o->choice->words : "as used");
+    what_if_put_text(t, WHAT_IF_USED, o->used);
+    what_if_put_text(t, WHAT_IF_TRIED, o->tried);
+    for (size_t k = 0; k < SETTING_NUMBERS; k++) {
+        const double used = w->outcomes[0].number[k];
+        what_if_put(t, numbers[k].value, o->number[k]);
+        what_if_put(t, numbers[k].change, used != 0 ? o->number[k] / used - 1 : (double)NAN);
+    }
+    what_if_put_text(t, WHAT_IF_WHY, o->choice != NULL ? o->choice->why : "");
+    what_if_put_text(t, WHAT_IF_NOTE, o->note);
+}
+
+static void set_left_out(const setting *used, table_writer *t)
+{
+    char words[512] = "";
+    size_t length = 0;
+    for (size_t i = 0; i < COUNT_OF(choices) && length < sizeof words; i++)
+        if (!choices[i].applies(used) && choices[i].lacks != NULL)
+            length += (size_t)snprintf(words + length, sizeof words - length, "%s%s (%s)",
+                                       length > 0 ? "; " : "", choices[i].words, choices[i].lacks);
+    if (length > 0)
+        what_if_set_text(t, WHAT_IF_KEY_LEFT_OUT, words);
+}
+
+/* What waves beyond the reliable range of a measured surface give of the hysteresis. */
+static void set_share_beyond(const what_if *w, table_writer *t)
+{
+    const wt_surface *const s = &w->outcomes[0].setting.surface;
+    for (size_t i = 1; i < w->n; i++) {
+        const outcome *const o = &w->outcomes[i];
+        if (s->q1 > s->reliable_to && o->choice->move == move_measured_end &&
+            o->setting.surface.q1 <= s->reliable_to)
+            what_if_set_value(t, WHAT_IF_KEY_SHARE_BEYOND,
+                              1 - o->number[SETTING_HYSTERESIS] /
+                                      w->outcomes[0].number[SETTING_HYSTERESIS],
+                              (double)NAN, (double)NAN);
+    }
+}
+
+static wt_status make_table(const what_if *w, wt_table **table, wt_error *err)
+{
+    const setting *used = &w->outcomes[0].setting;
+    table_writer t = table_begin(&what_if_schema, err);
+    for (size_t i = 0; i < w->n; i++)
+        put_outcome(w, &w->outcomes[i], &t);
+    set_left_out(used, &t);
+    if (used->statement[0] != '\0')
+        what_if_set_text(&t, WHAT_IF_KEY_MATERIAL_STATEMENT, used->statement);
+    if (!isnan(used->extrapolated_share))
+        what_if_set_value(&t, WHAT_IF_KEY_EXTRAPOLATED_SHARE, used->extrapolated_share, (double)NAN,
+                          (double)NAN);
+    set_share_beyond(w, &t);
+    return table_end(&t, table);
+}
+
+/* The choices one by one, for the error budget, and the stage. */
+static void say_cost(const what_if *w, const wt_job *work)
+{
+    cost_summary cost = {.items = (double)w->n, .tolerance_asked = work->tolerance};
+    for (size_t i = 0; i < w->n; i++)
+        cost.error_estimated = fmax(cost.error_estimated, w->outcomes[i].error);
+    for (size_t i = 0; i < COUNT_OF(choices); i++) {
+        double seconds = 0;
+        for (size_t k = 1; k < w->n; k++)
+            seconds += w->outcomes[k].choice == &choices[i] ? w->outcomes[k].seconds : 0;
+        cost_set_part(work->cost, choices[i].words, seconds);
+    }
+    cost_say(work, cost);
+}
+
+/* The series of the material over what any of the settings asks of it, before they are computed at
+ * the same time. */
+static wt_status cover_all(const what_if *w, const setting *used, wt_error *err)
+{
+    wt_sliding sliding = used->sliding;
+    wt_surface surface = used->surface;
+    drawn_values ignored;
+    for (size_t i = 0; i < w->n; i++) {
+        surface.q0 = fmin(surface.q0, w->outcomes[i].setting.surface.q0);
+        surface.q1 = fmax(surface.q1, w->outcomes[i].setting.surface.q1);
+    }
+    sliding.surface = &surface;
+    const double velocity = used->velocity, worn = used->has_layer && !isnan(used->layer.velocity)
+                                                       ? used->layer.velocity
+                                                       : velocity;
+    return drawn_values_get(w->work.drawn, &sliding, w->work.tolerance, fmin(velocity, worn),
+                            fmax(velocity, worn), &ignored, err);
+}
+
+wt_status wt_what_if_make(const wt_sliding *sliding, const wt_layer_job *layer,
+                          const wt_layer_known *known, const wt_job *work, wt_table **table,
+                          wt_error *err)
+{
+    if (work == NULL || table == NULL)
+        return wt_fail(err, WT_E_ARG, "no what-if job");
+    setting used;
+    wt_status status = setting_make(sliding, layer, known, work, &used, err);
+    if (status != WT_OK)
+        return status;
+    what_if w = {.work = *work};
+    w.work.threads = 1; /* the settings take the threads */
+    w.work.replicates = 0;
+    w.work.log = NULL; /* what is to be said of the values as used has been said */
+    w.work.progress = (wt_progress){0};
+    w.outcomes = new_outcomes(err);
+    if (w.outcomes == NULL)
+        return WT_E_MEMORY;
+    add_choices(&w, &used);
+    w.work.left_out = WT_EXTRAS & ~(unsigned)WT_EXTRA_SHARE;
+    status = cover_all(&w, &used, err);
+    if (status == WT_OK)
+        status = compute_outcome(&w.outcomes[0], &w.work, err);
+    w.work.left_out = WT_EXTRAS;
+    if (status == WT_OK) {
+        drawn_hold(w.work.drawn, true);
+        status =
+            wt_parallel_for(w.n - 1, work->threads, compute_one, &w, &work->progress, "what if");
+        drawn_hold(w.work.drawn, false);
+        if (status != WT_OK)
+            wt_fail(err, status, "the choices of the model could not be tried");
+    }
+    if (status == WT_OK)
+        status = make_table(&w, table, err);
+    if (status == WT_OK)
+        say_cost(&w, work);
+    free(w.outcomes);
+    return status;
+}

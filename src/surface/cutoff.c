@@ -1,0 +1,248 @@
+/* Where the spectrum of a surface ends, and what it then is in numbers.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#include "surface/surface.h"
+
+#include "core/base/param.h"
+#include "surface/numerics/surface_analysis.h"
+
+#include <limits.h>
+#include <math.h>
+#include <stdlib.h>
+
+/* By practice: Lorenz, Persson et al., J. Phys.: Condens. Matter 23 (2011) 175003 and after. */
+const double surface_steep = 1.3;
+/* Shorter waves than 1 nm are no roughness that a rubber could follow. */
+static const double shortest_wave = 1e-9;
+/* Where the law is looked along for a slope: an atom. */
+static const double atom = 1e-10;
+/* Knots of the law, which is straight between them but for the step to it from the last bin. */
+enum { LAW_PER_DECADE = 10 };
+
+void surface_knots_clear(surface_knots *knots)
+{
+    free(knots->wavenumber);
+    *knots = (surface_knots){.n = 0};
+}
+
+static double between(const wt_spectrum_bin *a, const wt_spectrum_bin *b, double q)
+{
+    const double t = log(q / a->wavenumber) / log(b->wavenumber / a->wavenumber);
+    return exp((1 - t) * log(a->density) + t * log(b->density));
+}
+
+/* Bins to `end`, between two of which it may lie, and the law from the last of them to it. */
+static wt_status make_knots(const surface_whole *w, double end, surface_knots *to, wt_error *err)
+{
+    const wt_surface_spectrum *s = &w->spectrum;
+    const double last = s->bins[s->n - 1].wavenumber;
+    const double decades = fmax(0, log10(end / last));
+    const size_t n_law = end > last ? (size_t)ceil(decades * LAW_PER_DECADE) : 0;
+    *to = (surface_knots){.wavenumber = malloc(2 * (s->n + n_law + 1) * sizeof(double))};
+    if (to->wavenumber == NULL)
+        return wt_fail(err, WT_E_MEMORY, "no memory for a spectrum");
+    to->density = to->wavenumber + s->n + n_law + 1;
+    for (size_t k = 0; k < s->n && s->bins[k].wavenumber <= end; k++) {
+        to->wavenumber[to->n] = s->bins[k].wavenumber;
+        to->density[to->n++] = s->bins[k].density;
+    }
+    if (end < last && to->n > 0 && to->wavenumber[to->n - 1] < end) {
+        to->density[to->n] = between(&s->bins[to->n - 1], &s->bins[to->n], end);
+        to->wavenumber[to->n++] = end;
+        to->cut = true;
+    }
+    to->n_measured = to->n;
+    for (size_t i = 1; i <= n_law; i++) {
+        const double q = i == n_law ? end : last * pow(10, decades * (double)i / (double)n_law);
+        to->wavenumber[to->n] = q;
+        to->density[to->n++] = wt_self_affine_density(&w->law, q);
+    }
+    return WT_OK;
+}
+
+static wt_status roughness_of(const surface_knots *k, size_t n, wt_roughness **to, wt_error *err)
+{
+    if (n < 2) {
+        wt_fail(err, WT_E_RANGE, "the spectrum ends before its second bin");
+        wt_error_expected(err, "an end above the first wavenumbers that are reliable");
+        return WT_E_RANGE;
+    }
+    return wt_roughness_table(k->wavenumber, k->density, n, to, err);
+}
+
+/* Where the rms slope reaches `slope`: as measured, else by the law; NaN. */
+static wt_status find_slope(const surface_whole *w, double slope, double *end, bool *by_law,
+                            wt_error *err)
+{
+    const double last = w->spectrum.bins[w->spectrum.n - 1].wavenumber;
+    wt_status status = WT_OK;
+    *end = (double)NAN;
+    for (int beyond = 0; status == WT_OK && isnan(*end) && beyond <= (w->law.found ? 1 : 0);
+         beyond++) {
+        surface_knots k = {.n = 0};
+        wt_roughness *r = NULL;
+        status = make_knots(w, beyond == 1 ? 2 * M_PI / atom : last, &k, err);
+        if (status == WT_OK)
+            status = roughness_of(&k, k.n, &r, err);
+        if (status == WT_OK)
+            *end = wt_roughness_slope_end(r, slope);
+        *by_law = beyond == 1;
+        wt_roughness_free(r);
+        surface_knots_clear(&k);
+    }
+    return status;
+}
+
+/* ---- numbers of it --------------------------------------------------------------------------- */
+
+typedef double number_of(const wt_roughness *roughness);
+
+static wt_status find_number(const surface_knots *k, number_of *number, double *to, wt_error *err)
+{
+    wt_roughness *r = NULL;
+    const wt_status status = roughness_of(k, k->n, &r, err);
+    if (status == WT_OK)
+        *to = number(r);
+    wt_roughness_free(r);
+    return status;
+}
+
+enum { NO_SIZE = INT_MAX };
+
+/* What its scatter moves a knot of the spectrum up by, in ln C. */
+static double own_error(const surface_whole *w, size_t i)
+{
+    return i < w->knots.n_measured ? sqrt(surface_log_variance(w->spectrum.bins[i].freedom))
+                                   : surface_law_error(w, w->knots.wavenumber[i]);
+}
+
+/* What the number is with the knots from `from` to `to` moved up, each by its own error or, of a
+ * size, by what its places give. */
+static wt_status move_knots(surface_whole *w, size_t from, size_t to, size_t size,
+                            number_of *number, double *moved, wt_error *err)
+{
+    surface_knots *k = &w->knots;
+    double *was = malloc((to - from + 1) * sizeof *was);
+    if (was == NULL)
+        return wt_fail(err, WT_E_MEMORY, "out of memory");
+    for (size_t i = from; i < to; i++) {
+        was[i - from] = k->density[i];
+        k->density[i] *=
+            exp(size == NO_SIZE ? own_error(w, i) : surface_knot_size(&w->spectrum, i, size));
+    }
+    const wt_status status = find_number(k, number, moved, err);
+    for (size_t i = from; i < to; i++)
+        k->density[i] = was[i - from];
+    free(was);
+    return status;
+}
+
+/* Adds the squares of what the places make of the number: it is a root of a sum over C, and of
+ * scans of several sizes each moves what it has of it. */
+static wt_status add_places(surface_whole *w, number_of *number, double value, double *square,
+                            wt_error *err)
+{
+    const size_t n = w->spectrum.n_sizes;
+    double moved = 0;
+    wt_status status = WT_OK;
+    if (!(w->spectrum.place_error > 0))
+        return WT_OK;
+    const double place = value * w->spectrum.place_error / 2;
+    *square += n > 1 ? 0 : place * place;
+    for (size_t size = 0; status == WT_OK && n > 1 && size < n; size++) {
+        status = move_knots(w, 0, w->knots.n, size, number, &moved, err);
+        *square += (moved - value) * (moved - value);
+    }
+    return status;
+}
+
+/* Every bin is moved by its scatter, which is partly that of the next, all of the law beyond by
+ * what its constants have, and all of them by that from place to place. */
+static wt_status find_estimate(surface_whole *w, number_of *number, wt_estimate *to, wt_error *err)
+{
+    const surface_knots *k = &w->knots;
+    double value = 0, moved = 0, before = 0;
+    wt_status status = find_number(k, number, &value, err);
+    double square = 0;
+    if (status == WT_OK)
+        status = add_places(w, number, value, &square, err);
+    for (size_t i = 0; status == WT_OK && i < k->n_measured; i++) {
+        status = move_knots(w, i, i + 1, NO_SIZE, number, &moved, err);
+        square += (moved - value) * (moved - value);
+        if (i > 0 && i < w->spectrum.n) /* a cut has the error of the bin that it cuts */
+            square += 2 * surface_tie_to_next(&w->spectrum, i - 1) * before * (moved - value);
+        before = moved - value;
+    }
+    if (status == WT_OK && k->n > k->n_measured) {
+        status = move_knots(w, k->n_measured, k->n, NO_SIZE, number, &moved, err);
+        square += (moved - value) * (moved - value);
+    }
+    *to = (wt_estimate){value, sqrt(square), 0, NULL};
+    return status;
+}
+
+/* ---- the end --------------------------------------------------------------------------------- */
+
+static wt_status find_end(const wt_topography_job *job, const surface_whole *w, double *end,
+                          wt_error *err)
+{
+    const double last = w->spectrum.bins[w->spectrum.n - 1].wavenumber;
+    bool by_law = false;
+    wt_status status = WT_OK;
+    *end = isnan(job->end) ? last : job->end;
+    if (!isnan(job->end_slope))
+        status = find_slope(w, job->end_slope, end, &by_law, err);
+    if (status == WT_OK && isnan(*end)) {
+        status = range_error("end-slope", job->end_slope, "a slope that the surface reaches", err);
+        wt_error_advice(err, "give --end, or leave both out: the spectrum then ends with what is "
+                             "reliable");
+    }
+    if (status == WT_OK && *end > last && !w->law.found)
+        status = wt_fail(err, WT_E_RANGE,
+                         "no self-affine law describes the spectrum, by which it could go on");
+    return status;
+}
+
+static void say_beyond(const wt_job *work, const surface_whole *w, double end)
+{
+    char words[32];
+    wt_format_si(2 * M_PI / end, "m", 3, words, sizeof words);
+    if (w->knots.n > w->knots.n_measured)
+        wt_parselog_add(work->log, WT_WARNING, NULL, NULL,
+                        "beyond the reliable range the spectrum goes on by its self-affine law, "
+                        "to waves of %s: %.0f %% of the squared slope come from there, and "
+                        "errors hold the scatter of its constants, not that the surface may leave "
+                        "it",
+                        words, 100 * w->extrapolated_share);
+    if (end > 2 * M_PI / shortest_wave)
+        wt_parselog_add(work->log, WT_WARNING, NULL, NULL,
+                        "the spectrum ends at waves of %s, shorter than 1 nm: that is no roughness",
+                        words);
+}
+
+wt_status surface_end_find(const wt_topography_job *job, const wt_job *work, surface_whole *w,
+                           wt_error *err)
+{
+    double end = 0;
+    wt_status status = find_slope(w, surface_steep, &w->steep, &w->steep_by_law, err);
+    if (status == WT_OK)
+        status = find_end(job, w, &end, err);
+    if (status == WT_OK)
+        status = make_knots(w, end, &w->knots, err);
+    if (status == WT_OK)
+        status = find_estimate(w, wt_roughness_rms_height, &w->rms_height, err);
+    if (status == WT_OK)
+        status = find_estimate(w, wt_roughness_rms_slope, &w->rms_slope, err);
+    if (status != WT_OK)
+        return status;
+    w->extrapolated_share = 0;
+    if (w->knots.n > w->knots.n_measured) {
+        surface_knots measured = w->knots;
+        double slope = 0;
+        measured.n = measured.n_measured;
+        status = find_number(&measured, wt_roughness_rms_slope, &slope, err);
+        w->extrapolated_share = 1 - pow(slope / w->rms_slope.value, 2);
+    }
+    if (status == WT_OK)
+        say_beyond(work, w, end);
+    return status;
+}

@@ -1,0 +1,133 @@
+/* Missing heights: the membrane over their neighbours, by conjugate gradients (Hestenes and
+ * Stiefel, J. Res. Natl. Bur. Stand. 49 (1952) 409). SPDX-License-Identifier: GPL-3.0-or-later */
+#include "surface/numerics/surface_analysis.h"
+
+#include <math.h>
+#include <stdint.h>
+#include <stdlib.h>
+
+/* What is left of the equations, of what they began with: far below the last digit of an
+ * instrument. */
+static const double residual_left = 1e-12;
+
+typedef struct membrane {
+    double *z;                              /* the heights; missing ones are filled in place */
+    size_t nx, ny, n;                       /* n missing */
+    size_t *place;                          /* [n] */
+    uint32_t *unknown;                      /* [ny * nx] number of the missing one, or NONE */
+    double *residual, *direction, *product; /* [n] */
+} membrane;
+enum { NEIGHBOURS = 4 }; /* in a grid */
+#define NONE UINT32_MAX
+
+/* Places beside one in the grid; returns how many. */
+static size_t neighbours_of(const membrane *m, size_t p, size_t to[NEIGHBOURS])
+{
+    const size_t i = p % m->nx, j = p / m->nx;
+    size_t n = 0;
+    if (i > 0)
+        to[n++] = p - 1;
+    if (i + 1 < m->nx)
+        to[n++] = p + 1;
+    if (j > 0)
+        to[n++] = p - m->nx;
+    if (j + 1 < m->ny)
+        to[n++] = p + m->nx;
+    return n;
+}
+
+/* Number of neighbours times the value less those of missing neighbours, of all missing ones. */
+static void apply(const membrane *m, const double *x, double *to)
+{
+    size_t beside[NEIGHBOURS];
+    for (size_t k = 0; k < m->n; k++) {
+        const size_t n = neighbours_of(m, m->place[k], beside);
+        double sum = (double)n * x[k];
+        for (size_t b = 0; b < n; b++)
+            if (m->unknown[beside[b]] != NONE)
+                sum -= x[m->unknown[beside[b]]];
+        to[k] = sum;
+    }
+}
+
+static double square(const double *x, size_t n)
+{
+    double sum = 0;
+    for (size_t i = 0; i < n; i++)
+        sum += x[i] * x[i];
+    return sum;
+}
+
+/* From 0 on: the residual is the sum over the neighbours that are known. */
+static void begin(membrane *m)
+{
+    size_t beside[NEIGHBOURS];
+    for (size_t k = 0; k < m->n; k++) {
+        const size_t n = neighbours_of(m, m->place[k], beside);
+        double sum = 0;
+        for (size_t b = 0; b < n; b++)
+            if (m->unknown[beside[b]] == NONE)
+                sum += m->z[beside[b]];
+        m->residual[k] = m->direction[k] = sum;
+    }
+    for (size_t k = 0; k < m->n; k++)
+        m->z[m->place[k]] = 0;
+}
+
+static wt_status solve(membrane *m, wt_error *err)
+{
+    begin(m);
+    const double first = square(m->residual, m->n);
+    double now = first;
+    /* In exact numbers n steps suffice; rounding asks for a few more of a small patch. */
+    for (size_t step = 0; step < 2 * m->n + 10; step++) {
+        if (now <= residual_left * residual_left * first)
+            return WT_OK;
+        apply(m, m->direction, m->product);
+        double along = 0;
+        for (size_t k = 0; k < m->n; k++)
+            along += m->direction[k] * m->product[k];
+        const double a = now / along;
+        for (size_t k = 0; k < m->n; k++) {
+            m->z[m->place[k]] += a * m->direction[k];
+            m->residual[k] -= a * m->product[k];
+        }
+        const double next = square(m->residual, m->n), b = next / now;
+        for (size_t k = 0; k < m->n; k++)
+            m->direction[k] = m->residual[k] + b * m->direction[k];
+        now = next;
+    }
+    return wt_fail(err, WT_E_CONVERGENCE, "the missing heights could not be filled");
+}
+
+wt_status surface_fill(double *z, size_t nx, size_t ny, wt_error *err)
+{
+    membrane m = {.z = z, .nx = nx, .ny = ny};
+    for (size_t p = 0; p < nx * ny; p++)
+        m.n += isfinite(z[p]) ? 0 : 1;
+    if (m.n == 0)
+        return WT_OK;
+    if (m.n == nx * ny)
+        return wt_fail(err, WT_E_EMPTY, "all heights are missing");
+    m.place = malloc(m.n * sizeof *m.place);
+    m.unknown = malloc(nx * ny * sizeof *m.unknown);
+    m.residual = malloc(3 * m.n * sizeof *m.residual);
+    wt_status status = WT_OK;
+    if (m.place == NULL || m.unknown == NULL || m.residual == NULL)
+        status = wt_fail(err, WT_E_MEMORY, "no memory for %zu missing heights", m.n);
+    if (status == WT_OK) {
+        m.direction = m.residual + m.n;
+        m.product = m.direction + m.n;
+        size_t k = 0;
+        for (size_t p = 0; p < nx * ny; p++) {
+            m.unknown[p] = isfinite(z[p]) ? NONE : (uint32_t)k;
+            if (m.unknown[p] != NONE)
+                m.place[k++] = p;
+        }
+        status = solve(&m, err);
+    }
+    free(m.place);
+    free(m.unknown);
+    free(m.residual);
+    return status;
+}

@@ -1,0 +1,50 @@
+/* The spectrum of an isotropic surface from that of its profiles.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#include "surface/numerics/surface_analysis.h"
+
+#include <math.h>
+
+/* cosh^(p - 1) has its next singularity at i pi/2, so that of panels half as wide as 1 ten points
+ * leave nothing above the last digit for the slopes that spectra have (tried to p = -8). */
+static const double panel = 0.5;
+/* Beyond it cosh^(p - 1) of the flattest slope that is let go on, -1, is below the last digit. */
+static const double no_more = 20;
+
+/* int_a^b cosh^power t dt */
+static double integral(const gsl_integration_glfixed_table *rule, double a, double b, double power)
+{
+    const double n = fmax(1, ceil((b - a) / panel)), width = (b - a) / n;
+    double sum = 0, t, weight;
+    for (double i = 0; i < n; i++)
+        for (size_t k = 0; k < rule->n; k++) {
+            gsl_integration_glfixed_point(a + i * width, a + (i + 1) * width, k, &t, &weight, rule);
+            sum += weight * pow(cosh(t), power);
+        }
+    return sum;
+}
+
+double surface_invert(const double *q, const double *c1, size_t n, bool goes_on, double at,
+                      const gsl_integration_glfixed_table *rule)
+{
+    double sum = 0, p = 0;
+    if (n < 2 || !(at >= q[0]))
+        return (double)NAN;
+    for (size_t i = 0; i + 1 < n; i++) {
+        p = log(c1[i + 1] / c1[i]) / log(q[i + 1] / q[i]);
+        if (q[i + 1] <= at)
+            continue;
+        /* with k = at cosh t */
+        sum += p * c1[i] * pow(at / q[i], p) *
+               integral(rule, q[i] > at ? acosh(q[i] / at) : 0, acosh(q[i + 1] / at), p - 1);
+    }
+    const double end = q[n - 1];
+    if (goes_on && !(p <= -1))
+        return (double)NAN;
+    if (goes_on) {
+        const double from = end > at ? acosh(end / at) : 0;
+        sum += p * c1[n - 1] * pow(at / end, p) * integral(rule, from, from + no_more, p - 1);
+    } else {
+        sum -= at < end ? c1[n - 1] / sqrt((end / at) * (end / at) - 1) : (double)NAN;
+    }
+    return -sum / (M_PI * at);
+}

@@ -1,0 +1,319 @@
+/* Spectra of several scans to one: scans of several sizes are stitched, several places averaged.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#include "surface/numerics/surface_analysis.h"
+
+#include "core/math/gsl_quiet.h"
+#include "core/math/normal_quantile.h"
+#include "core/math/students_t.h"
+
+#include <gsl/gsl_cdf.h>
+#include <limits.h>
+#include <math.h>
+#include <stdlib.h>
+
+/* What the scans have in a bin of the same edges. */
+typedef struct joining {
+    const wt_surface_spectrum *const *spectra;
+    size_t n;
+    int first, last;
+    double *offset; /* [n] ln C of a scan above the mean of them */
+    double *weight; /* [n] of that */
+    size_t *group;  /* [n] the first scan that it is tied to by bins that scans share */
+} joining;
+
+static const wt_spectrum_bin *bin_with(const wt_surface_spectrum *s, int index)
+{
+    for (size_t k = 0; k < s->n; k++)
+        if (s->bins[k].index == index)
+            return s->bins[k].reliable ? &s->bins[k] : NULL;
+    return NULL;
+}
+
+static double log_density(const wt_spectrum_bin *b)
+{
+    return log(b->density) - surface_log_bias(b->freedom);
+}
+
+/* ---- from place to place --------------------------------------------------------------------- */
+
+/* The mean of a bin with the offsets taken off; how many scans have it. */
+static size_t mean_without(const joining *j, int index, double *mean)
+{
+    double sum = 0, weights = 0;
+    size_t n = 0;
+    for (size_t i = 0; i < j->n; i++) {
+        const wt_spectrum_bin *b = bin_with(j->spectra[i], index);
+        if (b == NULL)
+            continue;
+        sum += b->freedom * (log_density(b) - j->offset[i]);
+        weights += b->freedom;
+        n++;
+    }
+    *mean = sum / weights;
+    return n;
+}
+
+/* One step towards offsets and means of bins that agree; the largest change of an offset. */
+static double refine_offsets(joining *j, double *sum)
+{
+    double middle = 0, change = 0;
+    size_t known = 0;
+    for (size_t i = 0; i < j->n; i++)
+        sum[i] = j->weight[i] = 0;
+    for (int index = j->first; index <= j->last; index++) {
+        double mean;
+        if (mean_without(j, index, &mean) < 2)
+            continue;
+        for (size_t i = 0; i < j->n; i++) {
+            const wt_spectrum_bin *b = bin_with(j->spectra[i], index);
+            if (b == NULL)
+                continue;
+            sum[i] += (log_density(b) - mean) / surface_log_variance(b->freedom);
+            j->weight[i] += 1 / surface_log_variance(b->freedom);
+        }
+    }
+    for (size_t i = 0; i < j->n; i++)
+        if (j->weight[i] > 0) {
+            middle += sum[i] / j->weight[i];
+            known++;
+        }
+    for (size_t i = 0; i < j->n; i++)
+        if (j->weight[i] > 0) {
+            const double next = sum[i] / j->weight[i] - middle / (double)known;
+            change = fmax(change, fabs(next - j->offset[i]));
+            j->offset[i] = next;
+        }
+    return change;
+}
+
+/* Scans of sizes that share no bin tell nothing of each other. */
+static void find_groups(joining *j)
+{
+    bool changed = true;
+    for (size_t i = 0; i < j->n; i++)
+        j->group[i] = i;
+    while (changed) {
+        changed = false;
+        for (int index = j->first; index <= j->last; index++) {
+            size_t least = j->n;
+            for (size_t i = 0; i < j->n; i++)
+                if (bin_with(j->spectra[i], index) != NULL && j->group[i] < least)
+                    least = j->group[i];
+            for (size_t i = 0; i < j->n; i++)
+                if (bin_with(j->spectra[i], index) != NULL && j->group[i] > least) {
+                    j->group[i] = least;
+                    changed = true;
+                }
+        }
+    }
+}
+
+/* Adds the squares of the offsets of one group about their mean and what the scatter of the modes
+ * gives them; how many they are. */
+static size_t add_group(const joining *j, size_t group, double *squares, double *noise)
+{
+    double sum = 0, square = 0;
+    size_t n = 0;
+    for (size_t i = 0; i < j->n; i++)
+        if (j->group[i] == group && j->weight[i] > 0) {
+            sum += j->offset[i];
+            square += j->offset[i] * j->offset[i];
+            *noise += 1 / j->weight[i];
+            n++;
+        }
+    if (n > 0)
+        *squares += fmax(0, square - sum * sum / (double)n);
+    return n;
+}
+
+/* The modes of a third of all samples of so many places scatter by less than this part of what they
+ * do in the mean. An interval takes no more off: with all of it two places that scatter by twice
+ * what the modes do are held in 87 % and three in 91, as their modes often leave nothing; with this
+ * part two to ten places are held in 93 to 98 %, whatever they scatter by. */
+static double sure_part(double freedom)
+{
+    gsl_quiet();
+    return gsl_cdf_chisq_Pinv(1.0 / 3, freedom) / freedom;
+}
+
+/* Of the scans that share bins with others: the variance of their offsets less what the scatter of
+ * the modes gives them. */
+static void find_places(joining *j, wt_surface_spectrum *to, double *scratch)
+{
+    enum { STEPS = 200 };        /* each shrinks the change, of two scans at once */
+    const double settled = 1e-6; /* of ln C, far below its scatter */
+    double squares = 0, noise = 0;
+    size_t n = 0, groups = 0;
+    for (int step = 0; step < STEPS && refine_offsets(j, scratch) > settled; step++)
+        ;
+    find_groups(j);
+    for (size_t i = 0; i < j->n; i++) {
+        const size_t members = j->group[i] == i ? add_group(j, i, &squares, &noise) : 0;
+        n += members;
+        groups += members > 0 ? 1 : 0;
+    }
+    to->place_scatter = to->place_reach = to->place_error = (double)NAN;
+    if (n == groups)
+        return;
+    const double freedom = (double)(n - groups), all = squares / freedom, modes = noise / (double)n;
+    to->place_scatter = sqrt(fmax(0, all - modes));
+    to->place_reach =
+        students_t_quantile(freedom) / NORMAL_95 * sqrt(fmax(0, all - sure_part(freedom) * modes));
+}
+
+/* What the places give the mean: a bin that one size alone tells has the places of that only, and
+ * one of two sizes next to those of the scans that have most of its modes. */
+static void find_place_error(wt_surface_spectrum *to)
+{
+    double sum = 0;
+    for (size_t k = 0; k < to->n; k++) {
+        const double part = surface_places_part(to, k);
+        sum += part * part;
+    }
+    to->place_error = to->place_reach * sqrt(sum / (double)to->n);
+}
+
+/* ---- bins ------------------------------------------------------------------------------------ */
+
+/* By the numbers of modes. */
+static void add_directions(const wt_spectrum_bin *b, wt_spectrum_bin *to)
+{
+    const double w = (double)b->n;
+    to->cosine += w * b->cosine;
+    to->sine += w * b->sine;
+    to->cosine_fourth += w * b->cosine_fourth;
+    to->sine_fourth += w * b->sine_fourth;
+    to->sector_tie += w * b->sector_tie;
+    for (size_t k = 0; k < WT_SURFACE_SECTORS; k++) {
+        to->sector_modes[k] += b->sector_modes[k];
+        to->sector_sum[k] += b->sector_sum[k];
+    }
+}
+
+/* Means of ln q and ln C by the numbers of modes. A mean of logarithms is too low by more where a
+ * scan has few modes: what it lacks against the mean of all modes is added. */
+static bool join_bin(const joining *j, int index, wt_spectrum_bin *to)
+{
+    double n = 0, freedom = 0, ln_q = 0, ln_c = 0, q = 0, bias = 0, variance = 0, shared = 0,
+           deviation = 0;
+    *to = (wt_spectrum_bin){.index = index, .reliable = true};
+    for (size_t i = 0; i < j->n; i++) {
+        const wt_spectrum_bin *b = bin_with(j->spectra[i], index);
+        if (b == NULL)
+            continue;
+        const double w = (double)b->n;
+        n += w;
+        freedom += b->freedom;
+        ln_q += w * log(b->wavenumber);
+        ln_c += w * log(b->density);
+        q += w * b->mean_wavenumber;
+        bias += w * surface_log_bias(b->freedom);
+        variance += w * w * surface_log_variance(b->freedom);
+        shared += w * w * surface_log_variance(b->shared_freedom);
+        add_directions(b, to);
+        to->n += b->n;
+        to->scans += b->scans;
+        deviation += w * (b->deviation / b->density) * (b->deviation / b->density);
+        to->width = fmax(to->width, b->width);
+    }
+    if (n == 0)
+        return false;
+    const bool one = to->scans == 1;
+    to->wavenumber = exp(ln_q / n);
+    to->mean_wavenumber = q / n;
+    to->density = exp(ln_c / n + (one ? 0 : surface_log_bias(freedom) - bias / n));
+    to->freedom = one ? freedom : surface_freedom_of(variance / (n * n));
+    to->deviation = to->density * sqrt(deviation / n);
+    to->shared_freedom = surface_freedom_of(shared / (n * n));
+    to->cosine /= n;
+    to->sine /= n;
+    to->cosine_fourth /= n;
+    to->sine_fourth /= n;
+    to->sector_tie /= n;
+    return true;
+}
+
+/* The parts of the scans in the bin. */
+static void weigh_places(const joining *j, int index, double *weight)
+{
+    double n = 0;
+    for (size_t i = 0; i < j->n; i++) {
+        const wt_spectrum_bin *b = bin_with(j->spectra[i], index);
+        weight[i] = b != NULL ? (double)b->n : 0;
+        n += weight[i];
+    }
+    for (size_t i = 0; i < j->n; i++)
+        weight[i] /= n;
+}
+
+static void find_span(joining *j, wt_surface_spectrum *to)
+{
+    j->first = INT_MAX;
+    j->last = INT_MIN;
+    to->from = (double)INFINITY;
+    to->to = 0;
+    for (size_t i = 0; i < j->n; i++) {
+        const wt_surface_spectrum *s = j->spectra[i];
+        to->from = fmin(to->from, s->from);
+        if (s->to > to->to) {
+            to->to = s->to;
+            to->ends_by = s->ends_by;
+        }
+        for (size_t k = 0; k < s->n; k++)
+            if (s->bins[k].reliable) {
+                j->first = s->bins[k].index < j->first ? s->bins[k].index : j->first;
+                j->last = s->bins[k].index > j->last ? s->bins[k].index : j->last;
+            }
+    }
+}
+
+wt_status wt_surface_join(const wt_surface_spectrum *const *spectra, size_t n,
+                          wt_surface_spectrum *joined, wt_error *err)
+{
+    if (spectra == NULL || n == 0 || joined == NULL)
+        return wt_fail(err, WT_E_ARG, "no spectra");
+    joining j = {.spectra = spectra, .n = n};
+    wt_surface_spectrum made = {.kind = spectra[0]->kind};
+    find_span(&j, &made);
+    if (j.first > j.last) {
+        wt_fail(err, WT_E_EMPTY, "no wavenumbers are reliable");
+        wt_error_advice(err, "measure with more points, over a larger area, or with a sharper tip");
+        return WT_E_EMPTY;
+    }
+    made.bins = calloc((size_t)(j.last - j.first) + 1, sizeof *made.bins);
+    j.offset = calloc(3 * n, sizeof *j.offset);
+    j.group = calloc(n, sizeof *j.group);
+    double *weights = calloc(((size_t)(j.last - j.first) + 1) * n, sizeof *weights);
+    wt_status status = WT_OK;
+    if (made.bins == NULL || weights == NULL || j.offset == NULL || j.group == NULL)
+        status = wt_fail(err, WT_E_MEMORY, "no memory for a spectrum");
+    if (status == WT_OK) {
+        j.weight = j.offset + n;
+        find_places(&j, &made, j.offset + 2 * n);
+        for (int index = j.first; index <= j.last; index++)
+            if (join_bin(&j, index, &made.bins[made.n]))
+                weigh_places(&j, index, weights + made.n++ * n);
+        status = surface_places_take(weights, n, &made, err);
+    }
+    if (status == WT_OK) {
+        find_place_error(&made);
+        *joined = made;
+    } else {
+        free(made.bins);
+    }
+    free(weights);
+    free(j.offset);
+    free(j.group);
+    return status;
+}
+
+wt_interval wt_surface_density(const wt_surface_spectrum *spectrum, size_t bin)
+{
+    const wt_spectrum_bin *b = &spectrum->bins[bin];
+    double freedom = b->freedom;
+    if (spectrum->place_error > 0) {
+        const double place = spectrum->place_reach * surface_places_part(spectrum, bin);
+        freedom = surface_freedom_of(surface_log_variance(freedom) + place * place);
+    }
+    return surface_interval(b->density, freedom);
+}

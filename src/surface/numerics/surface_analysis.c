@@ -1,0 +1,216 @@
+/* One height map or profile to its spectrum. SPDX-License-Identifier: GPL-3.0-or-later */
+#include "surface/numerics/surface_analysis.h"
+#include "surface/numerics/height_grid.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* Waves over the shorter side that the form and the window spoil. */
+static const double first_waves = 2;
+/* Fewest points of a direction: first waves, and as many points for each as are trusted at best. */
+enum { LEAST_POINTS = 16 };
+
+wt_surface_options wt_surface_options_defaults(void)
+{
+    return (wt_surface_options){
+        .form = WT_FORM_QUADRATIC,
+        .window = WT_WINDOW_HANN,
+        /* filled scattered points keep C to 5 % up to here, patches do not */
+        .largest_missing = 0.2,
+        /* of a self-affine surface 2 % of the density there is of waves that
+           are too short for the points; at 2 points it is half */
+        .points_per_wave = 4,
+        .tip_radius = (double)NAN};
+}
+
+void wt_surface_spectrum_clear(wt_surface_spectrum *spectrum)
+{
+    if (spectrum == NULL)
+        return;
+    free(spectrum->bins);
+    free(spectrum->place_part);
+    *spectrum = (wt_surface_spectrum){.n = 0};
+}
+
+static double edge(int index, double side)
+{
+    return pow(10, (index + side) / 10);
+}
+
+/* The slope of ln C against ln q about a bin, by it and two on each side as far as they are there.
+ */
+static double slope_about(const wt_surface_spectrum *s, size_t at)
+{
+    enum { BESIDE = 2 }; /* four bins apart: the scatter of two moves the slope by little */
+    double n = 0, x = 0, y = 0, xx = 0, xy = 0;
+    for (size_t k = at > BESIDE ? at - BESIDE : 0; k < s->n && k <= at + BESIDE; k++) {
+        const double w = s->bins[k].freedom, u = log(s->bins[k].wavenumber),
+                     v = log(s->bins[k].density);
+        if (!(s->bins[k].density > 0))
+            continue;
+        n += w;
+        x += w * u;
+        y += w * v;
+        xx += w * u * u;
+        xy += w * u * v;
+    }
+    const double d = n * xx - x * x;
+    return d > 0 ? (n * xy - x * y) / d : 0;
+}
+
+/* Modes squared: the variance of the spectrum of a window along an axis, the mean square of its
+ * slope over that of itself and (2 pi)^2. What goes on beyond the edges needs none. */
+static double window_variance(wt_surface_window window)
+{
+    switch (window) {
+    case WT_WINDOW_HANN:
+        return 1.0 / 3;
+    case WT_WINDOW_WELCH:
+        return 10 / (4 * M_PI * M_PI);
+    default:
+        return 0;
+    }
+}
+
+/* By how much the neighbours that a window mixes in raise a law C = q^p: to second order, at m
+ * waves in the length of the map. Where that is half and more the law is no law for so few waves.
+ */
+static double leak_of(const wt_height_map *map, double variance, double p, double q)
+{
+    const double m = q * (double)map->nx * map->dx / (2 * M_PI);
+    if (map->ny == 1)
+        return variance * p * (p - 1) / (2 * m * m);
+    const double n = q * (double)map->ny * map->dy / (2 * M_PI);
+    return variance * p * p / 4 * (1 / (m * m) + 1 / (n * n));
+}
+
+/* What the mean over a bin is too large by where the spectrum is steep: a law lies above its value
+ * at the geometric mean of the wavenumbers, C = q^p by exp(p^2 width^2 / 2), and what varies within
+ * the bin has fewer degrees of freedom; and the window mixes in what is larger. */
+static wt_status take_off_slope(const wt_height_map *map, wt_surface_window window,
+                                wt_surface_spectrum *s, wt_error *err)
+{
+    const double most = 0.6; /* at two waves and a slope that rough surfaces have */
+    const double variance = window_variance(window);
+    double *slope = malloc((s->n + 1) * sizeof *slope);
+    if (slope == NULL)
+        return wt_fail(err, WT_E_MEMORY, "out of memory");
+    for (size_t k = 0; k < s->n; k++)
+        slope[k] = slope_about(s, k);
+    for (size_t k = 0; k < s->n; k++) {
+        wt_spectrum_bin *b = &s->bins[k];
+        const double above = slope[k] * b->width;
+        const double leak = fmin(most, fmax(0, leak_of(map, variance, slope[k], b->wavenumber)));
+        b->density *= exp(-above * above / 2) / (1 + leak);
+        b->deviation *= exp(-above * above / 2) / (1 + leak);
+        b->freedom *= exp(-above * above);
+        b->shared_freedom *= exp(-above * above);
+    }
+    free(slope);
+    return WT_OK;
+}
+
+/* Both edges of a bin lie in the range, and it has a scatter that can be told. */
+static void mark_reliable(wt_surface_spectrum *s)
+{
+    for (size_t k = 0; k < s->n; k++) {
+        wt_spectrum_bin *b = &s->bins[k];
+        b->scans = 1;
+        b->reliable = edge(b->index, -0.5) >= s->from && edge(b->index, 0.5) <= s->to &&
+                      b->density > 0 && isfinite(b->density);
+    }
+}
+
+static wt_status check_map(const wt_height_map *map, wt_error *err)
+{
+    const bool profile = map->ny == 1;
+    if (map->nx < LEAST_POINTS || (!profile && map->ny < LEAST_POINTS)) {
+        wt_fail(err, WT_E_EMPTY, "too few points for a power spectrum");
+        wt_error_expected(err, "%d or more in each direction", LEAST_POINTS);
+        wt_error_found(err, "%zu x %zu", map->nx, map->ny);
+        return WT_E_EMPTY;
+    }
+    if (!(map->dx > 0 && isfinite(map->dx)) || (!profile && !(map->dy > 0 && isfinite(map->dy))))
+        return wt_fail(err, WT_E_UNIT, "the distance of the points is not known");
+    return WT_OK;
+}
+
+static wt_status check_heights(const wt_surface_heights *h, double largest_missing, wt_error *err)
+{
+    const double share = (double)h->missing / (double)h->n;
+    if (share > largest_missing) {
+        wt_fail(err, WT_E_RANGE, "too many heights are missing");
+        wt_error_expected(err, "%g of them at most", largest_missing);
+        wt_error_found(err, "%.3g", share);
+        wt_error_advice(err, "measure the surface again, or cut out a part that is whole");
+        return WT_E_RANGE;
+    }
+    if (!(h->rms > 0))
+        return wt_fail(err, WT_E_EMPTY, "all heights are the same");
+    return WT_OK;
+}
+
+static void find_range(const wt_height_map *map, const wt_surface_options *o,
+                       wt_surface_spectrum *to)
+{
+    const bool profile = map->ny == 1;
+    const double length_x = (double)map->nx * map->dx, length_y = (double)map->ny * map->dy;
+    const double coarse = profile ? map->dx : fmax(map->dx, map->dy);
+    to->from = first_waves * 2 * M_PI / (profile ? length_x : fmin(length_x, length_y));
+    to->to = 2 * M_PI / (o->points_per_wave * coarse);
+    to->ends_by = "points";
+    if (isnan(o->tip_radius))
+        return;
+    const double tip = surface_tip_limit(map, o->tip_radius);
+    if (tip < to->to) {
+        to->to = tip;
+        to->ends_by = "tip";
+    }
+}
+
+wt_status wt_surface_analyse(const wt_height_map *map, const wt_surface_options *options,
+                             wt_surface_heights *heights, wt_surface_spectrum *spectrum,
+                             wt_error *err)
+{
+    if (map == NULL || map->z == NULL || options == NULL || heights == NULL || spectrum == NULL)
+        return wt_fail(err, WT_E_ARG, "no heights");
+    const bool profile = map->ny == 1;
+    double form[FORM_TERMS];
+    wt_status status = check_map(map, err);
+    if (status != WT_OK)
+        return status;
+    double *z = malloc(map->nx * map->ny * sizeof *z);
+    if (z == NULL)
+        return wt_fail(err, WT_E_MEMORY, "no memory for %zu x %zu heights", map->nx, map->ny);
+    memcpy(z, map->z, map->nx * map->ny * sizeof *z);
+    const wt_height_map less = {z, map->nx, map->ny, map->dx, map->dy};
+    wt_surface_spectrum made = {
+        .place_scatter = (double)NAN, .place_reach = (double)NAN, .place_error = (double)NAN};
+    status = surface_form_remove(z, map->nx, map->ny, (unsigned)options->form, form, err);
+    if (status == WT_OK) {
+        surface_heights_find(&less, heights);
+        status = check_heights(heights, options->largest_missing, err);
+    }
+    if (status == WT_OK)
+        status = surface_fill(z, map->nx, map->ny, err);
+    if (status == WT_OK) {
+        const double coarse = profile ? map->dx : fmax(map->dx, map->dy);
+        const double length = (double)map->nx * map->dx;
+        find_range(&less, options, &made);
+        const surface_bins bins = {
+            1, 2 * M_PI / (profile ? length : fmax(length, (double)map->ny * map->dy)),
+            M_PI / coarse};
+        status = surface_transform(&less, options->window, profile, &bins, &made, err);
+    }
+    free(z);
+    if (status == WT_OK)
+        status = take_off_slope(&less, options->window, &made, err);
+    if (status == WT_OK) {
+        mark_reliable(&made);
+        *spectrum = made;
+    } else {
+        free(made.bins);
+    }
+    return status;
+}

@@ -1,0 +1,120 @@
+/* The spectrum of a surface from that of its profiles, with its scatter.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#include "surface/numerics/surface_analysis.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* A density that the scatter of C1 leaves so open is none: its logarithm is not normal then. */
+static const double largest_variance = 0.5;
+
+/* The relative variance of C at a knot: what the scatter of every knot of C1 does to it. */
+static double variance_at(const wt_surface_spectrum *p, const double *q, double *c1, size_t at,
+                          double c, const gsl_integration_glfixed_table *rule)
+{
+    const double step = 1e-4; /* of ln C1: the inversion is smooth in it */
+    double sum = 0;
+    for (size_t k = 0; k < p->n; k++) {
+        const double was = c1[k];
+        c1[k] = was * exp(step);
+        const double high = surface_invert(q, c1, p->n, true, q[at], rule);
+        c1[k] = was * exp(-step);
+        const double low = surface_invert(q, c1, p->n, true, q[at], rule);
+        c1[k] = was;
+        const double slope = (high - low) / (2 * step * c);
+        sum += slope * slope * surface_log_variance(p->bins[k].freedom);
+    }
+    return sum;
+}
+
+static wt_status fail_flat(wt_error *err)
+{
+    wt_fail(err, WT_E_RANGE, "the spectrum of the profile does not fall at its end");
+    wt_error_expected(err, "a slope of ln C1 against ln q below -1 there");
+    wt_error_advice(err,
+                    "noise makes it flat: measure with less, or end the range at longer waves, "
+                    "by more points-per-wave");
+    return WT_E_RANGE;
+}
+
+wt_status wt_surface_of_profile(const double *wavenumber, const double *c1, size_t n, double *c,
+                                wt_error *err)
+{
+    if (wavenumber == NULL || c1 == NULL || c == NULL || n < 2)
+        return wt_fail(err, WT_E_ARG, "no spectrum of a profile");
+    for (size_t k = 0; k < n; k++)
+        if (!(c1[k] > 0) || !isfinite(c1[k])) {
+            wt_fail(err, WT_E_RANGE, "density %zu of %zu of the profile is not above 0", k + 1, n);
+            wt_error_found(err, "%g m^3", c1[k]);
+            return WT_E_RANGE;
+        }
+    gsl_integration_glfixed_table *rule = gsl_integration_glfixed_table_alloc(INVERSION_POINTS);
+    if (rule == NULL)
+        return wt_fail(err, WT_E_MEMORY, "no memory for a spectrum");
+    wt_status status = WT_OK;
+    if (isnan(surface_invert(wavenumber, c1, n, true, wavenumber[0], rule)))
+        status = fail_flat(err);
+    for (size_t k = 0; status == WT_OK && k < n; k++) {
+        c[k] = surface_invert(wavenumber, c1, n, true, wavenumber[k], rule);
+        if (c[k] > 0)
+            continue;
+        status = wt_fail(err, WT_E_RANGE,
+                         "the spectrum of the profile rises too steeply for that "
+                         "of a surface that is the same in all directions");
+        wt_error_found(err, "no density above 0 at %g rad/m", wavenumber[k]);
+    }
+    gsl_integration_glfixed_table_free(rule);
+    return status;
+}
+
+wt_status wt_surface_invert(const wt_surface_spectrum *profile, wt_surface_spectrum *surface,
+                            wt_error *err)
+{
+    if (profile == NULL || surface == NULL || profile->kind != WT_SPECTRUM_1D || profile->n < 2)
+        return wt_fail(err, WT_E_ARG, "no spectrum of a profile");
+    wt_surface_spectrum made = *profile;
+    double *q = malloc(2 * profile->n * sizeof *q);
+    made.kind = WT_SPECTRUM_2D;
+    made.n = made.n_sizes = 0;
+    made.place_part = NULL; /* each bin of C is of many of C1 */
+    made.bins = malloc(profile->n * sizeof *made.bins);
+    gsl_integration_glfixed_table *rule = gsl_integration_glfixed_table_alloc(INVERSION_POINTS);
+    wt_status status = q != NULL && made.bins != NULL && rule != NULL
+                           ? WT_OK
+                           : wt_fail(err, WT_E_MEMORY, "no memory for a spectrum");
+    double *c1 = q != NULL ? q + profile->n : NULL;
+    for (size_t k = 0; status == WT_OK && k < profile->n; k++) {
+        q[k] = profile->bins[k].wavenumber;
+        c1[k] = profile->bins[k].density;
+    }
+    if (status == WT_OK && isnan(surface_invert(q, c1, profile->n, true, q[0], rule)))
+        status = fail_flat(err);
+    for (size_t k = 0; status == WT_OK && k < profile->n; k++) {
+        const double c = surface_invert(q, c1, profile->n, true, q[k], rule);
+        const double variance = c > 0 ? variance_at(profile, q, c1, k, c, rule) : (double)INFINITY;
+        if (!(variance < largest_variance))
+            continue;
+        wt_spectrum_bin *b = &made.bins[made.n++];
+        *b = profile->bins[k];
+        b->density = c;
+        b->deviation = b->cosine = b->sine = b->cosine_fourth = b->sine_fourth = (double)NAN;
+        for (size_t s = 0; s < WT_SURFACE_SECTORS; s++)
+            b->sector_modes[s] = b->sector_sum[s] = 0;
+        b->shared_freedom *= surface_freedom_of(variance) / b->freedom;
+        b->freedom = surface_freedom_of(variance);
+    }
+    if (status == WT_OK && made.n < 2) {
+        status =
+            wt_fail(err, WT_E_RANGE, "so few profiles do not tell the spectrum of the surface");
+        wt_error_expected(err, "densities that are known to a factor of two");
+        wt_error_advice(err, "measure more profiles, ten say, longer ones, or a height map");
+    }
+    free(q);
+    gsl_integration_glfixed_table_free(rule);
+    if (status == WT_OK)
+        *surface = made;
+    else
+        free(made.bins);
+    return status;
+}

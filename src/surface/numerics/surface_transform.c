@@ -1,0 +1,376 @@
+/* Heights to a power spectrum by bins: window, discrete Fourier transform, means over modes.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#include "surface/numerics/surface_analysis.h"
+
+#include <fftw3.h>
+#include <float.h>
+#include <math.h>
+#include <pthread.h>
+#include <stdlib.h>
+
+enum { PER_DECADE = 10 }; /* a law is straight over a bin, and its first ones hold some modes */
+
+/* ---- windows --------------------------------------------------------------------------------- */
+
+static double window_at(wt_surface_window window, size_t i, size_t n)
+{
+    const double t = (2 * (double)i + 1 - (double)n) / (double)n;
+    switch (window) {
+    case WT_WINDOW_HANN:
+        return 0.5 * (1 - cos(2 * M_PI * (double)i / (double)n));
+    case WT_WINDOW_WELCH:
+        return 1 - t * t;
+    case WT_WINDOW_NONE:
+        break;
+    }
+    return 1;
+}
+
+/* By how much its modes are correlated: mean(w^4) / mean(w^2)^2 over one direction, from many
+ * points. */
+static double window_correlation(wt_surface_window window)
+{
+    switch (window) {
+    case WT_WINDOW_HANN:
+        return 35.0 / 18;
+    case WT_WINDOW_WELCH:
+        return 10.0 / 7;
+    case WT_WINDOW_NONE:
+        break;
+    }
+    return 1;
+}
+
+/* The window over one direction [n], and the mean of its square. */
+static double *make_window(wt_surface_window window, size_t n, double *mean_square)
+{
+    double *w = malloc(n * sizeof *w), sum = 0;
+    for (size_t i = 0; w != NULL && i < n; i++) {
+        w[i] = window_at(window, i, n);
+        sum += w[i] * w[i];
+    }
+    *mean_square = sum / (double)n;
+    return w;
+}
+
+/* ---- transforms ------------------------------------------------------------------------------ */
+
+/* Rows of nx heights and room for nx / 2 + 1 complex numbers each. */
+typedef struct transform {
+    double *row; /* [ny * stride] */
+    size_t nx, ny, stride;
+    double density; /* times |amplitude|^2 */
+} transform;
+
+static pthread_mutex_t planning = PTHREAD_MUTEX_INITIALIZER; /* FFTW plans by one at a time */
+
+/* Over rows and columns, or over each row. */
+static wt_status run(const transform *t, bool lines, wt_error *err)
+{
+    fftw_complex *out = (fftw_complex *)t->row;
+    const int nx = (int)t->nx, ny = (int)t->ny, stride = (int)t->stride;
+    pthread_mutex_lock(&planning);
+    fftw_plan plan = lines ? fftw_plan_many_dft_r2c(1, &nx, ny, t->row, NULL, 1, stride, out, NULL,
+                                                    1, stride / 2, FFTW_ESTIMATE)
+                           : fftw_plan_dft_r2c_2d(ny, nx, t->row, out, FFTW_ESTIMATE);
+    pthread_mutex_unlock(&planning);
+    if (plan == NULL)
+        return wt_fail(err, WT_E_INTERNAL, "no Fourier transform of %zu x %zu heights", t->nx,
+                       t->ny);
+    fftw_execute(plan);
+    pthread_mutex_lock(&planning);
+    fftw_destroy_plan(plan);
+    pthread_mutex_unlock(&planning);
+    return WT_OK;
+}
+
+/* C = (dx dy)^2 |DFT(w h)|^2 / ((2 pi)^2 Lx Ly <w^2>), C1 = dx^2 |DFT(w h)|^2 / (2 pi L <w^2>). */
+static wt_status make_transform(const wt_height_map *map, wt_surface_window window, bool lines,
+                                transform *t, wt_error *err)
+{
+    double square_x = 1, square_y = 1;
+    double *wx = make_window(window, map->nx, &square_x);
+    double *wy = make_window(lines ? WT_WINDOW_NONE : window, map->ny, &square_y);
+    *t = (transform){.nx = map->nx, .ny = map->ny, .stride = 2 * (map->nx / 2 + 1)};
+    /* Not by fftw_malloc, which ends the process where memory runs out. */
+    t->row = malloc(t->ny * t->stride * sizeof *t->row);
+    wt_status status = WT_OK;
+    if (wx == NULL || wy == NULL || t->row == NULL)
+        status = wt_fail(err, WT_E_MEMORY, "no memory for a transform of %zu x %zu heights",
+                         map->nx, map->ny);
+    for (size_t j = 0; status == WT_OK && j < t->ny; j++)
+        for (size_t i = 0; i < t->nx; i++)
+            t->row[j * t->stride + i] = wx[i] * wy[j] * map->z[j * t->nx + i];
+    if (status == WT_OK)
+        status = run(t, lines, err);
+    t->density = map->dx / (2 * M_PI * (double)map->nx * square_x);
+    if (!lines)
+        t->density *= map->dy / (2 * M_PI * (double)map->ny * square_y);
+    free(wx);
+    free(wy);
+    if (status != WT_OK) {
+        free(t->row);
+        t->row = NULL;
+    }
+    return status;
+}
+
+static double density_at(const transform *t, size_t i, size_t j)
+{
+    const double *a = t->row + j * t->stride + 2 * i;
+    return t->density * (a[0] * a[0] + a[1] * a[1]);
+}
+
+/* ---- bins ------------------------------------------------------------------------------------ */
+
+typedef struct mode_sums {
+    double n, q, ln_q, ln_q2, c, square; /* the last about `first` */
+    double first, cosine, sine, c_cosine, c_sine;
+    double cosine_fourth, sine_fourth, c_cosine_fourth, c_sine_fourth;
+    double sector_n[WT_SURFACE_SECTORS], sector_c[WT_SURFACE_SECTORS];
+    double pairs; /* sum over pairs of modes of the squares of their correlation; 0: not counted */
+} mode_sums;
+
+typedef struct binning {
+    const surface_bins *of;
+    int first; /* number of the first bin */
+    size_t n;
+    mode_sums *sums;
+} binning;
+
+static int bin_of(const surface_bins *of, double q)
+{
+    return (int)floor(PER_DECADE * log10(q / of->reference) + 0.5);
+}
+
+static wt_status make_bins(const surface_bins *of, binning *b, wt_error *err)
+{
+    *b = (binning){.of = of, .first = bin_of(of, of->low)};
+    b->n = of->high >= of->low ? (size_t)(bin_of(of, of->high) - b->first) + 1 : 0;
+    b->sums = calloc(b->n + 1, sizeof *b->sums);
+    return b->sums != NULL ? WT_OK : wt_fail(err, WT_E_MEMORY, "no memory for bins");
+}
+
+/* The bin of a mode; -1 if it is outside. Modes of a lattice lie on the limits, up to rounding. */
+static int place_of(const binning *b, double q)
+{
+    if (q < b->of->low * (1 - 4 * DBL_EPSILON) || q > b->of->high * (1 + 4 * DBL_EPSILON))
+        return -1;
+    const int k = bin_of(b->of, q) - b->first;
+    return k >= 0 && (size_t)k < b->n ? k : -1;
+}
+
+/* What depends on the direction, whose double angle has this cosine and sine. */
+static void add_direction(mode_sums *s, double cosine, double sine, double c, double times)
+{
+    const double cosine_fourth = 2 * cosine * cosine - 1, sine_fourth = 2 * sine * cosine;
+    const double sector = atan2(sine, cosine) / 2 * WT_SURFACE_SECTORS / M_PI;
+    const size_t k = (size_t)(floor(sector + 0.5) + WT_SURFACE_SECTORS) % WT_SURFACE_SECTORS;
+    s->cosine += times * cosine;
+    s->sine += times * sine;
+    s->c_cosine += times * c * cosine;
+    s->c_sine += times * c * sine;
+    s->cosine_fourth += times * cosine_fourth;
+    s->sine_fourth += times * sine_fourth;
+    s->c_cosine_fourth += times * c * cosine_fourth;
+    s->c_sine_fourth += times * c * sine_fourth;
+    s->sector_n[k] += times;
+    s->sector_c[k] += times * c;
+}
+
+/* A mode that stands for `times` of the full plane. */
+static void add_mode(const binning *b, double qx, double qy, double c, double times)
+{
+    const double q = hypot(qx, qy);
+    const int k = place_of(b, q);
+    if (k < 0)
+        return;
+    mode_sums *s = &b->sums[k];
+    /* from the lower edge on, so that little cancels */
+    const double ln_q = log(q / b->of->reference) - (k + b->first - 0.5) * M_LN10 / PER_DECADE;
+    const double cosine = (qx * qx - qy * qy) / (q * q), sine = 2 * qx * qy / (q * q);
+    if (s->n == 0)
+        s->first = c;
+    s->n += times;
+    s->q += times * q;
+    s->ln_q += times * ln_q;
+    s->ln_q2 += times * ln_q * ln_q;
+    s->c += times * (c - s->first);
+    s->square += times * (c - s->first) * (c - s->first);
+    add_direction(s, cosine, sine, c, times);
+}
+
+/* ---- how many modes are independent ---------------------------------------------------------- */
+
+/* Correlation of the amplitudes of modes that lie so many apart under a Hann window. */
+static const double hann_neighbours[] = {1, 2.0 / 3, 1.0 / 6};
+enum { REACH = sizeof hann_neighbours / sizeof *hann_neighbours - 1 };
+/* Larger bins than this have next to all neighbours of a mode inside. */
+static const double few_modes = 20000;
+
+static double square_of(int apart)
+{
+    const double r = hann_neighbours[apart < 0 ? -apart : apart];
+    return r * r;
+}
+
+/* How many modes of a sector at q are as one that is independent: their neighbours along it, and
+ * across it those that are within its width. */
+static double sector_tie(const wt_height_map *map, wt_surface_window window, double q)
+{
+    const double along = window_correlation(window), two = square_of(1) + square_of(2);
+    const double step = 2 * M_PI / sqrt((double)map->nx * map->dx * (double)map->ny * map->dy);
+    const double wide = q / step * M_PI / WT_SURFACE_SECTORS;
+    const double within =
+        (square_of(1) * fmax(0, 1 - 1 / wide) + square_of(2) * fmax(0, 1 - 2 / wide)) / two;
+    return along * (1 + (along - 1) * within);
+}
+
+/* Bins of the modes from -reach to reach in both directions, row by row. */
+typedef struct mode_grid {
+    int reach_x, reach_y;
+    short *bin;
+} mode_grid;
+
+static int grid_bin(const mode_grid *g, int i, int j)
+{
+    if (abs(i) > g->reach_x || abs(j) > g->reach_y)
+        return -1;
+    return g
+        ->bin[(size_t)(j + g->reach_y) * (size_t)(2 * g->reach_x + 1) + (size_t)(i + g->reach_x)];
+}
+
+static double pairs_of(const mode_grid *g, int i, int j, int bin, int reach_y)
+{
+    double sum = 0;
+    for (int v = -reach_y; v <= reach_y; v++)
+        for (int u = -REACH; u <= REACH; u++)
+            if (grid_bin(g, i + u, j + v) == bin)
+                sum += square_of(u) * square_of(v);
+    return sum;
+}
+
+/* For bins of few modes, many of whose neighbours are in other bins. */
+static wt_status count_pairs(const wt_height_map *map, bool lines, const binning *b, wt_error *err)
+{
+    double most = 0;
+    for (size_t k = 0; k < b->n; k++)
+        if (b->sums[k].n > 0 && b->sums[k].n <= few_modes)
+            most = b->of->reference * pow(10, (b->first + (int)k + 0.5) / PER_DECADE);
+    const double step_x = 2 * M_PI / ((double)map->nx * map->dx),
+                 step_y = lines ? 1 : 2 * M_PI / ((double)map->ny * map->dy);
+    mode_grid g = {.reach_x = (int)fmin(most / step_x, (double)map->nx / 2),
+                   .reach_y = lines ? 0 : (int)fmin(most / step_y, (double)map->ny / 2)};
+    const size_t columns = (size_t)(2 * g.reach_x + 1), rows = (size_t)(2 * g.reach_y + 1);
+    g.bin = malloc(columns * rows * sizeof *g.bin);
+    if (g.bin == NULL)
+        return wt_fail(err, WT_E_MEMORY, "no memory for modes");
+    for (size_t n = 0; n < columns * rows; n++) {
+        const int i = (int)(n % columns) - g.reach_x, j = (int)(n / columns) - g.reach_y;
+        g.bin[n] = (short)place_of(b, hypot(step_x * i, step_y * j));
+    }
+    for (size_t n = 0; n < columns * rows; n++) {
+        const int i = (int)(n % columns) - g.reach_x, j = (int)(n / columns) - g.reach_y;
+        if (g.bin[n] >= 0 && b->sums[g.bin[n]].n <= few_modes)
+            b->sums[g.bin[n]].pairs += pairs_of(&g, i, j, g.bin[n], lines ? 0 : REACH);
+    }
+    free(g.bin);
+    return WT_OK;
+}
+
+/* ---- means ----------------------------------------------------------------------------------- */
+
+/* Degrees of freedom of the mean of modes: two for each that is independent, and -q is none. */
+static double freedom_of(const mode_sums *s, size_t n_lines, double correlation)
+{
+    /* rows of a line count as one each, and their pairs were counted for one of them */
+    return s->pairs > 0
+               ? (double)n_lines * (s->n / (double)n_lines) * (s->n / (double)n_lines) / s->pairs
+               : s->n / correlation;
+}
+
+static wt_spectrum_bin finish_bin(const mode_sums *s, int index, double reference, double freedom,
+                                  double correlation)
+{
+    const double edge = reference * pow(10, (index - 0.5) / PER_DECADE);
+    const double c = s->first + s->c / s->n;
+    const double squares = s->square - s->c * s->c / s->n;
+    wt_spectrum_bin bin = {.index = index,
+                           .wavenumber = edge * exp(s->ln_q / s->n),
+                           .width = sqrt(fmax(0, s->ln_q2 - s->ln_q * s->ln_q / s->n) / s->n),
+                           .mean_wavenumber = s->q / s->n,
+                           .density = c,
+                           .deviation = sqrt(fmax(0, squares) / (s->n - 1)),
+                           .n = (size_t)s->n,
+                           .freedom = freedom,
+                           .shared_freedom = s->n / correlation,
+                           .cosine = 2 * (s->c_cosine - c * s->cosine) / (s->n * c),
+                           .sine = 2 * (s->c_sine - c * s->sine) / (s->n * c),
+                           .cosine_fourth =
+                               2 * (s->c_cosine_fourth - c * s->cosine_fourth) / (s->n * c),
+                           .sine_fourth = 2 * (s->c_sine_fourth - c * s->sine_fourth) / (s->n * c)};
+    for (size_t k = 0; k < WT_SURFACE_SECTORS; k++) {
+        bin.sector_modes[k] = s->sector_n[k];
+        bin.sector_sum[k] = s->sector_c[k] / c;
+    }
+    return bin;
+}
+
+/* Of an even number of points the mode n/2 stands for itself alone, as that of 0 does. */
+static double times_of(size_t i, size_t n)
+{
+    return i == 0 || 2 * i == n ? 1 : 2;
+}
+
+static void bin_plane(const transform *t, const wt_height_map *map, const binning *b)
+{
+    const double step_x = 2 * M_PI / ((double)t->nx * map->dx),
+                 step_y = 2 * M_PI / ((double)t->ny * map->dy);
+    for (size_t j = 0; j < t->ny; j++) {
+        const double qy = step_y * (2 * j < t->ny ? (double)j : (double)j - (double)t->ny);
+        for (size_t i = j == 0 ? 1 : 0; i <= t->nx / 2; i++)
+            add_mode(b, step_x * (double)i, qy, density_at(t, i, j), times_of(i, t->nx));
+    }
+}
+
+/* Each mode stands for itself and the one at -q. */
+static void bin_lines(const transform *t, const wt_height_map *map, const binning *b)
+{
+    const double step = 2 * M_PI / ((double)t->nx * map->dx);
+    for (size_t j = 0; j < t->ny; j++)
+        for (size_t i = 1; i <= t->nx / 2; i++)
+            add_mode(b, step * (double)i, 0, density_at(t, i, j), times_of(i, t->nx));
+}
+
+wt_status surface_transform(const wt_height_map *map, wt_surface_window window, bool lines,
+                            const surface_bins *bins, wt_surface_spectrum *to, wt_error *err)
+{
+    transform t = {.row = NULL};
+    binning b = {.n = 0};
+    const double one = window_correlation(window), correlation = lines ? one : one * one;
+    wt_status status = make_bins(bins, &b, err);
+    if (status == WT_OK)
+        status = make_transform(map, window, lines, &t, err);
+    to->kind = lines ? WT_SPECTRUM_1D : WT_SPECTRUM_2D;
+    to->n = 0;
+    to->bins = status == WT_OK ? calloc(b.n + 1, sizeof *to->bins) : NULL;
+    if (status == WT_OK && to->bins == NULL)
+        status = wt_fail(err, WT_E_MEMORY, "no memory for bins");
+    if (status == WT_OK) {
+        (lines ? bin_lines : bin_plane)(&t, map, &b);
+        if (window == WT_WINDOW_HANN)
+            status = count_pairs(map, lines, &b, err);
+        for (size_t k = 0; k < b.n; k++) {
+            if (!(b.sums[k].n > 1))
+                continue;
+            wt_spectrum_bin *bin = &to->bins[to->n++];
+            *bin =
+                finish_bin(&b.sums[k], b.first + (int)k, bins->reference,
+                           freedom_of(&b.sums[k], lines ? map->ny : 1, correlation), correlation);
+            bin->sector_tie = sector_tie(map, window, bin->wavenumber);
+        }
+    }
+    free(t.row);
+    free(b.sums);
+    return status;
+}

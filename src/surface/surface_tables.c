@@ -1,0 +1,358 @@
+/* The tables of measured surfaces. SPDX-License-Identifier: GPL-3.0-or-later */
+#include "surface/surface.h"
+
+#include "core/base/clocale.h"
+#include "core/base/param.h"
+#include "core/math/normal_quantile.h"
+#include "core/table/table_rows.h"
+#include "surface/numerics/surface_analysis.h"
+#include "weartrack/kernel.h"
+
+#include <math.h>
+#include <string.h>
+
+/* An anisotropy that could be scatter is none. */
+static const double least_chance = 0.01;
+
+bool surface_anisotropic(const wt_surface_anisotropy *directions)
+{
+    return directions->chance < least_chance;
+}
+
+TABLE_ROW(power_spectrum, POWER_SPECTRUM, double wavenumber; wt_interval density;
+          double modes_error, modes_tie, law_error, self_affine, modes, scans; const char *source;)
+TABLE_ROW(place_errors, PLACE_ERRORS, size_t size, row; double wavenumber, error;)
+TABLE_KEYS(power_spectrum, POWER_SPECTRUM, wt_estimate rms_height, rms_slope, hurst, c0, roll_off;
+           const char *law; wt_estimate reliable_from, reliable_to; const char *ends_by;
+           wt_estimate steep; const char *steep_by;
+           wt_estimate extrapolated_share, place_scatter, place_error, anisotropy,
+           anisotropy_direction, anisotropy_fourth, anisotropy_fourth_direction;
+           const char *directions, *profiles, *includes, *lacks, *option, *anisotropy_option,
+           *convention;
+           size_t n_scans;)
+TABLE_ROW(angular_spectrum, ANGULAR_SPECTRUM, double direction; wt_interval ratio;
+          double terms, modes;)
+TABLE_KEYS(angular_spectrum, ANGULAR_SPECTRUM, double chance, chance_fourth;)
+TABLE_ROW_OF(surfaces, SURFACES, surface_scan)
+TABLE_KEYS(surfaces, SURFACES, const char *form, *window;)
+TABLE_ROW(scan_spectra, SCAN_SPECTRA, wt_spectrum_bin bin; double scatter;)
+
+static wt_estimate number(double value, double standard_error)
+{
+    return (wt_estimate){value, standard_error, 0, NULL};
+}
+
+static wt_estimate of_interval(wt_interval i, bool known)
+{
+    return known ? number(i.value, i.standard_error) : number((double)NAN, 0);
+}
+
+static size_t bin_of(const wt_surface_spectrum *s, size_t knot)
+{
+    return knot < s->n ? knot : s->n - 1;
+}
+
+/* Of a scan at one place; NaN: not known, or there is one size. */
+static double one_place(const wt_surface_spectrum *s)
+{
+    return s->place_error > 0 && s->n_sizes > 1 ? s->place_reach : (double)NAN;
+}
+
+double surface_knot_size(const wt_surface_spectrum *s, size_t knot, size_t size)
+{
+    return s->n_sizes > 1 ? one_place(s) * surface_places_of(s, bin_of(s, knot), size)
+                          : (double)NAN;
+}
+
+double surface_knot_places(const wt_surface_spectrum *s, size_t knot)
+{
+    return one_place(s) * surface_places_part(s, bin_of(s, knot));
+}
+
+/* As many modes are tied to those of the next bin as to those of the one before. */
+double surface_tie_to_next(const wt_surface_spectrum *s, size_t bin)
+{
+    const wt_spectrum_bin *const a = &s->bins[bin], *const b = a + 1;
+    const double most = POWER_SPECTRUM_MOST_TIE;
+    const double beside_a = fmax(0, a->freedom / a->shared_freedom - 1),
+                 beside_b = fmax(0, b->freedom / b->shared_freedom - 1);
+    return b->index == a->index + 1 ? fmin(most, 0.5 * sqrt(beside_a * beside_b)) : 0;
+}
+
+double surface_law_error(const surface_whole *w, double wavenumber)
+{
+    const double alone = wt_self_affine_log_error(&w->law, wavenumber, false),
+                 all = wt_self_affine_log_error(&w->law, wavenumber, true),
+                 last = surface_knot_places(&w->spectrum, w->spectrum.n),
+                 places = isnan(last) ? w->spectrum.place_error : last,
+                 common = places > 0 ? places : 0;
+    return sqrt(fmax(alone * alone, all * all - common * common));
+}
+
+/* ---- the spectrum ---------------------------------------------------------------------------- */
+
+static wt_interval of_law(const wt_self_affine *law, double q)
+{
+    const double c = wt_self_affine_density(law, q), error = wt_self_affine_log_error(law, q, true);
+    return (wt_interval){c, c * error, c * exp(-NORMAL_95 * error), c * exp(NORMAL_95 * error)};
+}
+
+static void add_rows(table_writer *t, const surface_whole *w)
+{
+    const double nan = (double)NAN;
+    const surface_knots *k = &w->knots;
+    for (size_t i = 0; i < k->n; i++) {
+        const bool law = i >= k->n_measured, cut = k->cut && i + 1 == k->n_measured,
+                   bin = !law && !cut;
+        const double c = k->density[i], q = k->wavenumber[i];
+        const wt_interval none = {c, nan, nan, nan};
+        TABLE_ADD(power_spectrum, t, q,
+                  bin   ? wt_surface_density(&w->spectrum, i)
+                  : law ? of_law(&w->law, q)
+                        : none,
+                  bin ? sqrt(surface_log_variance(w->spectrum.bins[i].freedom)) : nan,
+                  bin && i + 1 < w->spectrum.n ? surface_tie_to_next(&w->spectrum, i) : nan,
+                  law ? surface_law_error(w, q) : nan, wt_self_affine_density(&w->law, q),
+                  bin ? (double)w->spectrum.bins[i].n : nan,
+                  bin ? (double)w->spectrum.bins[i].scans : nan,
+                  bin   ? "measured"
+                  : cut ? "cut"
+                        : "law");
+    }
+}
+
+static void print_law(const surface_whole *w, char *to, size_t size)
+{
+    const wt_self_affine *l = &w->law;
+    if (!l->found)
+        clocale_print(to, size, "none: %s",
+                      l->n > 0 ? "the spectrum does not fall" : "too few wavenumbers are reliable");
+    else
+        clocale_print(
+            to, size, "%s; misfit %.2g (chi-squared over degrees of freedom, of %zu bins%s)",
+            l->rolls_off ? "with a roll-off"
+                         : "no roll-off in the reliable range: the surface has longer waves",
+            l->misfit, l->n, l->misfit > 2 ? ": the law describes the spectrum badly" : "");
+}
+
+static void print_directions(const surface_whole *w, char *to, size_t size)
+{
+    const wt_surface_anisotropy *a = &w->directions;
+    if (isnan(a->amplitude))
+        clocale_print(to, size, "cannot say: profiles tell none; a height map would");
+    else if (surface_anisotropic(a))
+        clocale_print(to, size,
+                      "differ: C changes by %.2g of its mean, most at %.0f deg from x (chance of "
+                      "as much by scatter: %.1g)",
+                      a->amplitude, a->direction * 180 / M_PI, a->chance);
+    else
+        clocale_print(to, size,
+                      "alike: C changes by %.2g of its mean, as scatter does (chance %.2g)",
+                      a->amplitude, a->chance);
+}
+
+/* What is typed where a law is asked for, from the first bin to the end of the spectrum. */
+static void print_option(const surface_whole *w, char *to, size_t size)
+{
+    const surface_knots *k = &w->knots;
+    to[0] = '\0';
+    if (w->law.found)
+        clocale_print(to, size,
+                      "--roughness self-affine:q0=%.6grad/m,qr=%.6grad/m,q1=%.6grad/m,hurst=%.4g,"
+                      "c0=%.6gm^4",
+                      k->wavenumber[0], w->law.roll_off.value, k->wavenumber[k->n - 1],
+                      w->law.hurst.value, w->law.c0.value);
+}
+
+/* The orders that are more than scatter, as friction takes them. The angles of the texture are from
+ * the velocity, here along x: from 0 to a turn over the order. */
+static wt_anisotropy anisotropy_of(const surface_whole *w)
+{
+    const wt_surface_anisotropy *const found[] = {&w->directions, &w->fourth};
+    wt_anisotropy a = {{0}, {0}};
+    for (size_t k = 0; k < sizeof found / sizeof *found; k++) {
+        if (!surface_anisotropic(found[k]))
+            continue;
+        a.amplitude[k] = found[k]->amplitude;
+        a.angle[k] = found[k]->direction < 0 ? found[k]->direction + M_PI / (double)(k + 1)
+                                             : found[k]->direction;
+    }
+    return a;
+}
+
+/* What is typed where friction slides along x; none where directions are alike, or differ by more
+ * than two orders can tell. */
+static void print_anisotropy(const surface_whole *w, char *to, size_t size)
+{
+    static const char *const names[][2] = {{"anisotropy", "texture-angle"},
+                                           {"anisotropy-fourth", "texture-angle-fourth"}};
+    const wt_anisotropy a = anisotropy_of(w);
+    size_t used = 0;
+    clocale_print(to, size, "none");
+    if (wt_anisotropy_check(&a, NULL) != WT_OK)
+        return;
+    for (size_t k = 0; k < sizeof names / sizeof *names && used < size; k++)
+        if (a.amplitude[k] > 0) {
+            clocale_print(to + used, size - used, "%s--%s %.4g --%s %.4gdeg", used > 0 ? " " : "",
+                          names[k][0], a.amplitude[k], names[k][1], a.angle[k] * 180 / M_PI);
+            used = strlen(to);
+        }
+}
+
+static wt_status make_angular(const surface_whole *w, wt_table **table, wt_error *err)
+{
+    const wt_surface_anisotropy *two = &w->directions, *four = &w->fourth;
+    table_writer t = table_begin(&angular_spectrum_schema, err);
+    for (size_t i = 1; i <= WT_SURFACE_SECTORS; i++) {
+        /* From above -pi/2 to pi/2, as the directions of maxima are: half a turn on is the same. */
+        const size_t sector = (i + WT_SURFACE_SECTORS / 2) % WT_SURFACE_SECTORS;
+        const double phi = ((double)i / WT_SURFACE_SECTORS - 0.5) * M_PI;
+        double modes = 0;
+        const wt_interval ratio = wt_surface_sector(surface_of_maps(w), sector, &modes);
+        TABLE_ADD(angular_spectrum, &t, phi, ratio,
+                  1 + two->amplitude * cos(2 * (phi - two->direction)) +
+                      four->amplitude * cos(4 * (phi - four->direction)),
+                  modes);
+    }
+    TABLE_SET(angular_spectrum, &t, two->chance, four->chance);
+    return table_end(&t, table);
+}
+
+static const char *included(const surface_whole *w, bool places)
+{
+    if (w->knots.n > w->knots.n_measured)
+        return places
+                   ? "modes of each bin, constants of the law beyond, scatter from place to place"
+                   : "modes of each bin, constants of the law beyond";
+    return places ? "modes of each bin, scatter from place to place" : "modes of each bin";
+}
+
+static wt_status make_spectrum(const surface_whole *w, size_t n_scans, wt_table **table,
+                               wt_error *err)
+{
+    char law[256], directions[256], profiles[400], option[256], anisotropy[256];
+    const wt_surface_spectrum *s = &w->spectrum;
+    const bool places = !isnan(s->place_scatter);
+    const double nan = (double)NAN;
+    table_writer t = table_begin(&power_spectrum_schema, err);
+    add_rows(&t, w);
+    print_law(w, law, sizeof law);
+    print_directions(w, directions, sizeof directions);
+    surface_print_profiles(w, profiles, sizeof profiles);
+    print_option(w, option, sizeof option);
+    print_anisotropy(w, anisotropy, sizeof anisotropy);
+    TABLE_SET(
+        power_spectrum, &t, .rms_height = w->rms_height, .rms_slope = w->rms_slope,
+        .hurst = of_interval(w->law.hurst, w->law.found),
+        .c0 = of_interval(w->law.c0, w->law.found),
+        .roll_off = of_interval(w->law.roll_off, w->law.rolls_off && w->law.found), .law = law,
+        .reliable_from = number(s->bins[0].wavenumber, 0),
+        .reliable_to = number(s->bins[s->n - 1].wavenumber, 0), .ends_by = s->ends_by,
+        .steep = number(w->steep, 0),
+        .steep_by = isnan(w->steep)   ? "not reached"
+                    : w->steep_by_law ? "law"
+                                      : "measured",
+        .extrapolated_share =
+            number(w->knots.n > w->knots.n_measured ? w->extrapolated_share : nan, 0),
+        .place_scatter = number(s->place_scatter, 0), .place_error = number(s->place_error, 0),
+        .anisotropy = number(w->directions.amplitude, w->directions.amplitude_error),
+        .anisotropy_direction = number(w->directions.direction, w->directions.direction_error),
+        .anisotropy_fourth = number(w->fourth.amplitude, w->fourth.amplitude_error),
+        .anisotropy_fourth_direction = number(w->fourth.direction, w->fourth.direction_error),
+        .directions = directions, .profiles = profiles, .includes = included(w, places),
+        .lacks = places ? "calibration of the scanner, noise of the instrument"
+                        : "places of the surface, calibration of the scanner, noise of the "
+                          "instrument",
+        .option = option, .anisotropy_option = anisotropy,
+        .convention = "h_rms^2 = 2 pi int q C dq; of contact.engineering: (2 pi)^2 C",
+        .n_scans = n_scans);
+    return table_end(&t, table);
+}
+
+/* ---- what the places of each size give it ------------------------------------------------------
+ */
+
+static wt_status make_place_errors(const surface_whole *w, wt_table **table, wt_error *err)
+{
+    table_writer t = table_begin(&place_errors_schema, err);
+    for (size_t size = 0; size < w->spectrum.n_sizes; size++)
+        for (size_t i = 0; i < w->knots.n; i++) {
+            const double error = surface_knot_size(&w->spectrum, i, size);
+            if (error > 0)
+                TABLE_ADD(place_errors, &t, size + 1, i + 1, w->knots.wavenumber[i], error);
+        }
+    return table_end(&t, table);
+}
+
+/* ---- the scans ------------------------------------------------------------------------------- */
+
+static wt_status make_surfaces(const wt_params *params, const wt_topography_job *job,
+                               const surface_scan *scans, size_t n, wt_table **table, wt_error *err)
+{
+    char form[PARAM_WORD], window[PARAM_WORD];
+    param_word(params, "form", job->options.form, form, sizeof form);
+    param_word(params, "window", job->options.window, window, sizeof window);
+    table_writer t = table_begin(&surfaces_schema, err);
+    for (size_t i = 0; i < n; i++)
+        surfaces_add_row(&t, &scans[i]);
+    TABLE_SET(surfaces, &t, form, window);
+    return table_end(&t, table);
+}
+
+static wt_status make_scans(const surface_scan *scans, size_t n, wt_table **table, wt_error *err)
+{
+    table_writer t = table_begin(&scan_spectra_schema, err);
+    for (size_t i = 0; i < n; i++) {
+        const wt_surface_spectrum *s = &scans[i].spectrum;
+        for (size_t k = 0; k < s->n; k++) {
+            TABLE_ADD(scan_spectra, &t, s->bins[k], s->bins[k].deviation / s->bins[k].density);
+            scan_spectra_put_text(&t, SCAN_SPECTRA_FILE, scans[i].name);
+            scan_spectra_put(&t,
+                             s->kind == WT_SPECTRUM_2D ? SCAN_SPECTRA_SURFACE : SCAN_SPECTRA_LINE,
+                             s->bins[k].density);
+        }
+    }
+    return table_end(&t, table);
+}
+
+void wt_topography_tables_clear(wt_topography_tables *tables)
+{
+    if (tables == NULL)
+        return;
+    wt_table_free(tables->power_spectrum);
+    wt_table_free(tables->place_errors);
+    wt_table_free(tables->angular_spectrum);
+    wt_table_free(tables->surfaces);
+    wt_table_free(tables->scan_spectra);
+    wt_table_free(tables->height_map);
+    wt_table_free(tables->height_profile);
+    *tables = (wt_topography_tables){.power_spectrum = NULL};
+}
+
+wt_status surface_tables_make(const wt_params *params, const wt_topography_job *job,
+                              const surface_scan *scans, size_t n, const surface_whole *whole,
+                              wt_topography_tables *tables, wt_error *err)
+{
+    wt_topography_tables made = {.power_spectrum = NULL};
+    bool maps = false;
+    for (size_t i = 0; i < n; i++)
+        maps = maps || scans[i].map.ny > 1;
+    wt_status status = make_spectrum(whole, n, &made.power_spectrum, err);
+    if (status == WT_OK && surface_knot_places(&whole->spectrum, 0) > 0)
+        status = make_place_errors(whole, &made.place_errors, err);
+    if (status == WT_OK && !isnan(whole->directions.amplitude))
+        status = make_angular(whole, &made.angular_spectrum, err);
+    if (status == WT_OK)
+        status = make_surfaces(params, job, scans, n, &made.surfaces, err);
+    if (status == WT_OK && job->scans)
+        status = make_scans(scans, n, &made.scan_spectra, err);
+    if (status == WT_OK && job->heights)
+        status = surface_view_profiles(scans, n, &made.height_profile, err);
+    if (status == WT_OK && job->heights && maps)
+        status = surface_view_maps(scans, n, &made.height_map, err);
+    if (status == WT_OK)
+        *tables = made;
+    else
+        wt_topography_tables_clear(&made);
+    return status;
+}

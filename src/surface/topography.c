@@ -1,0 +1,195 @@
+/* The job of measured surfaces: height maps and profiles to one power spectrum.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#include "core/base/param.h"
+#include "core/base/range_text.h"
+#include "job/cost.h"
+#include "job/height_input.h"
+#include "surface/surface.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+/* Less than this changes friction by less than the scatter of a spectrum does. A heuristic. */
+static const double least_anisotropy = 0.1;
+/* A share of filled heights that is worth a word. A heuristic: above it C may be off by as much. */
+static const double some_missing = 0.01;
+
+wt_topography_job wt_topography_job_defaults(void)
+{
+    return (wt_topography_job){
+        .options = wt_surface_options_defaults(), .end = (double)NAN, .end_slope = (double)NAN};
+}
+
+static const wt_param rows[] = {
+    {PARAM_CHOICE_OF("form", wt_topography_job, options.form, "mean|plane|quadratic"),
+     .help = "form of a scan that is taken off by least squares; of a profile the same of one "
+             "variable"},
+    {PARAM_CHOICE_OF("window", wt_topography_job, options.window, "hann|welch|none"),
+     .help = "window before the transform; none is for surfaces that go on beyond their edges"},
+    {PARAM("largest-missing", wt_topography_job, options.largest_missing, WT_Q_NONE,
+           FROM_BELOW(0, 1)),
+     .value = "X", .flags = PARAM_NO_CASE,
+     .help = "share of missing heights up to which they are filled; a scan with more is refused"},
+    {PARAM("points-per-wave", wt_topography_job, options.points_per_wave, WT_Q_NONE, AT_LEAST(2)),
+     .value = "N", .help = "fewest points of a wave that is reliable"},
+    {PARAM("tip-radius", wt_topography_job, options.tip_radius, WT_Q_LENGTH, ABOVE(0)),
+     .value = "R", .unset = "",
+     .help =
+         "radius of the tip that scanned, such as 10nm: the reliable range ends where peaks are "
+         "as sharp as half of its curvature"},
+    {PARAM_TEXT_OF("image", wt_topography_job, image), .value = "NAME",
+     .unset = "the first image of heights", .flags = PARAM_NO_CASE,
+     .help = "which image of a file: a part of its name, such as backward"},
+    {PARAM("end", wt_topography_job, end, WT_Q_WAVENUMBER, ABOVE(0)), .value = "Q",
+     .unset = "the end of the reliable range",
+     .help = "largest wavenumber of the spectrum, such as 1e8rad/m; beyond the reliable range it "
+             "goes on by its self-affine law"},
+    {PARAM("end-slope", wt_topography_job, end_slope, WT_Q_NONE, ABOVE(0)), .value = "X",
+     .unset = "",
+     .help = "end it where the rms slope reaches this, such as 1.3, by its law if it must be"},
+    {PARAM_FLAG_OF("scans", wt_topography_job, scans), .flags = PARAM_NO_CASE,
+     .help = "the table scan_spectra, too: every scan by itself, unreliable wavenumbers included"},
+    {PARAM_FLAG_OF("heights", wt_topography_job, heights), .flags = PARAM_NO_CASE,
+     .help = "the tables height_map and height_profile, too: heights less their form, thinned, of "
+             "which weartrack report makes figures"},
+};
+PARAM_TABLE(wt_topography_job_params, wt_topography_job, rows, wt_topography_job_defaults, NO_PARTS)
+
+/* ---- scans ----------------------------------------------------------------------------------- */
+
+static wt_status measure_scan(const wt_topography_job *job, const wt_job *work, size_t n_files,
+                              flow_file *file, surface_scan *to, wt_error *err)
+{
+    wt_image image = {.values = NULL};
+    wt_status status = flow_heights_read(file, job->image, true, "topography", work, &image, err);
+    if (status != WT_OK)
+        return status;
+    *to = (surface_scan){.name = file->name, .map = wt_height_map_of(&image)};
+    snprintf(to->image, sizeof to->image, "%s", image.name);
+    status = wt_surface_analyse(&to->map, &job->options, &to->heights, &to->spectrum, err);
+    if (status == WT_OK && job->heights) {
+        status = surface_view_make(&to->map, job->options.form, n_files, &to->view, err);
+        if (status != WT_OK)
+            wt_surface_spectrum_clear(&to->spectrum);
+    }
+    if (status != WT_OK)
+        wt_error_file(err, file->name);
+    wt_image_clear(&image);
+    to->map.z = NULL;
+    if (status != WT_OK)
+        return status;
+    to->missing_share = (double)to->heights.missing / (double)to->heights.n;
+    to->directions = wt_surface_directions(&to->spectrum, 2);
+    if (to->missing_share > some_missing)
+        wt_parselog_add(work->log, WT_WARNING, file->name, NULL,
+                        "%.2g %% of the heights are missing; they are filled smoothly, so that "
+                        "short waves are too low there",
+                        100 * to->missing_share);
+    return WT_OK;
+}
+
+static wt_status measure_scans(const wt_topography_job *job, const wt_job *work,
+                               const flow_files *files, surface_scan *scans, size_t *n,
+                               wt_error *err)
+{
+    wt_status status = WT_OK;
+    size_t n_failed = 0;
+    for (size_t i = 0; status == WT_OK && i < files->n; i++) {
+        wt_error failure = WT_ERROR_INIT;
+        status = measure_scan(job, work, files->n, &files->file[i], &scans[*n], &failure);
+        if (status == WT_OK) {
+            (*n)++;
+        } else if (flow_leave_out(work, &files->file[i], &failure)) {
+            status = WT_OK;
+        } else {
+            n_failed++;
+            status = wt_job_failed(work, files->file[i].name, status, &failure, err);
+        }
+    }
+    if (status == WT_OK && *n == 0) {
+        status = wt_fail(err, WT_E_EMPTY, "no file has heights of a surface");
+        flow_tell_files(files, n_failed, err);
+    }
+    return status;
+}
+
+/* ---- one spectrum of them -------------------------------------------------------------------- */
+
+static void say_profiles(const surface_whole *w, const wt_job *work)
+{
+    if (w->n_profiles > 0 && isnan(w->directions.amplitude))
+        wt_parselog_add(work->log, WT_WARNING, NULL, NULL,
+                        "the spectrum of profiles is told for a surface that is the same in all "
+                        "directions; a height map would tell");
+    else if (w->n_profiles > 0 && surface_anisotropic(&w->directions))
+        wt_parselog_add(work->log, WT_WARNING, NULL, NULL,
+                        "what the profiles tell is told for a surface that is the same in all "
+                        "directions, which by the height maps it is not");
+    if (surface_profiles_disagree(w))
+        wt_parselog_add(
+            work->log, WT_WARNING, NULL, NULL,
+            "the profiles and the height maps disagree: where both tell, the density by "
+            "the profiles is %.2g of that by the maps (95 %%: %s); see "
+            "whether they are of one surface, and leave out what is not",
+            w->profiles_ratio.value,
+            ends_of(w->profiles_ratio.low, w->profiles_ratio.high, 2).text);
+}
+
+static void say_whole(const surface_whole *w, size_t n, const wt_job *work)
+{
+    say_profiles(w, work);
+    if (n == 1)
+        wt_parselog_add(work->log, WT_WARNING, NULL, NULL,
+                        "one scan: how much places of the surface differ is not known, and no "
+                        "error holds it; scan several places");
+    if (w->directions.amplitude > least_anisotropy && surface_anisotropic(&w->directions))
+        wt_parselog_add(work->log, WT_WARNING, NULL, NULL,
+                        "the surface is not the same in all directions: the density changes by "
+                        "%.0f %% about its mean, which is told; friction depends on the direction "
+                        "of sliding",
+                        100 * w->directions.amplitude);
+}
+
+wt_status wt_topography_make(const wt_topography_job *job, const wt_job *work,
+                             wt_topography_tables *tables, wt_error *err)
+{
+    if (job == NULL || work == NULL || tables == NULL)
+        return wt_fail(err, WT_E_ARG, "no job of a surface");
+    flow_files files = {NULL, 0, NULL};
+    surface_whole whole = {.steep = (double)NAN};
+    surface_scan *scans = NULL;
+    size_t n = 0;
+    wt_status status = param_check(wt_topography_job_params(), job, err);
+    if (status == WT_OK && !isnan(job->end) && !isnan(job->end_slope))
+        status = wt_fail(err, WT_E_ARG, "end and end-slope: the spectrum has one end");
+    if (status == WT_OK)
+        status = flow_files_list(job->sets, job->n_sets, work, &files, err);
+    if (status == WT_OK && (scans = calloc(files.n + 1, sizeof *scans)) == NULL)
+        status = wt_fail(err, WT_E_MEMORY, "out of memory");
+    if (status == WT_OK)
+        status = measure_scans(job, work, &files, scans, &n, err);
+    if (status == WT_OK)
+        status = surface_join_scans(scans, n, &whole, err);
+    if (status == WT_OK)
+        status = wt_self_affine_fit(&whole.spectrum, &whole.law, err);
+    if (status == WT_OK) {
+        whole.directions = wt_surface_directions(surface_of_maps(&whole), 2);
+        whole.fourth = wt_surface_directions(surface_of_maps(&whole), 4);
+        say_whole(&whole, n, work);
+        status = surface_end_find(job, work, &whole, err);
+    }
+    if (status == WT_OK)
+        status =
+            surface_tables_make(wt_topography_job_params(), job, scans, n, &whole, tables, err);
+    cost_say(work, (cost_summary){.items = (double)n, .number = whole.rms_height});
+    for (size_t i = 0; i < n; i++) {
+        wt_surface_spectrum_clear(&scans[i].spectrum);
+        surface_view_clear(&scans[i].view);
+    }
+    free(scans);
+    surface_knots_clear(&whole.knots);
+    wt_surface_spectrum_clear(&whole.spectrum);
+    wt_surface_spectrum_clear(&whole.maps);
+    flow_files_clear(&files);
+    return status;
+}
