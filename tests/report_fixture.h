@@ -203,7 +203,7 @@ static inline void fixture_common_law(void)
     static const char *const file[] = {WT_SOURCE_DIR "/fixtures/dma/two_materials.csv"};
     static const char *const names[] = {"NR", "SBR 10%"};
     wt_file_set set = {.patterns = file, .n_patterns = 1, .read = wt_read_defaults()};
-    wt_common_law_job common = wt_common_law_job_defaults();
+    wt_shared_shift_law_job common = wt_shared_shift_law_job_defaults();
     wt_master_job job = wt_master_job_defaults();
     wt_job work = wt_job_defaults();
     wt_master_tables tables[2] = {{0}};
@@ -222,7 +222,7 @@ static inline void fixture_common_law(void)
     common.names = names;
     common.fits = fits;
     common.n = 2;
-    fixture_check(wt_common_law_make(&common, &table, NULL));
+    fixture_check(wt_shared_shift_law_make(&common, &table, NULL));
     fixture_check(wt_result_add(fixture_case, table, NULL));
     for (size_t i = 0; i < 2; i++)
         wt_master_tables_clear(&tables[i]);
@@ -416,7 +416,7 @@ static inline void fixture_held(wt_case *read, const char *record, const char *n
     wt_result *result = NULL;
     size_t failed = 0;
     few.replicates = 20;
-    fixture_check(wt_case_ask(read, names, NULL));
+    fixture_check(wt_case_request(read, names, NULL));
     fixture_check(wt_case_validate(read, &record, 1, &job, 0, NULL));
     fixture_check(wt_run(read, &few, NULL, &result, &failed, NULL));
     snprintf(list, sizeof list, "%s", names);
@@ -451,7 +451,7 @@ static inline void fixture_of_case(const char *name, const char *asked)
     size_t failed = 0;
     snprintf(path, sizeof path, WT_SOURCE_DIR "/fixtures/%s/case.xml", name);
     fixture_check(wt_case_read(path, &other, NULL));
-    fixture_check(wt_case_ask(other, asked, NULL));
+    fixture_check(wt_case_request(other, asked, NULL));
     fixture_check(wt_run(other, &few, NULL, &result, &failed, NULL));
     fixture_check(
         wt_result_add(fixture_case, fixture_copy(wt_result_find(result, asked), &no_change), NULL));
@@ -474,14 +474,14 @@ static inline void fixture_accuracy(wt_case *read)
     job.part = "friction-prony";
     job.repeats = 1;
     for (size_t i = 0; i < sizeof names / sizeof names[0]; i++) {
-        fixture_check(wt_case_ask(read, names[i], NULL));
+        fixture_check(wt_case_request(read, names[i], NULL));
         fixture_check(wt_run(read, &few, NULL, &asked, &failed, NULL));
         fixture_check(wt_result_add(
             fixture_case, fixture_copy(wt_result_find(asked, names[i]), &no_change), NULL));
         wt_result_free(asked);
     }
     few.trials = 3;
-    fixture_check(wt_case_ask(read, "coverage", NULL));
+    fixture_check(wt_case_request(read, "coverage", NULL));
     fixture_check(wt_run(read, &few, NULL, &asked, &failed, NULL));
     fixture_check(wt_result_add(fixture_case,
                                 fixture_copy(wt_result_find(asked, "coverage"), &no_change), NULL));

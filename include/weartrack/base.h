@@ -134,16 +134,16 @@ typedef struct wt_log_entry {
 
 /* Notes and warnings of reading and fitting. Equal texts for one file are counted, not repeated.
  * One thread at a time. */
-typedef struct wt_parselog wt_parselog;
+typedef struct wt_log wt_log;
 
-WT_API wt_parselog *wt_parselog_new(void); /* NULL when out of memory */
-WT_API void wt_parselog_free(wt_parselog *log);
+WT_API wt_log *wt_log_new(void); /* NULL when out of memory */
+WT_API void wt_log_free(wt_log *log);
 /* log may be NULL. file and place may be NULL. A note that finds no memory is counted as lost. */
-WT_API void wt_parselog_add(wt_parselog *log, wt_severity severity, const char *file,
-                            const char *place, const char *format, ...) WT_PRINTF(5, 6);
-WT_API size_t wt_parselog_count(const wt_parselog *log); /* distinct entries; 0 for NULL */
-WT_API wt_log_entry wt_parselog_get(const wt_parselog *log, size_t i);
-WT_API size_t wt_parselog_lost(const wt_parselog *log);
+WT_API void wt_log_add(wt_log *log, wt_severity severity, const char *file, const char *place,
+                       const char *format, ...) WT_PRINTF(5, 6);
+WT_API size_t wt_log_count(const wt_log *log); /* distinct entries; 0 for NULL */
+WT_API wt_log_entry wt_log_get(const wt_log *log, size_t i);
+WT_API size_t wt_log_dropped(const wt_log *log);
 
 /* ---- quantities and units ----------------------------------------------------------------- */
 
@@ -326,19 +326,21 @@ WT_API void wt_strings_free(char **strings, size_t n);
 /* A file that appears under its name only when it is complete: written beside it under a temporary
  * name, then renamed. It keeps the mode of the one it replaces. A symbolic link is followed, also
  * to a file that is not there yet; a device or a pipe is written in place. */
-typedef struct wt_outfile wt_outfile;
-WT_API wt_status wt_outfile_open(const char *path, wt_outfile **file, wt_error *err) WT_NODISCARD;
-WT_API FILE *wt_outfile_stream(wt_outfile *file); /* borrowed */
+typedef struct wt_atomic_file wt_atomic_file;
+WT_API wt_status wt_outfile_open(const char *path, wt_atomic_file **file,
+                                 wt_error *err) WT_NODISCARD;
+WT_API FILE *wt_outfile_stream(wt_atomic_file *file); /* borrowed */
 /* Flushes, checks, renames and frees; on failure the temporary file is gone and `file` freed. */
-WT_API wt_status wt_outfile_commit(wt_outfile *file, wt_error *err) WT_NODISCARD;
-WT_API void wt_outfile_discard(wt_outfile *file); /* removes the temporary file, frees; NULL ok */
+WT_API wt_status wt_outfile_commit(wt_atomic_file *file, wt_error *err) WT_NODISCARD;
+WT_API void
+wt_outfile_discard(wt_atomic_file *file); /* removes the temporary file, frees; NULL ok */
 
-/* After wt_guard_start no file that this process has read, standard input among them, is written
+/* After wt_protect_begin no file that this process has read, standard input among them, is written
  * over: what the library opens is remembered, and its outputs refuse it with WT_E_ARG. Nor is a
  * file that is neither text nor HDF5, such as an instrument writes. */
-WT_API void wt_guard_start(void);
-WT_API wt_status wt_guard_read(const char *path, wt_error *err) WT_NODISCARD;  /* one more; "-" */
-WT_API wt_status wt_guard_write(const char *path, wt_error *err) WT_NODISCARD; /* may it be? */
+WT_API void wt_protect_begin(void);
+WT_API wt_status wt_protect_input(const char *path, wt_error *err) WT_NODISCARD; /* one more; "-" */
+WT_API wt_status wt_check_overwrite(const char *path, wt_error *err) WT_NODISCARD; /* may it be? */
 
 /* SHA-256 as 64 hexadecimal digits and a terminating zero. */
 WT_API void wt_digest(const void *bytes, size_t length, char hex[65]);
@@ -389,7 +391,7 @@ WT_API wt_status wt_parallel_for(size_t n, unsigned threads, wt_parallel_fn body
 
 /* HDF5 files are read in processes that can do nothing but read. What this system did not let any
  * of them be kept from, as a sentence; NULL: nothing, or none was made yet. */
-WT_API const char *wt_door_gaps(void);
+WT_API const char *wt_sandbox_limitations(void);
 
 /* Wall and processor time of this process, seconds since an arbitrary start. */
 WT_API double wt_time_wall(void);

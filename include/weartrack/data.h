@@ -183,7 +183,7 @@ WT_API wt_strain_sweep *wt_sweep_add_strain_sweep(wt_sweep *sweep, size_t n);
 /* Of a sorted sweep: takes out isotherms and their points, and other sweeps, that stand there twice
  * to the last bit, with a warning for each (the same file under two names, a table pasted twice):
  * measured again, they would differ. */
-WT_API void wt_sweep_drop_copies(wt_sweep *sweep, wt_parselog *log);
+WT_API void wt_sweep_drop_copies(wt_sweep *sweep, wt_log *log);
 /* Takes out the sweeps of other samples. WT_E_NOT_FOUND if none is left. */
 WT_API wt_status wt_sweep_keep_sample(wt_sweep *sweep, const char *name) WT_NODISCARD;
 

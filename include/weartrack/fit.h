@@ -278,7 +278,7 @@ WT_API wt_status wt_curve_depth_make(const wt_contact_table *table, double poiss
  * on the bulk and has the ratio of the moduli; what the curves of the bulk change by is taken off,
  * so that a tip, loss or a piezo that both share do not count. */
 enum { WT_LAYER_STEPS = 96 };
-typedef enum wt_layer_allows {
+typedef enum wt_layer_bound_kind {
     WT_ALLOWS_UNKNOWN, /* curves of track or bulk: nothing is known */
     WT_ALLOWS_BEYOND,  /* a thick layer of that ratio is one of which the law is not known */
     WT_ALLOWS_ANY,     /* every thickness down to `least` is allowed */
@@ -286,9 +286,9 @@ typedef enum wt_layer_allows {
     WT_ALLOWS_THINNER, /* there is an upper end alone */
     WT_ALLOWS_BETWEEN, /* both */
     WT_ALLOWS_NONE,    /* no thickness makes such curves */
-} wt_layer_allows;
+} wt_layer_bound_kind;
 typedef struct wt_layer_profile {
-    wt_layer_allows says;
+    wt_layer_bound_kind says;
     size_t n[2], n_units[2];      /* curves and units of bulk and track */
     double depth, contact_radius; /* mean of the track at the largest indentation [m] */
     double least;                 /* thickness to which the law of a layer reaches [m] */
@@ -350,28 +350,28 @@ typedef struct wt_group_summary {
 } wt_group_summary;
 
 /* How the rates of the two groups were made comparable. */
-typedef enum wt_rates_by {
+typedef enum wt_rate_matching {
     WT_RATES_COMMON,  /* the rates that both groups have, or no rates */
     WT_RATES_WITHIN,  /* a slope of ln E against ln rate within the spots */
     WT_RATES_BETWEEN, /* such a slope between the spots, for each has one rate */
-} wt_rates_by;
+} wt_rate_matching;
 
 /* Why there is no interval. */
-typedef enum wt_unsettled {
+typedef enum wt_verdict_undecided_reason {
     WT_SETTLED,
     WT_ONE_SPOT,    /* in a group, and fewer than three in the other: how spots scatter is not
                        known */
     WT_RATES_APART, /* no rate in common and no slope */
     WT_RATES_TWIST  /* no rate in common, and the slopes of the groups differ */
-} wt_unsettled;
+} wt_verdict_undecided_reason;
 
 typedef struct wt_comparison {
     wt_group_summary bulk, track;     /* of all curves */
     bool by_spot;                     /* the unit of analysis is the spot */
     size_t n_bulk, n_track;           /* units that were compared */
     size_t curves_bulk, curves_track; /* of these rates */
-    wt_rates_by rates_by;
-    wt_unsettled unsettled;
+    wt_rate_matching rates_by;
+    wt_verdict_undecided_reason unsettled;
     bool scatter_given;                  /* the interval is that of the groups' spot_scatter */
     wt_estimate log_ratio;               /* ln(E_track / E_bulk) */
     double df;                           /* degrees of freedom of its standard error */
@@ -400,15 +400,15 @@ WT_API wt_status wt_compare_signs(const double *const values[2], const long *con
                                   const size_t n[2], wt_sign_comparison *signs,
                                   wt_error *err) WT_NODISCARD;
 /* The chance of two independent tests together (Fisher 1932); of one that is NaN, of the other. */
-WT_API double wt_chance_of_both(double a, double b);
+WT_API double wt_combined_p_value(double a, double b);
 /* A curve down to a depth [m], where the lever is bent by `bending` [m], by a pyramid or cone whose
  * cap has another radius [m] than the stated one, fitted by the law of the stated one: ln of the
  * modulus over the true one, and the root mean square of what is left, of the largest force. */
-typedef struct wt_worn_tip {
+typedef struct wt_tip_wear {
     double log_modulus, misfit;
-} wt_worn_tip;
-WT_API wt_status wt_worn_tip_fit(const wt_tip *stated, double radius, double depth, double bending,
-                                 wt_worn_tip *fit, wt_error *err) WT_NODISCARD;
+} wt_tip_wear;
+WT_API wt_status wt_tip_wear_fit(const wt_tip *stated, double radius, double depth, double bending,
+                                 wt_tip_wear *fit, wt_error *err) WT_NODISCARD;
 /* WT_E_EMPTY for n = 0, WT_E_RANGE for a modulus that is not positive. With one unit its interval
  * is NaN. */
 WT_API wt_status wt_group_summarise(const wt_group *group, wt_group_summary *summary,
@@ -463,8 +463,8 @@ WT_API wt_status wt_peak_find(const double *x, const double *y, size_t n, size_t
 /* Other maxima beside the largest point, rising in x: each in the range between the valleys that
  * part it, from which the values rise by a tenth at least, and found there like that of
  * wt_peak_find. At most `most` of them; *n: how many. */
-WT_API wt_status wt_peaks_beside(const double *x, const double *y, size_t n, size_t most,
-                                 wt_peak *peaks, size_t *n_peaks, wt_error *err) WT_NODISCARD;
+WT_API wt_status wt_secondary_peaks(const double *x, const double *y, size_t n, size_t most,
+                                    wt_peak *peaks, size_t *n_peaks, wt_error *err) WT_NODISCARD;
 /* Where the storage modulus begins to fall, the extrapolated onset of ASTM E1640:
  * the tangent of ln y where it falls most steeply meets the tangent of the glass, which is laid
  * where, colder, it falls with a tenth of that slope. */
@@ -688,7 +688,7 @@ WT_API wt_status wt_running_in_find(const double *y, size_t n, wt_running_in *ru
                                     wt_error *err) WT_NODISCARD;
 /* By the rules that others use, as first point of the steady part: one change of the mean by least
  * squares, at least 2 % from either end; MSER-5 of White, Simulation 69 (1997) 323. */
-WT_API size_t wt_change_of_mean(const double *y, size_t n);
+WT_API size_t wt_step_detect(const double *y, size_t n);
 WT_API size_t wt_mser_5(const double *y, size_t n);
 
 /* Mean and drift of a steady series whose scatter is correlated. Intervals are of 95 %, averaged
@@ -757,7 +757,7 @@ typedef struct wt_fluid {
 } wt_fluid;
 /* Dry air at 1013.25 hPa (Sutherland's law) or water (density: Tanaka et al., Metrologia 38 (2001)
  * 301; viscosity: IAPWS) at a temperature [K]; NaN for water that is not liquid. */
-WT_API wt_fluid wt_fluid_at(wt_medium medium, double temperature);
+WT_API wt_fluid wt_medium_properties(wt_medium medium, double temperature);
 /* Of a rectangular blade at the Reynolds number density omega width^2 / (4 viscosity), above 0
  * (Sader, J. Appl. Phys. 84 (1998) 64). */
 WT_API void wt_hydrodynamic_function(double reynolds, double *real, double *imaginary);
@@ -1036,8 +1036,8 @@ WT_API void wt_master_clear(wt_master *master);
  * curve. WT_E_NO_OVERLAP if no isotherm can be shifted, WT_E_RANGE for temperatures that are not
  * kelvin or a reference that the law does not reach within 0.2 decade. master: cleared by the
  * caller. */
-WT_API wt_status wt_master_fit(const wt_sweep *sweep, const wt_master_options *options,
-                               wt_parselog *log, wt_master *master, wt_error *err) WT_NODISCARD;
+WT_API wt_status wt_master_fit(const wt_sweep *sweep, const wt_master_options *options, wt_log *log,
+                               wt_master *master, wt_error *err) WT_NODISCARD;
 /* log10 aT of the law at a temperature; NaN without a law, and beyond the isotherms where fewer
  * than four tell it. */
 WT_API wt_interval wt_master_law(const wt_master *master, double temperature);
@@ -1048,23 +1048,23 @@ typedef enum wt_common {
     WT_COMMON_MOVED /* the same constants, each sample at a reference temperature of its own */
 } wt_common;
 
-typedef struct wt_common_member {
+typedef struct wt_shared_law_member {
     bool used;
     char why_not[64];
     wt_interval moved; /* reference temperature of its law above that of the first one used [K] */
-} wt_common_member;
+} wt_shared_law_member;
 
 /* An isotherm of a sample that is used. Decades; without the offset of the sample. */
-typedef struct wt_common_point {
+typedef struct wt_shared_law_point {
     size_t sample;
     double temperature; /* [K] */
     double log_a, log_a_error;
     wt_interval law;        /* the common one */
     wt_interval difference; /* what the sample's own law has more, from the middle of its isotherms
                                on, with limits on the safe side; NaN where no own laws are told */
-} wt_common_point;
+} wt_shared_law_point;
 
-typedef struct wt_common_law {
+typedef struct wt_shared_shift_law {
     wt_law_kind kind; /* WLF or Arrhenius */
     double reference; /* [K], of the first sample used */
     wt_interval c1, c2, activation_energy;
@@ -1072,19 +1072,19 @@ typedef struct wt_common_law {
     double spread;        /* standard deviation of the temperature of an isotherm [K] */
     double p;             /* chance that samples of one law differ so much; NaN: not told */
     size_t n_members, n;
-    wt_common_member *members; /* [n_members] as the samples */
-    wt_common_point *points;   /* [n] */
-} wt_common_law;
-WT_API void wt_common_law_clear(wt_common_law *common);
+    wt_shared_law_member *members; /* [n_members] as the samples */
+    wt_shared_law_point *points;   /* [n] */
+} wt_shared_shift_law;
+WT_API void wt_shared_shift_law_clear(wt_shared_shift_law *common);
 /* Generalised least squares over the shifts of all samples with their covariance, an offset for
  * each, and one error of temperature for all isotherms, over which is averaged. WLF if one sample
  * has it by itself, else Arrhenius; samples of joined laws, with given shifts or without a fit
  * (NULL) are left out. `reference` NaN: that of the first one used. `common` is
  * cleared by the caller. WT_E_RANGE if there are fewer than two samples, or one law describes
  * nothing. */
-WT_API wt_status wt_common_law_fit(const wt_master *const *masters, size_t n, wt_common how,
-                                   double reference, wt_common_law *common,
-                                   wt_error *err) WT_NODISCARD;
+WT_API wt_status wt_shared_shift_law_fit(const wt_master *const *masters, size_t n, wt_common how,
+                                         double reference, wt_shared_shift_law *common,
+                                         wt_error *err) WT_NODISCARD;
 /* log10 aT of an isotherm by the closed form of ISO 18437-6 (Gergesova, Zupancic, Saprunov and
  * Emri, J. Rheol. 55 (2011) 1), for comparison: storage moduli alone, neighbour by neighbour,
  * without a vertical shift. NaN where neighbours share too little. */

@@ -21,7 +21,7 @@ extern "C" {
 /* ---- what all jobs share --------------------------------------------------------------------- */
 
 /* What a job can give besides its main table. */
-typedef enum wt_extra {
+typedef enum wt_optional_output {
     WT_EXTRA_SHARE = 1,           /* of friction: the extrapolated share, else NaN */
     WT_EXTRA_MODULUS_DEPTH = 2,   /* of the curves: the table modulus_depth */
     WT_EXTRA_DRAWS = 4,           /* of the isotherms: what is not known of the material, as
@@ -35,10 +35,10 @@ typedef enum wt_extra {
     WT_EXTRA_COMMON = 512,        /* of the curves: what the errors do that all of them share */
     WT_EXTRA_DEPTH_CURVES = 1024, /* of each curve: what it tells of depth, else NaN */
     WT_EXTRAS = 2047
-} wt_extra;
+} wt_optional_output;
 
 typedef struct wt_cost wt_cost;
-typedef struct wt_drawn wt_drawn;
+typedef struct wt_material_cache wt_material_cache;
 
 typedef struct wt_job {
     const wt_formats *formats; /* borrowed; needed by jobs that read files */
@@ -47,13 +47,13 @@ typedef struct wt_job {
     uint64_t seed;             /* of the replicates */
     size_t replicates;         /* for standard errors; default 200, 0 = no standard errors */
     wt_progress progress;
-    wt_parselog *log;          /* borrowed, may be NULL */
+    wt_log *log;               /* borrowed, may be NULL */
     wt_provenance *provenance; /* every file read is added; may be NULL */
     wt_table *failures;        /* of wt_failures_new: a file or curve that fails gets a row and the
                                   work goes on; NULL: the first one that fails ends the job */
-    unsigned left_out;         /* of wt_extra: not asked for, so not made; default 0 */
+    unsigned left_out;         /* of wt_optional_output: not asked for, so not made; default 0 */
     wt_cost *cost;             /* borrowed; NULL (default): nothing is counted */
-    wt_drawn *drawn;           /* of wt_run, whose jobs share what is drawn of the material; NULL */
+    wt_material_cache *drawn;  /* of wt_run, whose jobs share what is drawn of the material; NULL */
     wt_sweep
         *dma; /* of wt_run, whose jobs share the DMA files of the case: read into this once; NULL */
     void (*case_advice)(wt_error *failure); /* of wt_run: adds how a case gives what is asked for */
@@ -88,7 +88,7 @@ WT_API wt_status wt_job_failed(const wt_job *work, const char *file, wt_status s
                                wt_error *failure, wt_error *err) WT_NODISCARD;
 /* Table "notes" of a log, with the names of files below `folder` shown without it; NULL = as they
  * are. */
-WT_API wt_status wt_notes_table(const wt_parselog *log, const char *folder, wt_table **table,
+WT_API wt_status wt_notes_table(const wt_log *log, const char *folder, wt_table **table,
                                 wt_error *err) WT_NODISCARD;
 /* Table "methods" of a result: the methods by which its tables were made, in sentences with their
  * numbers, with references. */
@@ -105,7 +105,7 @@ WT_API void wt_cost_stage(wt_cost *cost, const char *stage);
 WT_API wt_status wt_cost_table(wt_cost *cost, wt_table **table, wt_error *err) WT_NODISCARD;
 /* Adds to the log what a person should know of the tables of a result: a tolerance that is not
  * reached, what is extrapolated. */
-WT_API void wt_result_remarks(const wt_result *result, wt_parselog *log);
+WT_API void wt_result_remarks(const wt_result *result, wt_log *log);
 /* The main numbers of a result in one sentence, "" if it has none. Returns the length as snprintf
  * does. */
 WT_API size_t wt_result_sentence(const wt_result *result, char *buffer, size_t size);
@@ -148,13 +148,13 @@ WT_API wt_status wt_convert_file(const wt_convert_job *job, const char *path, co
 /* ---- indentation ----------------------------------------------------------------------------- */
 
 /* What all curves of a group share, so that their scatter does not show its error. */
-typedef enum wt_common_source {
+typedef enum wt_shared_law_source {
     WT_COMMON_SPRING_CONSTANT,
     WT_COMMON_SENSITIVITY,
     WT_COMMON_HALF_ANGLE,
     WT_COMMON_RADIUS,
     WT_COMMON_SOURCES
-} wt_common_source;
+} wt_shared_law_source;
 
 typedef struct wt_indent_job {
     const char *group; /* "bulk", "track" or another name of [a-z0-9_]+ */
@@ -273,14 +273,18 @@ WT_API wt_status wt_topography_make(const wt_topography_job *job, const wt_job *
 
 /* ---- calibration of the lever ---------------------------------------------------------------- */
 
-typedef enum wt_ways { WT_WAYS_BOTH, WT_WAYS_APPROACH, WT_WAYS_RETRACT } wt_ways;
+typedef enum wt_curve_direction {
+    WT_WAYS_BOTH,
+    WT_WAYS_APPROACH,
+    WT_WAYS_RETRACT
+} wt_curve_direction;
 
 /* Deflection sensitivity by curves on a hard surface. */
 typedef struct wt_sensitivity_job {
     const wt_file_set *sets;
     size_t n_sets;
     wt_slope_options options;
-    wt_ways ways; /* which ways the answer is of */
+    wt_curve_direction ways; /* which ways the answer is of */
     double
         most_bend; /* change of the slope within the part, of the slope, that is still straight */
 } wt_sensitivity_job;
@@ -319,7 +323,7 @@ WT_API wt_status wt_thermal_make(const wt_thermal_job *job, const wt_job *work, 
 /* How the end of the running-in is found. */
 typedef enum wt_running_in_rule {
     WT_RUNNING_IN_LIKELIHOOD, /* wt_running_in_find */
-    WT_RUNNING_IN_STEP,       /* wt_change_of_mean */
+    WT_RUNNING_IN_STEP,       /* wt_step_detect */
     WT_RUNNING_IN_MSER,       /* wt_mser_5 */
     WT_RUNNING_IN_NONE        /* all is steady */
 } wt_running_in_rule;
@@ -561,20 +565,20 @@ WT_API wt_status wt_master_make(const wt_master_job *job, const wt_job *work,
                                 wt_error *err) WT_NODISCARD;
 
 /* One law of the shift factors for the samples, each fitted by itself. */
-typedef struct wt_common_law_job {
+typedef struct wt_shared_shift_law_job {
     const char *const *names;     /* [n] of the samples */
     const wt_master *const *fits; /* [n]; NULL: it could not be fitted */
     size_t n;
     double reference; /* temperature of the law [K]; NaN: that of the first sample it is of */
     wt_common common; /* default WT_COMMON_NONE: not asked for */
     double margin;    /* difference of laws that does not matter [decade]; default 0.1 */
-} wt_common_law_job;
-WT_API wt_common_law_job wt_common_law_job_defaults(void);
-WT_API const wt_params *wt_common_law_job_params(void);
+} wt_shared_shift_law_job;
+WT_API wt_shared_shift_law_job wt_shared_shift_law_job_defaults(void);
+WT_API const wt_params *wt_shared_shift_law_job_params(void);
 /* Table "common_law": the law with its errors, the shifts about it, and whether the samples have
  * one law. */
-WT_API wt_status wt_common_law_make(const wt_common_law_job *job, wt_table **table,
-                                    wt_error *err) WT_NODISCARD;
+WT_API wt_status wt_shared_shift_law_make(const wt_shared_shift_law_job *job, wt_table **table,
+                                          wt_error *err) WT_NODISCARD;
 
 /* Temperature sweeps, or isotherms taken apart by frequency: where the glass transition is, and the
  * moduli at temperatures. */
@@ -621,17 +625,17 @@ WT_API wt_status wt_rubber_refit(const wt_rubber *rubber, wt_vertical_shift vert
                                  wt_rubber *refitted, wt_error *err) WT_NODISCARD;
 
 /* The reduced series for programs of finite elements, each by the keywords of its manual. */
-typedef enum wt_solid_program {
+typedef enum wt_fem_program {
     WT_SOLID_ABAQUS,
     WT_SOLID_ANSYS,
     WT_SOLID_CODE_ASTER, /* needs a Poisson's ratio below 0.5 */
     WT_SOLID_TABLE
-} wt_solid_program;
+} wt_fem_program;
 /* Stress and time: Pa and s, MPa and s, GPa and ms. */
 typedef enum wt_solid_units { WT_SOLID_M_KG_S, WT_SOLID_MM_T_S, WT_SOLID_MM_KG_MS } wt_solid_units;
 typedef enum wt_solid_temperature { WT_SOLID_CELSIUS, WT_SOLID_KELVIN } wt_solid_temperature;
 typedef enum wt_solid_domain { WT_SOLID_TIME, WT_SOLID_FREQUENCY } wt_solid_domain;
-typedef struct wt_solid_options {
+typedef struct wt_fem_export_options {
     wt_solid_units units;
     wt_solid_temperature temperature;
     wt_solid_domain domain; /* of Abaqus, which tells them apart */
@@ -639,18 +643,18 @@ typedef struct wt_solid_options {
     double density;         /* [kg/m3], NaN: not written */
     double expansion;       /* coefficient of linear thermal expansion [1/K], NaN: not written */
     double poisson_ratio;   /* at all times; default 0.5: incompressible */
-} wt_solid_options;
-WT_API wt_solid_options wt_solid_options_defaults(void);
-WT_API const wt_params *wt_solid_options_params(void);
+} wt_fem_export_options;
+WT_API wt_fem_export_options wt_fem_export_options_defaults(void);
+WT_API const wt_params *wt_fem_export_options_params(void);
 /* Whether there is such a program: "abaqus", "ansys", "code_aster", "table". */
-WT_API bool wt_solid_program_find(const char *name, size_t length, wt_solid_program *program);
+WT_API bool wt_fem_program_find(const char *name, size_t length, wt_fem_program *program);
 /* Whether the program can have such a material. */
-WT_API wt_status wt_solid_check(wt_solid_program program, const wt_solid_options *options,
-                                wt_error *err) WT_NODISCARD;
+WT_API wt_status wt_fem_export_check(wt_fem_program program, const wt_fem_export_options *options,
+                                     wt_error *err) WT_NODISCARD;
 /* Tables of wt_master_make; shift_factors NULL: no law. options NULL = defaults. */
-WT_API wt_status wt_solid_write(FILE *out, wt_solid_program program, const wt_table *prony_reduced,
-                                const wt_table *shift_factors, const wt_solid_options *options,
-                                wt_error *err) WT_NODISCARD;
+WT_API wt_status wt_fem_export(FILE *out, wt_fem_program program, const wt_table *prony_reduced,
+                               const wt_table *shift_factors, const wt_fem_export_options *options,
+                               wt_error *err) WT_NODISCARD;
 
 #define WT_NO_REPLICATE                                                                            \
     SIZE_MAX /* in the place of the number of a replicate: the values as fitted */
@@ -665,11 +669,11 @@ WT_API wt_status wt_rubber_at(const wt_rubber *rubber, double temperature, uint6
 /* ---- comparison ------------------------------------------------------------------------------ */
 
 /* Whether bulk and track were indented with one cantilever, whose errors cancel in the ratio. */
-typedef enum wt_levers {
+typedef enum wt_cantilever_sharing {
     WT_LEVERS_AUTO, /* one if the spring constants are equal */
     WT_LEVERS_ONE,
     WT_LEVERS_TWO
-} wt_levers;
+} wt_cantilever_sharing;
 
 typedef struct wt_compare_job {
     const wt_table *bulk, *track;  /* indentation tables */
@@ -677,7 +681,7 @@ typedef struct wt_compare_job {
     wt_estimate temperature;       /* of the indentation [K]; NaN = the rubber's reference */
     wt_estimate track_temperature; /* NaN = the same in the track */
     wt_estimate temperature_slope; /* d ln E/dT [1/K]; NaN = that of the rubber */
-    wt_levers levers;
+    wt_cantilever_sharing levers;
     double lever_error;       /* of a spring constant whose table states none; default 0 = none */
     double sensitivity_error; /* relative standard error; default 0 = none stated */
     double tip_error;         /* of the modulus by the tip, relative; default 0 = none stated */
@@ -781,32 +785,35 @@ WT_API wt_status wt_surface_table(const wt_surface *surface, wt_table **table,
 /* ---- softening with strain ------------------------------------------------------------------- */
 
 /* How the moduli of a rubber soften with strain. */
-typedef struct wt_softness {
+typedef struct wt_strain_softening {
     wt_softening table;    /* its arrays are its own */
     double *storage_error; /* [n] standard error of f; NULL: not known */
     double *loss_error;    /* [n] of g; likewise */
     size_t n_sweeps;       /* of which it is the mean; 0: a table that was given */
     double temperature;    /* mean of theirs [K]; NaN: not known */
-} wt_softness;
-WT_API void wt_softness_clear(wt_softness *softness);
+} wt_strain_softening;
+WT_API void wt_strain_softening_clear(wt_strain_softening *softness);
 /* Which of several strain sweeps. */
-typedef struct wt_softness_choice {
+typedef struct wt_strain_softening_choice {
     double temperature; /* those measured nearest to it [K]; NaN: they are of one */
     const char *sample; /* those of this one; NULL: they are of one */
-} wt_softness_choice;
-WT_API wt_softness_choice wt_softness_choice_defaults(void);
+} wt_strain_softening_choice;
+WT_API wt_strain_softening_choice wt_strain_softening_choice_defaults(void);
 /* From the table payne_sweep: f and g are storage_ratio and loss_ratio; of several sweeps their
  * mean over the strains that all have reached, and the error is what another sweep would scatter
  * about it, 1.96 of it to each side for 95 % of them. WT_E_AMBIGUOUS if they are of several
  * temperatures or samples and none is chosen: those are no repeats. Or from any table with columns
  * strain, f, g and maybe f_error, g_error. */
-WT_API wt_status wt_softness_from_table(const wt_table *table, wt_softness_choice choice,
-                                        wt_softness *softness, wt_error *err) WT_NODISCARD;
+WT_API wt_status wt_strain_softening_from_table(const wt_table *table,
+                                                wt_strain_softening_choice choice,
+                                                wt_strain_softening *softness,
+                                                wt_error *err) WT_NODISCARD;
 /* From payne_sweep among the tables of a file, or the first of them; the file is an input of the
  * work, shown as `name`. */
-WT_API wt_status wt_softness_read(const char *path, const char *name, wt_softness_choice choice,
-                                  const wt_job *work, wt_softness *softness,
-                                  wt_error *err) WT_NODISCARD;
+WT_API wt_status wt_strain_softening_read(const char *path, const char *name,
+                                          wt_strain_softening_choice choice, const wt_job *work,
+                                          wt_strain_softening *softness,
+                                          wt_error *err) WT_NODISCARD;
 
 /* ---- friction -------------------------------------------------------------------------------- */
 
@@ -821,11 +828,11 @@ typedef struct wt_sliding {
     double gamma;           /* as in wt_friction_options; default 1 */
     const double *velocity; /* [n_velocity] m/s, borrowed */
     size_t n_velocity;
-    double reference_velocity;   /* of the answer and the layer [m/s]; NaN = middle of the list */
-    const wt_softness *softness; /* borrowed; NULL = none */
-    double strain_factor;        /* as in wt_friction_options; default 1 */
-    wt_anisotropy anisotropy;    /* of the roughness; default none */
-    const double *temperatures;  /* [n_temperatures] K, of the friction map, borrowed */
+    double reference_velocity; /* of the answer and the layer [m/s]; NaN = middle of the list */
+    const wt_strain_softening *softness; /* borrowed; NULL = none */
+    double strain_factor;                /* as in wt_friction_options; default 1 */
+    wt_anisotropy anisotropy;            /* of the roughness; default none */
+    const double *temperatures;          /* [n_temperatures] K, of the friction map, borrowed */
     size_t n_temperatures;
     const double *pressures; /* [n_pressures] Pa, likewise */
     size_t n_pressures;
@@ -841,7 +848,7 @@ WT_API wt_sliding wt_sliding_defaults(void);
 WT_API const wt_params *wt_sliding_params(void);
 
 /* What is on the surface of the track. */
-typedef struct wt_layer_known {
+typedef struct wt_layer_observation {
     wt_estimate thickness;     /* [m] */
     wt_estimate modulus_ratio; /* E_track / E_bulk */
     double modulus_ratio_df;   /* degrees of freedom of its error (Student's t); 0 = normal */
@@ -855,13 +862,15 @@ typedef struct wt_layer_known {
     double calibration_share;    /* of the variance of the ratio that is of spring constants and the
                                     like, not of the scatter of spots; default 0 */
     const wt_layer_shear *shear; /* of the real contact with it; NULL: as by default */
-} wt_layer_known;
-WT_API wt_layer_known wt_layer_known_defaults(void); /* no layer */
-WT_API const wt_params *wt_layer_known_params(void);
+} wt_layer_observation;
+WT_API wt_layer_observation wt_layer_observation_defaults(void); /* no layer */
+WT_API const wt_params *wt_layer_observation_params(void);
 /* Ratio, slope and frequencies from tables of `weartrack compare`: the ratio of all rates at their
  * mean frequency, and how that of each rate goes with its frequency. WT_E_MISSING with one rate. */
-WT_API wt_status wt_layer_known_by_rate(const wt_table *comparison, const wt_table *modulus_rate,
-                                        wt_layer_known *known, wt_error *err) WT_NODISCARD;
+WT_API wt_status wt_layer_observation_by_rate(const wt_table *comparison,
+                                              const wt_table *modulus_rate,
+                                              wt_layer_observation *known,
+                                              wt_error *err) WT_NODISCARD;
 
 typedef struct wt_friction_tables {
     wt_table *friction;
@@ -874,7 +883,7 @@ WT_API void wt_friction_tables_clear(wt_friction_tables *tables);
  * temperature, shear stress and C0 drawn from their stated errors; the key
  * `standard_error_includes` says which. With a layer (NULL = none): the same with a bonded layer
  * and tau_s = tau_bulk x modulus ratio. */
-WT_API wt_status wt_friction_make(const wt_sliding *sliding, const wt_layer_known *layer,
+WT_API wt_status wt_friction_make(const wt_sliding *sliding, const wt_layer_observation *layer,
                                   const wt_job *work, wt_friction_tables *tables,
                                   wt_error *err) WT_NODISCARD;
 
@@ -908,15 +917,15 @@ WT_API wt_status wt_anisotropy_make(const wt_sliding *sliding, const wt_job *wor
  * WT_E_ARG if neither temperatures nor pressures are given. */
 /* Without the layer `known` (NULL: none), but with the crack opening that its shear stress has on
  * the bare surface, too. */
-WT_API wt_status wt_friction_map_make(const wt_sliding *sliding, const wt_layer_known *known,
+WT_API wt_status wt_friction_map_make(const wt_sliding *sliding, const wt_layer_observation *known,
                                       const wt_job *work, wt_table **table,
                                       wt_error *err) WT_NODISCARD;
 /* Table "friction_decades": what the roughness of each decade of the wavenumber makes of the
  * hysteresis friction, and of the shearing and crack opening of bare rubber (`known` as in the
  * map), at the slowest, the reference and the fastest velocity. */
-WT_API wt_status wt_friction_decades_make(const wt_sliding *sliding, const wt_layer_known *known,
-                                          const wt_job *work, wt_table **table,
-                                          wt_error *err) WT_NODISCARD;
+WT_API wt_status wt_friction_decades_make(const wt_sliding *sliding,
+                                          const wt_layer_observation *known, const wt_job *work,
+                                          wt_table **table, wt_error *err) WT_NODISCARD;
 
 /* ---- modified layer -------------------------------------------------------------------------- */
 
@@ -980,17 +989,17 @@ WT_API wt_status wt_layer_bands_make(const wt_sliding *sliding, const wt_layer_j
 /* Table "running_in": friction with the layer that has grown until then, whose modulus ratio is
  * that of `known`; with `acts_back` also its energy is that under this layer. */
 WT_API wt_status wt_running_in_make(const wt_sliding *sliding, const wt_layer_job *job,
-                                    const wt_layer_known *known, const wt_job *work,
+                                    const wt_layer_observation *known, const wt_job *work,
                                     wt_table **table, wt_error *err) WT_NODISCARD;
 /* Table "layer_balances": all balances of a layer that acts back, and the folds between them. */
 WT_API wt_status wt_layer_balances_make(const wt_sliding *sliding, const wt_layer_job *job,
-                                        const wt_layer_known *known, const wt_job *work,
+                                        const wt_layer_observation *known, const wt_job *work,
                                         wt_table **table, wt_error *err) WT_NODISCARD;
 /* Table "existence": balance thickness at every velocity, at the pressures of the map of `sliding`
  * if it has some, else at its pressure, and with `known` (may be NULL) what the layer does to
  * friction. */
 WT_API wt_status wt_existence_make(const wt_sliding *sliding, const wt_layer_job *job,
-                                   const wt_layer_known *known, const wt_job *work,
+                                   const wt_layer_observation *known, const wt_job *work,
                                    wt_table **table, wt_error *err) WT_NODISCARD;
 
 /* Table "energy_density": the energy density against depth at the velocity of the layer. */
@@ -1025,18 +1034,18 @@ WT_API wt_status wt_identify_make(const wt_sliding *sliding, const wt_identify_j
  * that cannot be computed says why. `layer` NULL: no thickness of the layer; `known` NULL: no
  * friction with a layer. With both, the thickness is that which `layer` gives. */
 WT_API wt_status wt_what_if_make(const wt_sliding *sliding, const wt_layer_job *layer,
-                                 const wt_layer_known *known, const wt_job *work, wt_table **table,
-                                 wt_error *err) WT_NODISCARD;
+                                 const wt_layer_observation *known, const wt_job *work,
+                                 wt_table **table, wt_error *err) WT_NODISCARD;
 
 /* ---- validation ------------------------------------------------------------------------------ */
 
 typedef struct wt_validation_job {
     const wt_sliding *sliding;
-    const wt_layer_job *layer;   /* NULL, as above */
-    const wt_layer_known *known; /* likewise; its thickness is that of the layer as used */
-    const wt_table *record;      /* table "record" */
-    const wt_table *cycles;      /* table "record_cycles", of the running-in alone */
-    const wt_table *wear;        /* table "wear", or NULL */
+    const wt_layer_job *layer;         /* NULL, as above */
+    const wt_layer_observation *known; /* likewise; its thickness is that of the layer as used */
+    const wt_table *record;            /* table "record" */
+    const wt_table *cycles;            /* table "record_cycles", of the running-in alone */
+    const wt_table *wear;              /* table "wear", or NULL */
     const wt_table *what_if; /* table "what_if" of the same, or NULL: no likelihood of choices */
     double margin;           /* of measured over predicted; default 0.2 */
     double plausible_low, plausible_high; /* of the shear stress [Pa]; default 1 MPa, 10 MPa */
@@ -1079,7 +1088,7 @@ WT_API wt_status wt_validation_running_in_make(const wt_validation_job *job, con
  * `work` has times and was that of `what_if`, and what would make it smaller. `layer` and `known`
  * as above. */
 WT_API wt_status wt_error_budget_make(const wt_sliding *sliding, const wt_layer_job *layer,
-                                      const wt_layer_known *known, const wt_table *what_if,
+                                      const wt_layer_observation *known, const wt_table *what_if,
                                       const wt_job *work, wt_table **table,
                                       wt_error *err) WT_NODISCARD;
 
@@ -1087,9 +1096,9 @@ WT_API wt_status wt_error_budget_make(const wt_sliding *sliding, const wt_layer_
 
 typedef struct wt_coverage_job {
     const wt_sliding *sliding;
-    const wt_layer_job *layer;    /* NULL, as above */
-    const wt_layer_known *known;  /* likewise */
-    const wt_table *bulk, *track; /* indentation tables, or NULL: no groups to compare */
+    const wt_layer_job *layer;         /* NULL, as above */
+    const wt_layer_observation *known; /* likewise */
+    const wt_table *bulk, *track;      /* indentation tables, or NULL: no groups to compare */
     size_t trials;
     /* the curves of both groups, which are then drawn anew and fitted; NULL: their moduli are drawn
      */
@@ -1125,9 +1134,9 @@ WT_API wt_status wt_accuracy_make(const wt_accuracy_job *job, const wt_job *work
  * as the number of replicates is, and the numbers with fewer isotherms. Times are NaN if the cost
  * of `work` has none. `layer` and `known` as above. */
 WT_API wt_status wt_case_precision_make(const wt_sliding *sliding, const wt_layer_job *layer,
-                                        const wt_layer_known *known, const wt_accuracy_job *job,
-                                        const wt_job *work, wt_table **table,
-                                        wt_error *err) WT_NODISCARD;
+                                        const wt_layer_observation *known,
+                                        const wt_accuracy_job *job, const wt_job *work,
+                                        wt_table **table, wt_error *err) WT_NODISCARD;
 
 /* ---- case ------------------------------------------------------------------------------------ */
 
@@ -1138,7 +1147,7 @@ WT_API wt_status wt_case_read(const char *path, wt_case **out, wt_error *err) WT
 WT_API void wt_case_free(wt_case *c);
 /* From now on the case asks for these tables (their names in a result, parted by blanks) and
  * nothing else. */
-WT_API wt_status wt_case_ask(wt_case *c, const char *tables, wt_error *err) WT_NODISCARD;
+WT_API wt_status wt_case_request(wt_case *c, const char *tables, wt_error *err) WT_NODISCARD;
 /* Records (files, folders or patterns, relative to the current folder) instead of those of the
  * case; and of the validation what is in `given`, as wt_params_set sets it for `job`. */
 WT_API wt_status wt_case_validate(wt_case *c, const char *const *records, size_t n,
@@ -1175,7 +1184,7 @@ WT_API wt_status wt_plan(const wt_case *c, wt_table **plan, wt_error *err) WT_NO
  * A file that fails in a batch does not stop the others: it is listed in the table "failures" and
  * *n_failed counts it; so is a stage that fails, and the stages that need it are left out. With no
  * table of what was asked for the result is one nevertheless, and says WT_ANSWERED_NOTHING. */
-WT_API wt_status wt_run(const wt_case *c, const wt_run_options *options, wt_parselog *log,
+WT_API wt_status wt_run(const wt_case *c, const wt_run_options *options, wt_log *log,
                         wt_result **result, size_t *n_failed, wt_error *err) WT_NODISCARD;
 /* Whether `result`, read from its file, is what the case would give again by `command` (as
  * wt_provenance_command tells it): *current is false, and `why` says what differs first, if

@@ -203,25 +203,27 @@ typedef enum wt_layer_closure {
     WT_CLOSURE_ACTIVATED /* Omega = A exp(-max(0, barrier - V_a e) / kB T) in contact */
 } wt_layer_closure;
 /* A of the activated closure: kB T over the reduced or the plain constant of Planck. */
-typedef enum wt_attempt { WT_ATTEMPT_HBAR, WT_ATTEMPT_H } wt_attempt;
+typedef enum wt_attempt_frequency { WT_ATTEMPT_HBAR, WT_ATTEMPT_H } wt_attempt_frequency;
 
 /* Bonds that stress helps over a barrier. e is the energy of a wave in contact for the time that it
  * takes to pass, 1/(q v): sum_i power[i] g(z; q[i]) / (q[i] v area_ratio). */
 typedef struct wt_activation {
-    double barrier;     /* of a bond without load [J], > 0 */
-    double volume;      /* V_a [m^3], > 0 */
-    wt_attempt attempt; /* default hbar */
-    double temperature; /* [K], > 0 */
-    double area_ratio;  /* A/A0, (0, 1]; default 1 */
+    double barrier;               /* of a bond without load [J], > 0 */
+    double volume;                /* V_a [m^3], > 0 */
+    wt_attempt_frequency attempt; /* default hbar */
+    double temperature;           /* [K], > 0 */
+    double area_ratio;            /* A/A0, (0, 1]; default 1 */
     bool ageing; /* the unloaded rate counts as damage, too; default false; of a layer only with
                     `incubation`, and then at every depth: it has no balance */
 } wt_activation;
 /* Unloaded rate A exp(-barrier / kB T) [1/s]; NaN for values that are none. */
 WT_API double wt_activation_background(const wt_activation *parameters);
 /* The smallest barrier at a temperature whose unloaded rate is not above `rate` [J]. */
-WT_API double wt_activation_least_barrier(double temperature, wt_attempt attempt, double rate);
+WT_API double wt_activation_least_barrier(double temperature, wt_attempt_frequency attempt,
+                                          double rate);
 /* The highest temperature at which a barrier has that rate [K]. */
-WT_API double wt_activation_most_temperature(double barrier, wt_attempt attempt, double rate);
+WT_API double wt_activation_most_temperature(double barrier, wt_attempt_frequency attempt,
+                                             double rate);
 
 /* The rubber at a depth is modified where int Omega dt >= damage. */
 typedef struct wt_layer_parameters {

@@ -37,8 +37,8 @@ WT_API wt_status wt_input_at(wt_input *input, size_t from, void *to, size_t n,
 /* A second input of the same file, of which another thread may ask parts meanwhile; NULL (and
  * WT_OK) of what is or may be kept in memory as a whole. To be closed by the caller, in any order.
  */
-WT_API wt_status wt_input_beside(const wt_input *input, wt_input **beside,
-                                 wt_error *err) WT_NODISCARD;
+WT_API wt_status wt_input_sibling(const wt_input *input, wt_input **beside,
+                                  wt_error *err) WT_NODISCARD;
 /* At least the first `want` bytes if there are as many; *whole says that this is all. */
 WT_API wt_status wt_input_peek(wt_input *input, size_t want, const unsigned char **bytes,
                                size_t *length, bool *whole, wt_error *err) WT_NODISCARD;
@@ -65,7 +65,7 @@ typedef struct wt_format_info {
  * may be shared between threads. folder NULL = built-in descriptions only; the descriptions of
  * `folder` are added and replace built-in ones of the same id (noted in the log). */
 typedef struct wt_formats wt_formats;
-WT_API wt_status wt_formats_new(const char *folder, wt_formats **formats, wt_parselog *log,
+WT_API wt_status wt_formats_new(const char *folder, wt_formats **formats, wt_log *log,
                                 wt_error *err) WT_NODISCARD;
 /* The columns of plain tables, "NAME=QUANTITY" or "NAME=QUANTITY:UNIT", as a description called
  * "given-columns" (wt_formats_xml shows it). Before the set is used. */
@@ -161,7 +161,7 @@ WT_API const wt_params *wt_read_params(void);
  * message; the next call goes on with the curve after it, until WT_END. */
 typedef struct wt_force_source wt_force_source;
 WT_API wt_status wt_force_open(const wt_formats *formats, wt_input *input,
-                               const wt_read_options *options, wt_parselog *log,
+                               const wt_read_options *options, wt_log *log,
                                wt_force_source **source, wt_error *err) WT_NODISCARD;
 WT_API wt_status wt_force_next(wt_force_source *source, wt_force_curve *curve,
                                wt_error *err) WT_NODISCARD;
@@ -171,27 +171,27 @@ WT_API size_t wt_force_count(const wt_force_source *source); /* SIZE_MAX if not 
 /* Appends the isotherms of one file to `sweep` (zero-initialised for the first file). Mixing
  * tension and shear is WT_E_UNIT. */
 WT_API wt_status wt_sweep_read(const wt_formats *formats, wt_input *input,
-                               const wt_read_options *options, wt_parselog *log, wt_sweep *sweep,
+                               const wt_read_options *options, wt_log *log, wt_sweep *sweep,
                                wt_error *err) WT_NODISCARD;
 /* All images (or one-row spectra) of a file: *images is an array of *n, each to be cleared, then
  * the array freed with free(). */
 WT_API wt_status wt_images_read(const wt_formats *formats, wt_input *input,
-                                const wt_read_options *options, wt_parselog *log, wt_image **images,
+                                const wt_read_options *options, wt_log *log, wt_image **images,
                                 size_t *n, wt_error *err) WT_NODISCARD;
 WT_API wt_status wt_power_spectrum_read(const wt_formats *formats, wt_input *input,
-                                        const wt_read_options *options, wt_parselog *log,
+                                        const wt_read_options *options, wt_log *log,
                                         wt_power_spectrum *spectrum, wt_error *err) WT_NODISCARD;
 /* The thermal noise of a lever; amplitude densities are squared. */
 WT_API wt_status wt_noise_read(const wt_formats *formats, wt_input *input,
-                               const wt_read_options *options, wt_parselog *log,
+                               const wt_read_options *options, wt_log *log,
                                wt_noise_spectrum *spectrum, wt_error *err) WT_NODISCARD;
 /* A record of friction. A load that is negative when it presses is turned round. */
 WT_API wt_status wt_record_read(const wt_formats *formats, wt_input *input,
-                                const wt_read_options *options, wt_parselog *log, wt_record *record,
+                                const wt_read_options *options, wt_log *log, wt_record *record,
                                 wt_error *err) WT_NODISCARD;
 /* What a file is, for `weartrack info`: rows of (item, value, unit, source), all text. */
 WT_API wt_status wt_describe(const wt_formats *formats, wt_input *input,
-                             const wt_read_options *options, wt_parselog *log, wt_table **facts,
+                             const wt_read_options *options, wt_log *log, wt_table **facts,
                              wt_error *err) WT_NODISCARD;
 
 /* ---- descriptions ------------------------------------------------------------------------- */
@@ -200,7 +200,7 @@ WT_API wt_status wt_describe(const wt_formats *formats, wt_input *input,
  * it on that file. `report` gets rows of (column, quantity, unit, first value, ...) of what is
  * understood. */
 WT_API wt_status wt_description_check(const char *xml_path, wt_input *sample,
-                                      const wt_read_options *options, wt_parselog *log,
+                                      const wt_read_options *options, wt_log *log,
                                       wt_table **report, wt_error *err) WT_NODISCARD;
 
 #ifdef __cplusplus

@@ -65,8 +65,8 @@ WT_API wt_status wt_report_check_curves(const wt_result *result, wt_error *err) 
  * their fits, which hands back what is chosen by hand for wt_indent_job.choices. WT_E_EMPTY if the
  * result has no table "curves"; WT_E_TOOL if the library was built without dygraphs, which draws on
  * it. */
-WT_API wt_status wt_browse_write(const wt_result *result, const char *path, bool with_provenance,
-                                 wt_error *err) WT_NODISCARD;
+WT_API wt_status wt_curve_browser_write(const wt_result *result, const char *path,
+                                        bool with_provenance, wt_error *err) WT_NODISCARD;
 
 /* Force curves of all groups as a PDF of sheets of A4, twelve on each, with fit, verdict and
  * reason; refused ones first, then doubtful ones. Of the options those that say how to draw; NULL:

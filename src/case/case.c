@@ -48,7 +48,7 @@ void wt_case_free(wt_case *c)
     for (case_setting *s = c->settings; s != NULL; s = s->next)
         wt_params_clear(s->params, s->structure, &s->given);
     wt_case_free(c->layer_material);
-    pool_free(&c->memory);
+    arena_free(&c->memory);
     free(c);
 }
 
@@ -62,7 +62,7 @@ const wt_report_options *wt_case_report(const wt_case *c)
     return &c->report;
 }
 
-wt_status wt_case_ask(wt_case *c, const char *tables, wt_error *err)
+wt_status wt_case_request(wt_case *c, const char *tables, wt_error *err)
 {
     char names[256], *rest = NULL;
     flow_things asked = 0;
@@ -72,7 +72,7 @@ wt_status wt_case_ask(wt_case *c, const char *tables, wt_error *err)
     for (const char *name = strtok_r(names, " ", &rest); name != NULL;
          name = strtok_r(NULL, " ", &rest)) {
         flow_things things = 0;
-        if (!flow_things_of_table(name, &things) || things == 0)
+        if (!flow_resources_of_table(name, &things) || things == 0)
             return wt_fail(err, WT_E_NOT_FOUND, "no table of a run is called \"%s\"", name);
         asked |= things;
     }
@@ -86,12 +86,12 @@ wt_status wt_case_ask(wt_case *c, const char *tables, wt_error *err)
 static wt_status replace_records(wt_case *c, const char *const *records, size_t n, wt_error *err)
 {
     const bool known = c->record.n > 0;
-    wt_file_set *const sets = pool_alloc(&c->memory, n, sizeof *sets);
-    const char **const patterns = pool_alloc(&c->memory, n, sizeof *patterns);
+    wt_file_set *const sets = arena_alloc(&c->memory, n, sizeof *sets);
+    const char **const patterns = arena_alloc(&c->memory, n, sizeof *patterns);
     if (sets == NULL || patterns == NULL)
         return wt_fail(err, WT_E_MEMORY, "out of memory");
     for (size_t i = 0; i < n; i++) {
-        patterns[i] = pool_text(&c->memory, records[i], strlen(records[i]));
+        patterns[i] = arena_text(&c->memory, records[i], strlen(records[i]));
         if (patterns[i] == NULL)
             return wt_fail(err, WT_E_MEMORY, "out of memory");
         sets[i] =

@@ -32,7 +32,7 @@ typedef struct case_setting {
 } case_setting;
 
 struct wt_case {
-    pool memory;            /* of everything the case owns */
+    arena memory;           /* of everything the case owns */
     case_setting *settings; /* the last one first */
     case_files *roles;      /* that have files, likewise */
     const char *path, *folder;
@@ -73,7 +73,7 @@ struct wt_case {
     bool has_layer;
     wt_layer_job layer;
     bool has_modulus_ratio; /* given instead of measured */
-    wt_layer_known known;
+    wt_layer_observation known;
     struct wt_case *layer_material; /* the layer's own, a case of nothing else; NULL: none */
     bool identifies;
     wt_identify_job identify;

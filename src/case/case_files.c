@@ -21,7 +21,7 @@ PARAM_TABLE(case_group_params, case_files, rows, no_files, NO_PARTS)
 static wt_status read_attributes(wt_case *c, const xmlNode *node, wt_file_set *set,
                                  case_files *lever, wt_error *err)
 {
-    case_files *stated = pool_alloc(&c->memory, 1, sizeof *stated);
+    case_files *stated = arena_alloc(&c->memory, 1, sizeof *stated);
     if (stated == NULL)
         return wt_fail(err, WT_E_MEMORY, "out of memory");
     *stated = *lever;
@@ -61,9 +61,9 @@ wt_status case_read_files(wt_case *c, const xmlNode *parent, const char *name, c
     size_t n = 0;
     for (const xmlNode *node = case_child(parent, name); node != NULL; node = case_next(node, name))
         n++;
-    wt_file_set *common = pool_alloc(&c->memory, 1, sizeof *common);
-    const char **patterns = pool_alloc(&c->memory, n, sizeof *patterns);
-    files->sets = pool_alloc(&c->memory, n, sizeof *files->sets);
+    wt_file_set *common = arena_alloc(&c->memory, 1, sizeof *common);
+    const char **patterns = arena_alloc(&c->memory, n, sizeof *patterns);
+    files->sets = arena_alloc(&c->memory, n, sizeof *files->sets);
     if (common == NULL || patterns == NULL || files->sets == NULL)
         return wt_fail(err, WT_E_MEMORY, "out of memory");
     *common = (wt_file_set){.folder = c->folder, .read = wt_read_defaults()};

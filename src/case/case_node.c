@@ -58,7 +58,7 @@ static wt_status keep_text(wt_case *c, xmlChar *raw, const char **text, wt_error
         size_t length = strlen(begin);
         while (length > 0 && strchr(blanks, begin[length - 1]) != NULL)
             length--;
-        copy = pool_text(&c->memory, begin, length);
+        copy = arena_text(&c->memory, begin, length);
     }
     xmlFree(raw);
     if (copy == NULL)
@@ -108,7 +108,7 @@ static wt_status read_param(wt_case *c, const xmlNode *section, const char *para
 wt_status case_read_params(wt_case *c, const xmlNode *section, const wt_params *params,
                            void *structure, wt_error *err)
 {
-    case_setting *setting = pool_alloc(&c->memory, 1, sizeof *setting);
+    case_setting *setting = arena_alloc(&c->memory, 1, sizeof *setting);
     if (setting == NULL)
         return wt_fail(err, WT_E_MEMORY, "out of memory");
     *setting = (case_setting){params, structure, 0, c->settings};

@@ -190,9 +190,9 @@ wt_status case_from_bytes(const void *bytes, size_t length, const char *path, wt
     char *folder = wt_path_folder(path);
     if (c != NULL && folder != NULL) {
         c->xml_length = length;
-        c->path = pool_text(&c->memory, path, strlen(path));
-        c->folder = pool_text(&c->memory, folder, strlen(folder));
-        c->xml = pool_text(&c->memory, bytes, length);
+        c->path = arena_text(&c->memory, path, strlen(path));
+        c->folder = arena_text(&c->memory, folder, strlen(folder));
+        c->xml = arena_text(&c->memory, bytes, length);
     }
     const wt_status status = c == NULL || c->path == NULL || c->folder == NULL || c->xml == NULL
                                  ? wt_fail(err, WT_E_MEMORY, "out of memory")

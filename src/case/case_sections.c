@@ -45,7 +45,7 @@ static wt_status read_choices(wt_case *c, const xmlNode *section, wt_error *err)
     if (status != WT_OK)
         return status;
     char *path = wt_path_join(c->folder, name);
-    c->indent.choices = path != NULL ? pool_text(&c->memory, path, strlen(path)) : NULL;
+    c->indent.choices = path != NULL ? arena_text(&c->memory, path, strlen(path)) : NULL;
     free(path);
     return c->indent.choices != NULL ? WT_OK : wt_fail(err, WT_E_MEMORY, "out of memory");
 }
@@ -121,9 +121,9 @@ static wt_status read_terms(wt_case *c, const xmlNode *node, wt_error *err)
     size_t n = 0;
     for (const xmlNode *t = case_child(node, "term"); t != NULL; t = case_next(t, "term"))
         n++;
-    term *terms = pool_alloc(&c->memory, n, sizeof *terms);
-    p->relaxation_time = pool_alloc(&c->memory, n, sizeof *p->relaxation_time);
-    p->modulus = pool_alloc(&c->memory, n, sizeof *p->modulus);
+    term *terms = arena_alloc(&c->memory, n, sizeof *terms);
+    p->relaxation_time = arena_alloc(&c->memory, n, sizeof *p->relaxation_time);
+    p->modulus = arena_alloc(&c->memory, n, sizeof *p->modulus);
     if (terms == NULL || p->relaxation_time == NULL || p->modulus == NULL)
         return wt_fail(err, WT_E_MEMORY, "out of memory");
     for (const xmlNode *t = case_child(node, "term"); status == WT_OK && t != NULL;
@@ -303,7 +303,7 @@ wt_status case_read_layer(wt_case *c, const xmlNode *section, wt_error *err)
     c->has_modulus_ratio = ratio != NULL;
     wt_status status = case_read_params(c, section, wt_layer_job_params(), &c->layer, err);
     if (status == WT_OK)
-        status = case_read_params(c, section, wt_layer_known_params(), &c->known, err);
+        status = case_read_params(c, section, wt_layer_observation_params(), &c->known, err);
     if (status == WT_OK)
         status = check_ratio_slope(c, section, err);
     wt_layer_job checked = c->layer;
@@ -345,7 +345,7 @@ wt_status case_read_record(wt_case *c, const xmlNode *section, wt_error *err)
         status = case_at_param(section, wt_record_job_check(&c->records, err), err);
     if (status == WT_OK)
         status = case_read_files(c, section, "files", &c->record, err);
-    c->has_wear = wear_is_asked(&c->records);
+    c->has_wear = wear_is_requested(&c->records);
     return status;
 }
 
@@ -385,8 +385,8 @@ wt_status case_read_report(wt_case *c, const xmlNode *section, wt_error *err)
         if (status != WT_OK)
             break;
         const bool figure = strcmp((const char *)node->name, "figure") == 0;
-        const bool known =
-            figure ? flow_things_of_figure(name, &things) : flow_things_of_table(name, &things);
+        const bool known = figure ? flow_resources_of_figure(name, &things)
+                                  : flow_resources_of_table(name, &things);
         if (!known)
             status = unknown_name(node, name, figure ? "figure" : "result", err);
         c->has_asked = true;

@@ -12,18 +12,18 @@
 #define SOURCE_ROW(id, text, lack, there) [FLOW_##id] = {.words = text, .missing = lack},
 #define TABLE_ROW(id, text, of, group) [FLOW_##id] = {.words = text, .schema = of, .suffix = group},
 #define INNER_ROW(id, text) [FLOW_##id] = {.words = text},
-const flow_thing_row flow_thing_rows[FLOW_N_THINGS] = {SOURCES(SOURCE_ROW) TABLE_THINGS(TABLE_ROW)
-                                                           INNER_THINGS(INNER_ROW)};
+const flow_resource_row flow_thing_rows[FLOW_N_THINGS] = {
+    SOURCES(SOURCE_ROW) TABLE_THINGS(TABLE_ROW) INNER_THINGS(INNER_ROW)};
 _Static_assert(FLOW_N_THINGS <= CHAR_BIT * sizeof(flow_things),
                "a set of things has a bit of each");
 
-int flow_things_count(flow_things things)
+int flow_resources_count(flow_things things)
 {
     const unsigned low = 64;
     return __builtin_popcountll((uint64_t)things) + __builtin_popcountll((uint64_t)(things >> low));
 }
 
-void flow_things_list(flow_things things, char *text, size_t size)
+void flow_resources_list(flow_things things, char *text, size_t size)
 {
     size_t used = 0;
     text[0] = '\0';
@@ -33,7 +33,7 @@ void flow_things_list(flow_things things, char *text, size_t size)
                                      flow_thing_rows[i].words);
 }
 
-bool flow_things_of_table(const char *table, flow_things *things)
+bool flow_resources_of_table(const char *table, flow_things *things)
 {
     static const table_schema *const always[] = {&answer_schema, &inputs_schema,   &methods_schema,
                                                  &notes_schema,  &failures_schema, &cost_schema};
@@ -54,19 +54,19 @@ bool flow_things_of_table(const char *table, flow_things *things)
     return *things != 0;
 }
 
-bool flow_things_of_figure(const char *figure, flow_things *things)
+bool flow_resources_of_figure(const char *figure, flow_things *things)
 {
     for (size_t i = 0; i < wt_figure_count(); i++) {
         const wt_figure_info info = wt_figure_get(i);
         if (strcmp(info.name, figure) != 0)
             continue;
         char names[128], *rest = NULL;
-        const bool known = flow_things_of_table(info.table, things);
+        const bool known = flow_resources_of_table(info.table, things);
         snprintf(names, sizeof names, "%s", info.beside);
         for (const char *name = strtok_r(names, " ", &rest); name != NULL;
              name = strtok_r(NULL, " ", &rest)) {
             flow_things more = 0;
-            if (flow_things_of_table(name, &more))
+            if (flow_resources_of_table(name, &more))
                 *things |= more;
         }
         return known;

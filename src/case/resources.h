@@ -130,9 +130,9 @@
     X(SOFTENING, "softening with strain")
 
 #define THING_ID(id, ...) FLOW_##id,
-typedef enum flow_thing {
+typedef enum flow_resource {
     SOURCES(THING_ID) TABLE_THINGS(THING_ID) INNER_THINGS(THING_ID) FLOW_N_THINGS
-} flow_thing;
+} flow_resource;
 enum { FLOW_FIRST_TABLE = FLOW_INDENTATION_BULK, FLOW_FIRST_INNER = FLOW_RUBBER };
 
 /* Bit i = thing i, of which there are more than 64. */
@@ -154,19 +154,19 @@ __extension__ typedef unsigned __int128 flow_things;
      FLOW_BIT(FLOW_VALIDATION_COURSE) | FLOW_BIT(FLOW_VALIDATION_CHOICES) |                        \
      FLOW_BIT(FLOW_VALIDATION_SOURCES))
 
-typedef struct flow_thing_row {
+typedef struct flow_resource_row {
     const char *words, *missing;
     const table_schema *schema; /* of a table of its own, else NULL */
     const char *suffix;
-} flow_thing_row;
-extern const flow_thing_row flow_thing_rows[FLOW_N_THINGS];
+} flow_resource_row;
+extern const flow_resource_row flow_thing_rows[FLOW_N_THINGS];
 
 /* Words of the things, parted by commas. */
-void flow_things_list(flow_things things, char *text, size_t size);
-int flow_things_count(flow_things things);
+void flow_resources_list(flow_things things, char *text, size_t size);
+int flow_resources_count(flow_things things);
 /* Things behind a table or a figure of a result, none for what every result has; false if there is
  * no such table or figure. */
-bool flow_things_of_table(const char *table, flow_things *things);
-bool flow_things_of_figure(const char *figure, flow_things *things);
+bool flow_resources_of_table(const char *table, flow_things *things);
+bool flow_resources_of_figure(const char *figure, flow_things *things);
 
 #endif

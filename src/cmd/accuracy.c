@@ -17,7 +17,7 @@ static void say_keys(const cmd_session *s, const wt_table *table)
         const char *name = wt_table_key_name(table, i);
         wt_estimate number;
         if (!wt_table_estimate(table, name, &number))
-            cmd_say("%s: %s\n", name, wt_table_key(table, name));
+            cmd_message("%s: %s\n", name, wt_table_key(table, name));
     }
 }
 
@@ -29,18 +29,19 @@ static wt_status ask_case(cmd_session *s, wt_run_options *run)
     const char *const first = covers ? "coverage" : "error_budget";
     wt_case *c = NULL;
     size_t n_failed = 0;
-    wt_status status = s->common.output != NULL ? wt_guard_write(s->common.output, &s->err) : WT_OK;
+    wt_status status =
+        s->common.output != NULL ? wt_check_overwrite(s->common.output, &s->err) : WT_OK;
     if (status == WT_OK)
         status = cmd_try_output(s->common.output, &s->err);
     if (status == WT_OK)
         status = wt_case_read(s->files[0], &c, &s->err);
     if (status == WT_OK)
-        status = wt_case_ask(c, covers ? first : "error_budget work_precision", &s->err);
+        status = wt_case_request(c, covers ? first : "error_budget work_precision", &s->err);
     if (status == WT_OK)
         status = cmd_run_case(s, c, run, &n_failed);
     wt_case_free(c);
     if (s->result != NULL && n_failed > 0)
-        cmd_say_failures(s, wt_result_find(s->result, "failures"));
+        cmd_print_failures(s, wt_result_find(s->result, "failures"));
     const wt_table *table = s->result != NULL ? wt_result_find(s->result, first) : NULL;
     if (status == WT_OK && table == NULL)
         status = lacks_table(s, covers ? "intervals to be counted" : "error budget");
@@ -87,7 +88,7 @@ int cmd_accuracy(int argc, char **argv)
         good = cmd_usage_error(&s, "without a case there are --part and --repeats only");
     good = good && (s.common.n_columns == 0 || cmd_read_formats(&s));
     if (good && s.n_files == 1) {
-        s.log = wt_parselog_new();
+        s.log = wt_log_new();
         run.trials = coverage.trials;
         run.precision = job;
         const wt_status made =

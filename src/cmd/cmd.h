@@ -121,7 +121,7 @@ typedef struct cmd_session {
     int status;                  /* to exit with */
     wt_error err;
     wt_formats *formats;
-    wt_parselog *log;
+    wt_log *log;
     wt_result *result;
     wt_cost *cost; /* NULL: not asked for */
     wt_job work;   /* for the job: what failed is listed, inputs go to the result's provenance */
@@ -194,9 +194,9 @@ void cmd_event(const char *event, const cmd_word *words, size_t n);
 
 /* To standard error. What a terminal would obey, in the name of a file say, is shown as \x1b; only
  * the format itself may end a line. */
-void cmd_say(const char *format, ...) WT_PRINTF(1, 2);
+void cmd_message(const char *format, ...) WT_PRINTF(1, 2);
 /* Where the page of a report is that was written to a place. */
-void cmd_say_page(const char *place);
+void cmd_print_page_location(const char *place);
 /* Warns of a font of figures that is not there; with --strict the call has failed. */
 void cmd_check_font(cmd_session *s, const char *font);
 /* Prints the error on stderr as one line; returns false. */
@@ -208,10 +208,10 @@ void cmd_partly(cmd_session *s);
 /* Prints the remarks of a log on stderr, equal words once, and their number; notes too if `notes`;
  * of a quiet call the losses alone. The call has answered in part where something was lost; with
  * --strict it has failed where there is a remark at all. */
-void cmd_say_log(cmd_session *s, const wt_parselog *log, bool notes);
+void cmd_print_log(cmd_session *s, const wt_log *log, bool notes);
 /* Lists the files that failed (table "failures", may be NULL) on stderr; false if there are none.
  * The call has answered in part then, or not at all if the table says so. */
-bool cmd_say_failures(cmd_session *s, const wt_table *failures);
+bool cmd_print_failures(cmd_session *s, const wt_table *failures);
 
 wt_progress cmd_progress_start(cmd_session *s);
 /* From here to cmd_progress_end, an interruption (Ctrl-C) ends the work at its next step, so that
@@ -223,7 +223,7 @@ void cmd_progress_end(cmd_session *s);
 
 /* Where text goes: the file after -o, which appears when it is complete, or standard output. */
 typedef struct cmd_sink {
-    wt_outfile *file;
+    wt_atomic_file *file;
     FILE *stream;
     const char *name; /* for errors */
 } cmd_sink;

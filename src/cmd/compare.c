@@ -63,9 +63,9 @@ static void compare_groups(compare_call *call, const char *master)
         made =
             wt_fail(&s->err, WT_E_ARG, "BULK and TRACK are two files, %zu are given", s->n_files);
     if (made == WT_OK && is_called(job->track, names[0]))
-        wt_parselog_add(s->log, WT_WARNING, s->files[1], NULL,
-                        "its curves are called bulk and are taken for those of the track; "
-                        "`weartrack indent --group track` names them");
+        wt_log_add(s->log, WT_WARNING, s->files[1], NULL,
+                   "its curves are called bulk and are taken for those of the track; "
+                   "`weartrack indent --group track` names them");
     if (made == WT_OK && master != NULL) {
         made = cmd_rubber_read(master, call->set.read.sample, call->master.poisson_ratio, &s->work,
                                &dma, &rubber, &s->err);

@@ -4,12 +4,12 @@
 #include "cmd/file_kind.h"
 #include "core/table/registry.h"
 
-const found_missing found_missing_rows[FOUND_N_MISSING] = {
+const file_kind_missing found_missing_rows[FOUND_N_MISSING] = {
     {"spring-constant", "0.1N/m"}, {"sensitivity", "60nm/V"},  {"temperature", "20degC"},
     {"units", "\"E'=MPa\""},       {"deformation", "tension"}, {"frequency", "10Hz"},
 };
 
-void found_value(const char *value, const char *unit, char *out, size_t size)
+void file_kind_value(const char *value, const char *unit, char *out, size_t size)
 {
     enum { DIGITS = 6 };
     static const char *const si[] = {"m", "m/s", "m/V", "N", "N/m", "Pa", "s", "V", "rad/s"};
@@ -52,7 +52,7 @@ static const struct {
                {"power spectrum", WT_KIND_SPECTRUM, NULL}};
 
 static void read_fact(const char *item, const char *value, const char *unit, const char *source,
-                      found_file *found)
+                      file_kind *found)
 {
     const size_t used = strlen(found->words);
     for (size_t i = 0; i < COUNT_OF(telling); i++) {
@@ -64,7 +64,7 @@ static void read_fact(const char *item, const char *value, const char *unit, con
             found->kind = telling[i].kind;
             found->next = telling[i].next;
         }
-        found_value(value, unit, shown, sizeof shown);
+        file_kind_value(value, unit, shown, sizeof shown);
         snprintf(found->words + used, sizeof found->words - used, "%s%s %s",
                  strchr(found->words, ',') != NULL || strchr(found->words, ' ') != NULL ? ", "
                                                                                         : ": ",
@@ -92,7 +92,7 @@ static bool begins_with(const char *text, const char *begin)
 }
 
 /* What the columns of a table are, and heights along one line. */
-static void read_columns(const char *item, const char *value, found_file *found)
+static void read_columns(const char *item, const char *value, file_kind *found)
 {
     found->has_x |= begins_with(value, "position_x");
     found->has_y |= begins_with(value, "position_y");
@@ -102,7 +102,7 @@ static void read_columns(const char *item, const char *value, found_file *found)
     found->one_row |= begins_with(item, "image ") && strstr(value, " x 1 pixels") != NULL;
 }
 
-bool found_asks(const found_file *found, size_t missing)
+bool file_kind_lacks(const file_kind *found, size_t missing)
 {
     const bool by_column =
         *found->unitless != '\0' && strcmp(found_missing_rows[missing].name, "units") == 0;
@@ -110,7 +110,7 @@ bool found_asks(const found_file *found, size_t missing)
 }
 
 /* A column that says no unit is told with a --units of its own. */
-static void read_unitless(const char *item, const char *value, found_file *found)
+static void read_unitless(const char *item, const char *value, file_kind *found)
 {
     static const char column[] = "column \"";
     const size_t used = strlen(found->unitless), begin = sizeof column - 1, length = strlen(item);
@@ -120,7 +120,7 @@ static void read_unitless(const char *item, const char *value, found_file *found
                  (int)(length - begin - 1), item + begin);
 }
 
-static void read_facts(const wt_formats *formats, const wt_table *facts, found_file *found)
+static void read_facts(const wt_formats *formats, const wt_table *facts, file_kind *found)
 {
     const wt_format_info *format = NULL;
     for (size_t row = 0; row < wt_table_n_rows(facts); row++) {
@@ -146,11 +146,11 @@ static void read_facts(const wt_formats *formats, const wt_table *facts, found_f
         found->kind = WT_KIND_IMAGE;
 }
 
-wt_status found_look(cmd_session *s, const char *path, const wt_read_options *options,
-                     wt_parselog *log, wt_table **facts, found_file *found)
+wt_status file_kind_detect(cmd_session *s, const char *path, const wt_read_options *options,
+                           wt_log *log, wt_table **facts, file_kind *found)
 {
     wt_input *input = NULL;
-    *found = (found_file){0};
+    *found = (file_kind){0};
     wt_status status = wt_input_open(path, &input, &s->err);
     if (status == WT_OK)
         status = wt_describe(s->formats, input, options, log, facts, &s->err);

@@ -8,12 +8,12 @@
 /* What a file does not say and the user must. */
 enum { FOUND_N_MISSING = 6 };
 /* The name of the option and of the attribute in a case; a value as an example. */
-typedef struct found_missing {
+typedef struct file_kind_missing {
     const char *name, *example;
-} found_missing;
-extern const found_missing found_missing_rows[FOUND_N_MISSING];
+} file_kind_missing;
+extern const file_kind_missing found_missing_rows[FOUND_N_MISSING];
 
-typedef struct found_file {
+typedef struct file_kind {
     unsigned kind;                 /* WT_KIND_*, 0 = no measurement */
     bool is_result;                /* tables of this program */
     const char *next;              /* subcommand, NULL: by its kind; static */
@@ -24,14 +24,14 @@ typedef struct found_file {
     bool has_force, has_load;      /* friction force; normal force or coefficient of friction */
     bool nothing;                  /* it holds nothing that is read, whatever one says */
     char words[512];               /* "jpk: curves 12, spring constant 300 mN/m" */
-} found_file;
+} file_kind;
 
 /* Reads a file; its facts are the table of wt_describe. */
-wt_status found_look(cmd_session *s, const char *path, const wt_read_options *options,
-                     wt_parselog *log, wt_table **facts, found_file *found);
+wt_status file_kind_detect(cmd_session *s, const char *path, const wt_read_options *options,
+                           wt_log *log, wt_table **facts, file_kind *found);
 /* Whether the user must say this, and not by the columns that have no unit. */
-bool found_asks(const found_file *found, size_t missing);
+bool file_kind_lacks(const file_kind *found, size_t missing);
 /* A number as people read it, few digits, the unit with its prefix; anything else as it is. */
-void found_value(const char *value, const char *unit, char *out, size_t size);
+void file_kind_value(const char *value, const char *unit, char *out, size_t size);
 
 #endif

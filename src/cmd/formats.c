@@ -45,7 +45,7 @@ static void show_format(const wt_formats *formats, const char *id, FILE *out)
 static void write_formats(cmd_session *s, const char *id)
 {
     if (id != NULL && strcmp(id, "schema") != 0 && wt_formats_find(s->formats, id) == NULL) {
-        cmd_say("weartrack formats: there is no format '%s'; see weartrack formats list\n", id);
+        cmd_message("weartrack formats: there is no format '%s'; see weartrack formats list\n", id);
         s->status = CMD_FAILED;
         return;
     }
@@ -67,7 +67,7 @@ static void check_description(cmd_session *s, const wt_read_options *options)
     wt_status status = s->n_files > 2 ? wt_input_open(s->files[2], &input, &s->err) : WT_OK;
     if (status == WT_OK)
         status = wt_description_check(s->files[1], input, options, s->log, &report, &s->err);
-    cmd_say_log(s, s->log, true);
+    cmd_print_log(s, s->log, true);
     if (status == WT_OK)
         status = wt_result_add(s->result, report, &s->err);
     if (status == WT_OK)
@@ -103,7 +103,7 @@ int cmd_formats(int argc, char **argv)
     else if (!check && !list && !show)
         cmd_usage_error(&s, "say list, show ID or check DESCRIPTION.xml [SAMPLE]");
     else if (!check && cmd_is_text(&s) && cmd_begin_reading(&s, NULL)) {
-        cmd_say_log(&s, s.log, true);
+        cmd_print_log(&s, s.log, true);
         write_formats(&s, show ? s.files[1] : NULL);
     }
     return cmd_session_free(&s);

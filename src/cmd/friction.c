@@ -74,9 +74,9 @@ int cmd_friction(int argc, char **argv)
                  "layer-thickness modulus-ratio strain-softening flash-temperature anisotropy "
                  "temperatures pressures output",
         .master = CMD_DMA_OPTIONS};
-    wt_layer_known layer = wt_layer_known_defaults();
+    wt_layer_observation layer = wt_layer_observation_defaults();
     cmd_sliding s;
-    cmd_sliding_init(&s, (cmd_part){wt_layer_known_params(), &layer, NULL, 0});
+    cmd_sliding_init(&s, (cmd_part){wt_layer_observation_params(), &layer, NULL, 0});
     const cmd_part *own = &s.parts[CMD_OWN];
     wt_friction_tables tables = {0};
     wt_table *further[N_FURTHER] = {NULL}, *what_if = NULL;
@@ -87,7 +87,7 @@ int cmd_friction(int argc, char **argv)
         cmd_usage_error(&s.session, "--layer-thickness and --modulus-ratio (or a file of it) go "
                                     "together");
     else if (cmd_sliding_open(&s)) {
-        const wt_layer_known *known = has_layer ? &layer : NULL;
+        const wt_layer_observation *known = has_layer ? &layer : NULL;
         wt_cost_stage(s.session.cost, has_layer ? "friction_with_layer" : "friction");
         wt_status made =
             wt_friction_make(&s.conditions, known, &s.session.work, &tables, &s.session.err);

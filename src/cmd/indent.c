@@ -69,7 +69,7 @@ int cmd_indent(int argc, char **argv)
     if (made == WT_OK)
         made = wt_modulus_budget(indentation, 1, &budget, &s.err);
     if (made == WT_OK && tables.n_accepted == 0) {
-        cmd_say("weartrack indent: no curve has a modulus; the column verdict says why\n");
+        cmd_message("weartrack indent: no curve has a modulus; the column verdict says why\n");
         s.status = CMD_FAILED;
     }
     wt_table **const made_tables[] = {&tables.indentation,

@@ -21,7 +21,7 @@ static void print_facts(const char *name, const wt_table *facts)
         if (strcmp(label, "file") == 0 && strcmp(v, name) == 0)
             continue; /* the heading says it */
         char shown[1024], line[2048];
-        found_value(v, wt_table_text(facts, row, FACTS_UNIT), shown, sizeof shown);
+        file_kind_value(v, wt_table_text(facts, row, FACTS_UNIT), shown, sizeof shown);
         snprintf(line, sizeof line, *s != '\0' ? "%s  (%s)" : "%s%s", shown, s);
         const size_t w = cmd_text_width(label, strlen(label));
         printf("  %s%*s  ", label, w < width ? (int)(width - w) : 0, "");
@@ -31,19 +31,19 @@ static void print_facts(const char *name, const wt_table *facts)
 
 /* Whether it is known what the file is. */
 static bool info_one(cmd_session *s, const char *path, const wt_read_options *options,
-                     found_file *found)
+                     file_kind *found)
 {
     wt_table *facts = NULL;
-    wt_parselog *log = wt_parselog_new();
-    const wt_status status = found_look(s, path, options, log, &facts, found);
+    wt_log *log = wt_log_new();
+    const wt_status status = file_kind_detect(s, path, options, log, &facts, found);
     if (status == WT_OK)
         print_facts(path, facts);
     /* Somebody who asks what a file is wants to see everything that is odd about it. */
-    cmd_say_log(s, log, true);
+    cmd_print_log(s, log, true);
     if (status != WT_OK)
         cmd_fail_one(s);
     wt_table_free(facts);
-    wt_parselog_free(log);
+    wt_log_free(log);
     return status == WT_OK;
 }
 
@@ -63,11 +63,11 @@ static void print_word(const char *word)
 }
 
 /* What the user must say. Units that a column does not say are not guessed. */
-static void print_missing(const found_file *found)
+static void print_missing(const file_kind *found)
 {
     const char *name = found->unitless;
     for (size_t k = 0; k < FOUND_N_MISSING; k++)
-        if (found_asks(found, k))
+        if (file_kind_lacks(found, k))
             printf(" --%s %s", found_missing_rows[k].name, found_missing_rows[k].example);
     for (size_t n = 0; *name != '\0'; name += n + 1) {
         char given[sizeof found->unitless + sizeof "=UNIT"];
@@ -79,7 +79,7 @@ static void print_missing(const found_file *found)
 }
 
 /* The command to type next for the only file, or for all of them. */
-static void print_next(const char *const *files, size_t n, const found_file *found)
+static void print_next(const char *const *files, size_t n, const file_kind *found)
 {
     if (found->nothing)
         return;
@@ -126,7 +126,7 @@ int cmd_info(int argc, char **argv)
     cmd_part part = {wt_read_params(), &read, NULL, 0};
     cmd_session s = cmd_session_defaults();
     size_t n_known = 0, n_found = 0;
-    found_file found;
+    file_kind found;
     if (!cmd_parse(&s, &usage, &part, 1, argc, argv) || !cmd_begin_reading(&s, read.format))
         return cmd_session_free(&s);
     for (size_t i = 0; i < s.n_files; i++) {

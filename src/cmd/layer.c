@@ -22,7 +22,7 @@ static wt_status make_models(cmd_sliding *s, const wt_layer_job *job, wt_table *
     const wt_sliding *sliding = &s->conditions;
     const wt_job *work = &s->session.work;
     wt_error *err = &s->session.err;
-    const wt_layer_known *known =
+    const wt_layer_observation *known =
         cmd_sliding_knows_layer(s, &s->parts[CMD_KNOWN]) ? &s->known : NULL;
     wt_status made = WT_OK;
     if (job->bands || job->n_loads > 0) {

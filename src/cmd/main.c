@@ -67,7 +67,7 @@ static int close_stdout(int status)
 {
     if (fflush(stdout) != 0 || ferror(stdout) || fclose(stdout) != 0) {
         if (errno != EPIPE)
-            cmd_say("weartrack: standard output: %s\n", strerror(errno));
+            cmd_message("weartrack: standard output: %s\n", strerror(errno));
         return status == CMD_OK ? CMD_FAILED : status;
     }
     return status;
@@ -76,18 +76,19 @@ static int close_stdout(int status)
 static int dispatch(int argc, char **argv)
 {
     const char *name = argv[0];
-    nearest_name near = nearest_to(name, strlen(name));
+    spell_suggestion near = nearest_to(name, strlen(name));
     for (const cmd_command *c = cmd_commands; c->name != NULL; c++) {
         if (c->run != NULL && strcmp(c->name, name) == 0)
             return c->run(argc, argv);
         if (c->run != NULL)
-            nearest_try(&near, c->name, strlen(c->name));
+            spell_suggestion_try(&near, c->name, strlen(c->name));
     }
     if (near.name != NULL)
-        cmd_say("weartrack: there is no subcommand '%s'; did you mean %s? See weartrack --help\n",
-                name, near.name);
+        cmd_message(
+            "weartrack: there is no subcommand '%s'; did you mean %s? See weartrack --help\n", name,
+            near.name);
     else
-        cmd_say("weartrack: there is no subcommand '%s'; see weartrack --help\n", name);
+        cmd_message("weartrack: there is no subcommand '%s'; see weartrack --help\n", name);
     return CMD_USAGE;
 }
 
@@ -97,7 +98,7 @@ int main(int argc, char **argv)
     cmd_full_argv = argv;
     /* `weartrack ... | head` shall end quietly, also where a parent ignores the signal. */
     signal(SIGPIPE, SIG_DFL);
-    wt_guard_start();
+    wt_protect_begin();
     cmd_end_without_memory();
     /* A line is one write: forty thousand bad files are as many, not three million. The room is
      * static, for the words that say that memory is short must not need any. */
@@ -122,8 +123,9 @@ int main(int argc, char **argv)
         status = dispatch(argc > 3 ? 3 : 2, (char *[]){argv[2], help_option, argv[3], NULL});
     else
         status = dispatch(argc - 1, argv + 1);
-    if (wt_door_gaps() != NULL) /* of the system, not of the data: no remark of a result */
-        cmd_say("weartrack: warning: %s\n", wt_door_gaps());
+    if (wt_sandbox_limitations() !=
+        NULL) /* of the system, not of the data: no remark of a result */
+        cmd_message("weartrack: warning: %s\n", wt_sandbox_limitations());
     status = close_stdout(status);
     const cmd_word last = {"status", NULL, (size_t)status};
     cmd_event("end", &last, 1);

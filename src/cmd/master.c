@@ -24,13 +24,14 @@ CMD_OPTIONS(saved_params, saved_shifts, saved_rows)
 typedef struct exported {
     const char *const *exports;
     size_t n_exports;
-    wt_solid_options solid;
+    wt_fem_export_options solid;
     wt_reduction reduction;
 } exported;
 
 static exported export_defaults(void)
 {
-    return (exported){.solid = wt_solid_options_defaults(), .reduction = wt_reduction_defaults()};
+    return (exported){.solid = wt_fem_export_options_defaults(),
+                      .reduction = wt_reduction_defaults()};
 }
 
 static const wt_param export_rows[] = {
@@ -40,7 +41,7 @@ static const wt_param export_rows[] = {
 };
 PARAM_LOCAL_TABLE(exported_params, exported, export_rows, export_defaults,
                   PARAM_PART(wt_reduction_params, exported, reduction),
-                  PARAM_PART(wt_solid_options_params, exported, solid))
+                  PARAM_PART(wt_fem_export_options_params, exported, solid))
 
 static wt_status save_shifts(const char *path, const wt_table *shifts, wt_error *err)
 {
@@ -52,11 +53,11 @@ static wt_status save_shifts(const char *path, const wt_table *shifts, wt_error 
 }
 
 /* The program and, behind the colon, the file. */
-static bool split_export(const char *text, wt_solid_program *program, const char **file)
+static bool split_export(const char *text, wt_fem_program *program, const char **file)
 {
     const char *colon = strchr(text, ':');
     *file = colon != NULL ? colon + 1 : "";
-    return **file != '\0' && wt_solid_program_find(text, (size_t)(colon - text), program);
+    return **file != '\0' && wt_fem_program_find(text, (size_t)(colon - text), program);
 }
 
 /* One file takes one of them; on standard output each would be unreadable. */
@@ -64,7 +65,7 @@ static bool check_outputs(cmd_session *s, const saved_shifts *saved, const expor
 {
     const char *result = s->common.output != NULL ? s->common.output : "-";
     for (size_t i = 0; i <= own->n_exports; i++) {
-        wt_solid_program program;
+        wt_fem_program program;
         const char *one = saved->written, *other;
         if (i < own->n_exports && !split_export(own->exports[i], &program, &one))
             return false;
@@ -85,14 +86,14 @@ static bool check_outputs(cmd_session *s, const saved_shifts *saved, const expor
 static bool check_exports(cmd_session *s, const exported *own)
 {
     for (size_t i = 0; i < own->n_exports; i++) {
-        wt_solid_program program;
+        wt_fem_program program;
         const char *file;
         if (!split_export(own->exports[i], &program, &file))
             return cmd_usage_error(s,
                                    "--export %s: expected abaqus, ansys, code_aster or table, a "
                                    "colon and the name of a file, such as abaqus:rubber.inp",
                                    own->exports[i]);
-        if (wt_solid_check(program, &own->solid, &s->err) != WT_OK)
+        if (wt_fem_export_check(program, &own->solid, &s->err) != WT_OK)
             return cmd_param_error(s);
     }
     return true;
@@ -102,14 +103,14 @@ static wt_status write_exports(cmd_session *s, const exported *own, const wt_mas
 {
     wt_status status = WT_OK;
     for (size_t i = 0; status == WT_OK && i < own->n_exports; i++) {
-        wt_solid_program program = WT_SOLID_TABLE;
+        wt_fem_program program = WT_SOLID_TABLE;
         const char *file;
         cmd_sink sink;
         (void)split_export(own->exports[i], &program, &file);
         status = cmd_sink_open(file, &sink, &s->err);
         if (status == WT_OK)
-            status = wt_solid_write(sink.stream, program, tables->prony_reduced,
-                                    tables->shift_factors, &own->solid, &s->err);
+            status = wt_fem_export(sink.stream, program, tables->prony_reduced,
+                                   tables->shift_factors, &own->solid, &s->err);
         status = cmd_sink_close(&sink, status, &s->err);
     }
     return status;
@@ -148,7 +149,7 @@ static wt_status read_shifts(cmd_session *s, const char *path, const char *sampl
 /* Fits the sample, writes what goes into files of its own and finishes the call; `made`: what was
  * read. */
 static void master_of_one(cmd_session *s, wt_status made, const wt_master_job *job,
-                          const wt_common_law_job *common, const saved_shifts *saved,
+                          const wt_shared_shift_law_job *common, const saved_shifts *saved,
                           const exported *own)
 {
     wt_master_tables tables = {0};
@@ -198,7 +199,7 @@ int cmd_master(int argc, char **argv)
     wt_file_set set = {.read = wt_read_defaults()};
     saved_shifts saved = {NULL, NULL};
     exported own = export_defaults();
-    wt_common_law_job common = wt_common_law_job_defaults();
+    wt_shared_shift_law_job common = wt_shared_shift_law_job_defaults();
     enum { EXPORTED = 2, COMMON };
     cmd_part parts[] = {
         {wt_master_job_params(), &job,
@@ -207,7 +208,7 @@ int cmd_master(int argc, char **argv)
          0},
         {saved_params(), &saved, NULL, 0},
         [EXPORTED] = {exported_params(), &own, NULL, 0},
-        [COMMON] = {wt_common_law_job_params(), &common, NULL, 0},
+        [COMMON] = {wt_shared_shift_law_job_params(), &common, NULL, 0},
         {wt_read_params(), &set.read,
          "temperature temperature-in-name frequency units format sheet deformation strain sample "
          "sample-by",

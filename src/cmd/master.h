@@ -6,7 +6,7 @@
 
 /* Fits each sample, compares them, fits one law to all if it is asked for and finishes the call.
  * `set` is that of the job. */
-void master_of_samples(cmd_session *s, wt_master_job *job, wt_common_law_job *common,
+void master_of_samples(cmd_session *s, wt_master_job *job, wt_shared_shift_law_job *common,
                        wt_file_set *set, const wt_samples *samples);
 
 #endif

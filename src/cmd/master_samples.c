@@ -49,12 +49,12 @@ static const char *shown_name(const char *sample)
 }
 
 /* What is noticed of one sample is told of it. */
-static void hand_on(const wt_parselog *from, const char *sample, wt_parselog *to)
+static void hand_on(const wt_log *from, const char *sample, wt_log *to)
 {
-    for (size_t i = 0; i < wt_parselog_count(from); i++) {
-        const wt_log_entry e = wt_parselog_get(from, i);
-        wt_parselog_add(to, e.severity, e.file[0] != 0 ? e.file : NULL,
-                        e.place[0] != 0 ? e.place : NULL, "%s: %s", sample, e.text);
+    for (size_t i = 0; i < wt_log_count(from); i++) {
+        const wt_log_entry e = wt_log_get(from, i);
+        wt_log_add(to, e.severity, e.file[0] != 0 ? e.file : NULL, e.place[0] != 0 ? e.place : NULL,
+                   "%s: %s", sample, e.text);
     }
 }
 
@@ -80,7 +80,7 @@ static wt_status rename_all(sample_fit *f, wt_error *err)
 static wt_status fit_one(cmd_session *s, wt_master_job *job, wt_file_set *set, const char *sample,
                          sample_fit *f)
 {
-    wt_parselog *const log = wt_parselog_new();
+    wt_log *const log = wt_log_new();
     wt_error failure = WT_ERROR_INIT;
     wt_job work = s->work;
     if (log == NULL)
@@ -97,7 +97,7 @@ static wt_status fit_one(cmd_session *s, wt_master_job *job, wt_file_set *set, c
     }
     f->fitted = status == WT_OK;
     hand_on(log, shown_name(sample), s->work.log);
-    wt_parselog_free(log);
+    wt_log_free(log);
     return status == WT_OK ? WT_OK
                            : wt_job_failed(&s->work, shown_name(sample), status, &failure, &s->err);
 }
@@ -133,13 +133,14 @@ static void compare_samples(cmd_session *s, const wt_samples *samples, const sam
     if (job.n_materials < 2 || wt_compare_materials(&job, &s->work, tables, &failure) == WT_OK)
         return;
     (void)wt_error_format(&failure, message, sizeof message);
-    wt_parselog_add(s->work.log, WT_WARNING, NULL, NULL, "not compared: %s", message);
+    wt_log_add(s->work.log, WT_WARNING, NULL, NULL, "not compared: %s", message);
 }
 
 /* One law of all, if it is asked for; that there is none is listed, as a sample that cannot be
  * fitted is. */
-static wt_status find_common_law(cmd_session *s, wt_common_law_job *job, const wt_samples *samples,
-                                 const sample_fit *fits, wt_table **table)
+static wt_status find_common_law(cmd_session *s, wt_shared_shift_law_job *job,
+                                 const wt_samples *samples, const sample_fit *fits,
+                                 wt_table **table)
 {
     wt_error failure = WT_ERROR_INIT;
     if (job->common == WT_COMMON_NONE)
@@ -156,14 +157,14 @@ static wt_status find_common_law(cmd_session *s, wt_common_law_job *job, const w
     job->fits = of;
     job->n = samples->n;
     if (status == WT_OK)
-        status = wt_common_law_make(job, table, &failure);
+        status = wt_shared_shift_law_make(job, table, &failure);
     free(names);
     free(of);
     return status == WT_OK ? WT_OK
                            : wt_job_failed(&s->work, "common law", status, &failure, &s->err);
 }
 
-void master_of_samples(cmd_session *s, wt_master_job *job, wt_common_law_job *common,
+void master_of_samples(cmd_session *s, wt_master_job *job, wt_shared_shift_law_job *common,
                        wt_file_set *set, const wt_samples *samples)
 {
     wt_materials_tables materials = {0};

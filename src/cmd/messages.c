@@ -25,7 +25,7 @@ static void erase_progress(void)
     progress_stands = false;
 }
 
-void cmd_say(const char *format, ...)
+void cmd_message(const char *format, ...)
 {
     char *text = NULL;
     va_list arguments;
@@ -59,11 +59,11 @@ void cmd_say(const char *format, ...)
     free(text);
 }
 
-void cmd_say_page(const char *place)
+void cmd_print_page_location(const char *place)
 {
     char *page = wt_report_page(place);
     if (page != NULL)
-        cmd_say("report page: %s\n", page);
+        cmd_message("report page: %s\n", page);
     free(page);
 }
 
@@ -73,9 +73,10 @@ void cmd_check_font(cmd_session *s, const char *font)
     if (wt_report_has_font(font, instead, sizeof instead))
         return;
     if (!s->common.quiet || s->common.strict)
-        cmd_say("weartrack %s: %s: no font '%s' on this computer: PDF and PNG have '%s' in its "
-                "place, SVG and the page what the reader's browser takes\n",
-                s->name, s->common.strict ? "exit status 1 (--strict)" : "warning", font, instead);
+        cmd_message("weartrack %s: %s: no font '%s' on this computer: PDF and PNG have '%s' in its "
+                    "place, SVG and the page what the reader's browser takes\n",
+                    s->name, s->common.strict ? "exit status 1 (--strict)" : "warning", font,
+                    instead);
     if (s->common.strict)
         s->status = CMD_FAILED;
 }
@@ -101,7 +102,7 @@ void cmd_fail_one(cmd_session *s)
     if (cmd_is_json())
         cmd_event("error", words, COUNT_OF(words));
     else
-        cmd_say("weartrack %s: %s\n", s->name, line);
+        cmd_message("weartrack %s: %s\n", s->name, line);
     cmd_partly(s);
 }
 
@@ -163,29 +164,29 @@ static void print_fold(const char *name, const fold *f)
         cmd_event(wt_severity_name(e->severity), words, COUNT_OF(words));
         return;
     }
-    cmd_say("weartrack %s: %s: %s", name, wt_severity_name(e->severity), e->file);
+    cmd_message("weartrack %s: %s: %s", name, wt_severity_name(e->severity), e->file);
     if (f->n_files > 1)
-        cmd_say(" and %zu more", f->n_files - 1);
-    cmd_say("%s%s%s%s", *e->file ? ": " : "", f->n_files > 1 ? "" : e->place,
-            *e->place && f->n_files == 1 ? ": " : "", e->text);
+        cmd_message(" and %zu more", f->n_files - 1);
+    cmd_message("%s%s%s%s", *e->file ? ": " : "", f->n_files > 1 ? "" : e->place,
+                *e->place && f->n_files == 1 ? ": " : "", e->text);
     if (f->n > f->n_files)
-        cmd_say(" (%zu times)", f->n);
-    cmd_say("\n");
+        cmd_message(" (%zu times)", f->n);
+    cmd_message("\n");
 }
 
-void cmd_say_log(cmd_session *s, const wt_parselog *log, bool notes)
+void cmd_print_log(cmd_session *s, const wt_log *log, bool notes)
 {
     const bool quiet = s->common.quiet, strict = s->common.strict;
-    const size_t n = wt_parselog_count(log), n_unkept = wt_parselog_lost(log);
+    const size_t n = wt_log_count(log), n_unkept = wt_log_dropped(log);
     size_t n_folds = 0, n_remarks = n_unkept, n_losses = 0;
     fold *folds = calloc(n + 1, sizeof *folds);
     if (folds == NULL) {
-        cmd_say("weartrack %s: out of memory\n", s->name);
+        cmd_message("weartrack %s: out of memory\n", s->name);
         s->status = CMD_FAILED;
         return;
     }
     for (size_t i = 0; i < n; i++) {
-        const wt_log_entry e = wt_parselog_get(log, i);
+        const wt_log_entry e = wt_log_get(log, i);
         n_remarks += e.severity != WT_NOTE;
         n_losses += e.severity == WT_LOSS;
         if (e.severity == WT_LOSS || (!quiet && (e.severity == WT_WARNING || notes)))
@@ -196,24 +197,24 @@ void cmd_say_log(cmd_session *s, const wt_parselog *log, bool notes)
         print_fold(s->name, &folds[i]);
     free(folds);
     if (n_unkept > 0 && !quiet)
-        cmd_say("weartrack %s: warning: %zu notes were lost for lack of memory\n", s->name,
-                n_unkept);
+        cmd_message("weartrack %s: warning: %zu notes were lost for lack of memory\n", s->name,
+                    n_unkept);
     if (n_remarks > 0 && (strict || !quiet))
-        cmd_say("weartrack %s: %zu remark%s%s\n", s->name, n_remarks, n_remarks == 1 ? "" : "s",
-                strict ? ": exit status 1 (--strict)" : "");
+        cmd_message("weartrack %s: %zu remark%s%s\n", s->name, n_remarks, n_remarks == 1 ? "" : "s",
+                    strict ? ": exit status 1 (--strict)" : "");
     if (n_losses > 0)
         cmd_partly(s);
     if (strict && n_remarks > 0)
         s->status = CMD_FAILED;
 }
 
-bool cmd_say_failures(cmd_session *s, const wt_table *failures)
+bool cmd_print_failures(cmd_session *s, const wt_table *failures)
 {
     const size_t n = failures != NULL ? wt_table_n_rows(failures) : 0;
     if (n == 0)
         return false;
     if (!cmd_is_json())
-        cmd_say("weartrack %s: %zu failed:\n", s->name, n);
+        cmd_message("weartrack %s: %zu failed:\n", s->name, n);
     for (size_t i = 0; i < n; i++) {
         const char *where = wt_table_text(failures, i, FAILURES_FILE);
         const char *what = wt_table_text(failures, i, FAILURES_MESSAGE);
@@ -223,9 +224,9 @@ bool cmd_say_failures(cmd_session *s, const wt_table *failures)
             continue;
         /* most messages begin with the file they are about */
         if (strncmp(what, where, strlen(where)) == 0)
-            cmd_say("  %s\n", what);
+            cmd_message("  %s\n", what);
         else
-            cmd_say("  %s: %s\n", where, what);
+            cmd_message("  %s: %s\n", where, what);
     }
     const char *answered = wt_table_key(failures, "status");
     cmd_partly(s);

@@ -87,14 +87,14 @@ static void guess_groups(new_case *c)
             n++;
         }
     if (n_guessed > 0)
-        wt_parselog_add(c->s->log, WT_WARNING, NULL, NULL,
-                        "%zu of %zu files of force curves stand in <bulk> by a guess: no name of "
-                        "theirs says bulk or track",
-                        n_guessed, n);
+        wt_log_add(c->s->log, WT_WARNING, NULL, NULL,
+                   "%zu of %zu files of force curves stand in <bulk> by a guess: no name of "
+                   "theirs says bulk or track",
+                   n_guessed, n);
 }
 
 /* Force curves are bulk until their names have been looked at. */
-static place place_of(const found_file *found)
+static place place_of(const file_kind *found)
 {
     return found->kind == WT_KIND_SWEEP      ? DMA
            : found->kind == WT_KIND_SPECTRUM ? ROUGHNESS
@@ -104,7 +104,7 @@ static place place_of(const found_file *found)
                                              : UNUSED;
 }
 
-static bool is_profile(const found_file *found)
+static bool is_profile(const file_kind *found)
 {
     return found->one_row || (found->has_x && !found->has_y);
 }
@@ -132,10 +132,10 @@ static void guess_maps(new_case *c)
             n_guessed += said ? 0 : 1;
     }
     if (n_guessed > 0)
-        wt_parselog_add(c->s->log, WT_WARNING, NULL, NULL,
-                        "%zu height map%s in <roughness> by a guess: take out what is no map of "
-                        "the counter surface, as images of spots",
-                        n_guessed, n_guessed == 1 ? " stands" : "s stand");
+        wt_log_add(c->s->log, WT_WARNING, NULL, NULL,
+                   "%zu height map%s in <roughness> by a guess: take out what is no map of "
+                   "the counter surface, as images of spots",
+                   n_guessed, n_guessed == 1 ? " stands" : "s stand");
 }
 
 /* Whether its name can stand in a case, where it must be read back as it is. */
@@ -165,7 +165,7 @@ static void look_at_entry(new_case *c, entry *e, bool in_folder)
     const wt_read_options options = wt_read_defaults();
     wt_table *facts = NULL;
     if (check_name(c, e) == WT_OK &&
-        found_look(c->s, e->path, &options, NULL, &facts, &e->found) == WT_OK) {
+        file_kind_detect(c->s, e->path, &options, NULL, &facts, &e->found) == WT_OK) {
         e->place = place_of(&e->found);
     } else {
         e->place = UNUSED;
@@ -288,10 +288,10 @@ static wt_status tell_left_out(new_case *c)
         wt_error_advice(&c->s->err, "`weartrack info FILE` shows what a file holds");
         return WT_E_EMPTY;
     }
-    wt_parselog_add(c->s->log, WT_WARNING, NULL, NULL,
-                    "%zu file%s of the folders hold%s nothing that is read, as %s; comments at the "
-                    "end of the case name %s",
-                    n, n == 1 ? "" : "s", n == 1 ? "s" : "", first->path, n == 1 ? "it" : "them");
+    wt_log_add(c->s->log, WT_WARNING, NULL, NULL,
+               "%zu file%s of the folders hold%s nothing that is read, as %s; comments at the "
+               "end of the case name %s",
+               n, n == 1 ? "" : "s", n == 1 ? "s" : "", first->path, n == 1 ? "it" : "them");
     return WT_OK;
 }
 
@@ -351,12 +351,12 @@ int cmd_new_case(int argc, char **argv)
         if (s.status == CMD_PARTLY && new_case_count(&c, UNUSED) == c.n)
             s.status = CMD_FAILED;
         made = write_case(&c);
-        cmd_say_log(&s, s.log, false);
+        cmd_print_log(&s, s.log, false);
     }
     if (made != WT_OK)
         cmd_fail(&s);
     else if (s.common.output != NULL && !s.common.quiet && s.status != CMD_FAILED)
-        cmd_say("next: fill in what is missing, then weartrack run %s\n", s.common.output);
+        cmd_message("next: fill in what is missing, then weartrack run %s\n", s.common.output);
     for (size_t i = 0; i < c.n; i++) {
         free(c.entries[i].path);
         free(c.entries[i].in_case);

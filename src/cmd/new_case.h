@@ -18,7 +18,7 @@ typedef struct entry {
     const char *word; /* of its path that says bulk or track; NULL: none does */
     bool of_folder;   /* that word is in the name of a folder */
     bool left_out;    /* it merely lies in a folder that was given, and holds nothing measured */
-    found_file found; /* its words are the problem of a file that could not be read */
+    file_kind found;  /* its words are the problem of a file that could not be read */
 } entry;
 
 typedef struct new_case {

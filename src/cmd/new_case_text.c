@@ -80,7 +80,7 @@ static void put_reason(FILE *out, const entry *e)
 static void put_units(FILE *out, const char *names)
 {
     for (size_t k = 0, n; *names != '\0'; names += n + (names[n] != '\0'), k++) {
-        char name[sizeof((found_file *)0)->unitless];
+        char name[sizeof((file_kind *)0)->unitless];
         n = strcspn(names, "\n");
         snprintf(name, sizeof name, "%.*s", (int)n, names);
         fputs(k == 0 ? " units=\"" : ";", out);
@@ -95,7 +95,7 @@ static void put_file(FILE *out, const entry *e, const char *indent, const char *
 {
     fprintf(out, "%s<%s", indent, element);
     for (size_t k = 0; k < FOUND_N_MISSING; k++)
-        if (found_asks(&e->found, k))
+        if (file_kind_lacks(&e->found, k))
             fprintf(out, " %s=\"" FILL_IN "\"", found_missing_rows[k].name);
     put_units(out, e->found.unitless);
     putc('>', out);

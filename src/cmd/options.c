@@ -77,8 +77,8 @@ bool cmd_usage_error(cmd_session *s, const char *format, ...)
     char *text = NULL;
     const int written = vasprintf(&text, format, args);
     va_end(args);
-    cmd_say("weartrack %s: %s; see weartrack %s --help\n", s->name, written < 0 ? "" : text,
-            s->name);
+    cmd_message("weartrack %s: %s; see weartrack %s --help\n", s->name, written < 0 ? "" : text,
+                s->name);
     if (written >= 0)
         free(text);
     s->status = CMD_USAGE;
@@ -249,9 +249,9 @@ static bool bad_option(cmd_session *s, const struct option *longs, int code, con
         return cmd_usage_error(s, "--%s takes no value", like->name);
     if (n_like > 1)
         return cmd_usage_error(s, "ambiguous option '%s'", word);
-    nearest_name near = nearest_to(word + 2, length > 2 ? length - 2 : 0);
+    spell_suggestion near = nearest_to(word + 2, length > 2 ? length - 2 : 0);
     for (const struct option *o = longs; o->name != NULL && strncmp(word, "--", 2) == 0; o++)
-        nearest_try(&near, o->name, strlen(o->name));
+        spell_suggestion_try(&near, o->name, strlen(o->name));
     return near.name != NULL
                ? cmd_usage_error(s, "unknown option '%s'; did you mean --%s?", word, near.name)
                : cmd_usage_error(s, "unknown option '%s'", word);
@@ -298,9 +298,9 @@ static bool check_inputs(cmd_session *s, const char *const *inputs, size_t n, si
     for (size_t i = 0; i < n; i++) {
         if (*inputs[i] == '\0')
             return cmd_usage_error(s, "a file name is empty");
-        if (wt_guard_read(inputs[i], &s->err) != WT_OK)
+        if (wt_protect_input(inputs[i], &s->err) != WT_OK)
             return cmd_fail(s);
-        if (output != NULL && wt_guard_write(output, &s->err) != WT_OK)
+        if (output != NULL && wt_check_overwrite(output, &s->err) != WT_OK)
             return cmd_usage_error(s, "-o %s: %s; give another name", output, s->err.message);
         *n_pipes += strcmp(inputs[i], "-") == 0;
         if (*n_pipes > 1)

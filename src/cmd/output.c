@@ -33,7 +33,7 @@ wt_status cmd_try_output(const char *path, wt_error *err)
     if (cmd_is_standard(path) ||
         (stat(path, &info) == 0 && !S_ISREG(info.st_mode) && !S_ISDIR(info.st_mode)))
         return WT_OK; /* a pipe is opened once */
-    wt_outfile *file = NULL;
+    wt_atomic_file *file = NULL;
     const wt_status status = wt_outfile_open(path, &file, err);
     wt_outfile_discard(file);
     wt_error_file(status != WT_OK ? err : NULL, path);
@@ -71,7 +71,7 @@ wt_status cmd_sink_open(const char *output, cmd_sink *sink, wt_error *err)
 
 wt_status cmd_sink_close(cmd_sink *sink, wt_status written, wt_error *err)
 {
-    wt_outfile *file = sink->file;
+    wt_atomic_file *file = sink->file;
     sink->file = NULL;
     if (written != WT_OK)
         wt_outfile_discard(file);

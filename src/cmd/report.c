@@ -175,7 +175,7 @@ static wt_status write_pages(cmd_session *s, const wt_report_options *options,
     if (s->common.output != NULL)
         status = wt_report_write(s->result, s->common.output, options, &progress, &s->err);
     if (status == WT_OK && own->browse != NULL)
-        status = wt_browse_write(s->result, own->browse, s->common.provenance, &s->err);
+        status = wt_curve_browser_write(s->result, own->browse, s->common.provenance, &s->err);
     if (status == WT_OK && own->sheets != NULL)
         status = wt_sheets_write(s->result, own->sheets, options, &progress, &s->err);
     cmd_progress_end(s);
@@ -225,10 +225,10 @@ int cmd_report(int argc, char **argv)
     else
         cmd_strict_remarks(&s, s.files[0], cmd_tables_remarks(s.result));
     if (made == WT_OK && !s.common.quiet && !own.methods && s.common.output != NULL)
-        cmd_say_page(s.common.output);
+        cmd_print_page_location(s.common.output);
     if (made == WT_OK && !s.common.quiet && own.browse != NULL)
-        cmd_say("page of curves: %s\n", own.browse);
+        cmd_message("page of curves: %s\n", own.browse);
     if (made == WT_OK && !s.common.quiet && own.sheets != NULL)
-        cmd_say("sheets of curves: %s\n", own.sheets);
+        cmd_message("sheets of curves: %s\n", own.sheets);
     return cmd_session_free(&s);
 }

@@ -99,10 +99,10 @@ static wt_status prepare_run(run_call *r)
     r->folder_name = r->own.report != NULL
                          ? strdup(r->own.report)
                          : cmd_default_name(strcmp(path, "-") == 0 ? output : path, "-report");
-    r->s.log = wt_parselog_new();
+    r->s.log = wt_log_new();
     if (r->result_name == NULL || r->folder_name == NULL || r->s.log == NULL)
         return wt_fail(err, WT_E_MEMORY, "out of memory");
-    if (wt_guard_write(r->result_name, err) != WT_OK)
+    if (wt_check_overwrite(r->result_name, err) != WT_OK)
         return err->status;
     if (!any_stage(r->plan)) {
         wt_fail(err, WT_E_EMPTY, "nothing to do: the case gives no stage what it needs");
@@ -119,9 +119,9 @@ static wt_status compute_run(run_call *r)
     cmd_session *s = &r->s;
     size_t n_failed = 0;
     wt_status status = cmd_run_case(s, r->the_case, &r->run, &n_failed);
-    cmd_say_log(s, s->log, false);
+    cmd_print_log(s, s->log, false);
     if (s->result != NULL && n_failed > 0)
-        cmd_say_failures(s, wt_result_find(s->result, "failures"));
+        cmd_print_failures(s, wt_result_find(s->result, "failures"));
     if (status == WT_OK)
         status = cmd_provenance(s->result, &s->err);
     if (status == WT_OK)
@@ -149,7 +149,7 @@ static bool is_kept(run_call *r)
                                sizeof why, NULL) != WT_OK)
         snprintf(why, sizeof why, "out of memory");
     if (!current && !s->common.quiet)
-        cmd_say("%s: made again: %s\n", r->result_name, why);
+        cmd_message("%s: made again: %s\n", r->result_name, why);
     if (current) {
         s->result = before;
         before = NULL;
@@ -182,7 +182,7 @@ static wt_status draw_page(run_call *r)
         wt_report_write(r->s.result, r->folder_name, &r->report, &r->run.progress, &r->s.err);
     cmd_progress_end(&r->s);
     if (status == WT_OK && !r->s.common.quiet)
-        cmd_say_page(r->folder_name);
+        cmd_print_page_location(r->folder_name);
     return status;
 }
 
@@ -227,8 +227,8 @@ static wt_status run_case(run_call *r, const cmd_part *report_given)
     print_answer(r->s.result);
     fflush(stdout); /* it stands, whatever becomes of the pictures */
     if (!r->s.common.quiet)
-        cmd_say("result: %s%s\n", r->result_name,
-                kept ? " (kept: nothing that it was made of has changed)" : "");
+        cmd_message("result: %s%s\n", r->result_name,
+                    kept ? " (kept: nothing that it was made of has changed)" : "");
     return r->own.no_report || (kept && is_page_kept(r)) ? WT_OK : draw_page(r);
 }
 

@@ -13,7 +13,7 @@ cmd_session cmd_session_defaults(void)
 
 bool cmd_begin(cmd_session *s)
 {
-    s->log = s->log != NULL ? s->log : wt_parselog_new();
+    s->log = s->log != NULL ? s->log : wt_log_new();
     s->result = wt_result_new();
     s->work.failures = wt_failures_new();
     if (s->log == NULL || s->result == NULL || s->work.failures == NULL) {
@@ -47,14 +47,14 @@ bool cmd_read_formats(cmd_session *s)
 
 bool cmd_begin_reading(cmd_session *s, const char *format)
 {
-    s->log = wt_parselog_new();
+    s->log = wt_log_new();
     if (!cmd_read_formats(s))
         return false;
     if (format != NULL && wt_formats_find(s->formats, format) == NULL) {
-        nearest_name near = nearest_to(format, strlen(format));
+        spell_suggestion near = nearest_to(format, strlen(format));
         for (size_t i = 0; i < wt_formats_count(s->formats); i++) {
             const char *const id = wt_formats_get(s->formats, i)->id;
-            nearest_try(&near, id, strlen(id));
+            spell_suggestion_try(&near, id, strlen(id));
         }
         return cmd_usage_error(
             s, "--format: there is no format '%s'%s%s, see weartrack formats list", format,
@@ -88,9 +88,9 @@ static void say_columns(cmd_session *s)
         if (strncmp(wt_provenance_get_input(p, i)->format, "given-columns", 13) == 0)
             return;
     if (s->common.n_columns > 0)
-        wt_parselog_add(s->log, WT_WARNING, NULL, NULL,
-                        "no file was read by the columns of --columns: none has such names, or "
-                        "its layout is known without them");
+        wt_log_add(s->log, WT_WARNING, NULL, NULL,
+                   "no file was read by the columns of --columns: none has such names, or "
+                   "its layout is known without them");
 }
 
 bool cmd_share_units(cmd_session *s, wt_read_options *read)
@@ -109,13 +109,13 @@ static void say_units(cmd_session *s)
         if (use->used)
             continue;
         if (use->overruled)
-            wt_parselog_add(s->log, WT_WARNING, NULL, NULL,
-                            "--units %s does not apply: every file with such a column says its "
-                            "unit, \"%s\"",
-                            s->shared->units[u], use->stated);
+            wt_log_add(s->log, WT_WARNING, NULL, NULL,
+                       "--units %s does not apply: every file with such a column says its "
+                       "unit, \"%s\"",
+                       s->shared->units[u], use->stated);
         else
-            wt_parselog_add(s->log, WT_WARNING, NULL, NULL, "--units %s: no file has such a column",
-                            s->shared->units[u]);
+            wt_log_add(s->log, WT_WARNING, NULL, NULL, "--units %s: no file has such a column",
+                       s->shared->units[u]);
     }
 }
 
@@ -125,14 +125,14 @@ wt_status cmd_give_record(cmd_session *s, wt_table_sink sink, void *user)
     say_units(s);
     wt_status status = WT_OK;
     wt_table *failures = s->work.failures, *notes = NULL;
-    if (cmd_say_failures(s, failures)) {
+    if (cmd_print_failures(s, failures)) {
         status = wt_failures_answered(
             failures, s->status == CMD_FAILED ? WT_ANSWERED_NOTHING : WT_ANSWERED_PARTLY, &s->err);
         s->work.failures = status == WT_OK ? NULL : failures;
         if (status == WT_OK)
             status = sink(user, failures, &s->err);
     }
-    if (status == WT_OK && wt_parselog_count(s->log) > 0) {
+    if (status == WT_OK && wt_log_count(s->log) > 0) {
         status = wt_notes_table(s->log, NULL, &notes, &s->err);
         if (status == WT_OK)
             status = sink(user, notes, &s->err);
@@ -144,12 +144,12 @@ void cmd_end(cmd_session *s, wt_status made)
 {
     char sentence[2048];
     cmd_progress_end(s);
-    cmd_say_failures(s, s->work.failures);
-    cmd_say_log(s, s->log, false);
+    cmd_print_failures(s, s->work.failures);
+    cmd_print_log(s, s->log, false);
     if (made != WT_OK)
         cmd_fail(s);
     else if (!s->common.quiet && wt_result_sentence(s->result, sentence, sizeof sentence) > 0)
-        cmd_say("weartrack %s: %s\n", s->name, sentence);
+        cmd_message("weartrack %s: %s\n", s->name, sentence);
 }
 
 static wt_status add_table(void *result, wt_table *table, wt_error *err)
@@ -210,7 +210,7 @@ int cmd_session_free(cmd_session *s)
     wt_table_free(s->work.failures);
     wt_result_free(s->result);
     wt_cost_free(s->cost);
-    wt_parselog_free(s->log);
+    wt_log_free(s->log);
     wt_formats_free(s->formats);
     return s->status;
 }

@@ -65,15 +65,15 @@ void cmd_sliding_init(cmd_sliding *s, cmd_part own)
         "strain sample sample-by spectrum-convention",
         0};
     s->parts[CMD_OWN] = own;
-    s->known = wt_layer_known_defaults();
-    s->parts[CMD_KNOWN] = (cmd_part){wt_layer_known_params(), &s->known, "", 0};
+    s->known = wt_layer_observation_defaults();
+    s->parts[CMD_KNOWN] = (cmd_part){wt_layer_observation_params(), &s->known, "", 0};
 }
 
 int cmd_sliding_free(cmd_sliding *s)
 {
     wt_rubber_clear(&s->rubber);
     wt_surface_clear(&s->surface);
-    wt_softness_clear(&s->softness);
+    wt_strain_softening_clear(&s->softness);
     wt_rubber_clear(&s->layer_rubber);
     wt_result_free(s->material_tables);
     wt_result_free(s->layer_tables);
@@ -204,10 +204,10 @@ bool cmd_sliding_knows_layer(const cmd_sliding *s, const cmd_part *part)
            s->contact.layer_material != NULL;
 }
 
-static wt_layer_known *known_of(cmd_sliding *s)
+static wt_layer_observation *known_of(cmd_sliding *s)
 {
-    return s->parts[CMD_OWN].params == wt_layer_known_params()
-               ? (wt_layer_known *)s->parts[CMD_OWN].structure
+    return s->parts[CMD_OWN].params == wt_layer_observation_params()
+               ? (wt_layer_observation *)s->parts[CMD_OWN].structure
                : &s->known;
 }
 
@@ -231,7 +231,8 @@ static wt_status read_layer(cmd_sliding *s, wt_error *err)
     if (status == WT_OK)
         status = cmd_table_find(s->layer_tables, c->layer_comparison, "modulus_rate", "compare",
                                 &rates, err);
-    return status == WT_OK ? wt_layer_known_by_rate(comparison, rates, known_of(s), err) : status;
+    return status == WT_OK ? wt_layer_observation_by_rate(comparison, rates, known_of(s), err)
+                           : status;
 }
 
 static wt_status read_wear(cmd_sliding *s, wt_error *err)
@@ -262,10 +263,10 @@ void cmd_sliding_wear(cmd_sliding *s, wt_estimate *rate)
     if (isnan(rate->value))
         *rate = measured;
     else
-        wt_parselog_add(s->session.log, WT_WARNING, s->contact.wear_of, NULL,
-                        "the specific wear rate given is %.3g times the one measured, %.3g m^2/N; "
-                        "the one given is taken",
-                        rate->value / measured.value, measured.value);
+        wt_log_add(s->session.log, WT_WARNING, s->contact.wear_of, NULL,
+                   "the specific wear rate given is %.3g times the one measured, %.3g m^2/N; "
+                   "the one given is taken",
+                   rate->value / measured.value, measured.value);
 }
 
 bool cmd_sliding_open(cmd_sliding *s)
@@ -296,10 +297,10 @@ bool cmd_sliding_open(cmd_sliding *s)
                                  "self-affine:q0=..,qr=..,q1=..,hurst=..,c0=..");
     }
     if (status == WT_OK && s->contact.softening != NULL) {
-        const wt_softness_choice choice = {.temperature = s->contact.softening_temperature,
-                                           .sample = s->set.read.sample};
-        status = wt_softness_read(s->contact.softening, s->contact.softening, choice, work,
-                                  &s->softness, err);
+        const wt_strain_softening_choice choice = {.temperature = s->contact.softening_temperature,
+                                                   .sample = s->set.read.sample};
+        status = wt_strain_softening_read(s->contact.softening, s->contact.softening, choice, work,
+                                          &s->softness, err);
         s->conditions.softness = &s->softness;
     }
     if (status == WT_OK &&

@@ -44,7 +44,7 @@ typedef struct cmd_sliding {
     wt_master_job master;
     wt_rubber_options options;
     wt_transverse transverse;
-    wt_layer_known known;
+    wt_layer_observation known;
     wt_file_set set;
     cmd_session session;
     cmd_part parts[CMD_SLIDING_PARTS];
@@ -53,7 +53,7 @@ typedef struct cmd_sliding {
     wt_estimate measured_wear; /* by wear_of; value NaN: none */
     wt_rubber rubber, layer_rubber;
     wt_surface surface;
-    wt_softness softness;
+    wt_strain_softening softness;
 } cmd_sliding;
 
 /* `own` are the options of the subcommand itself. */

@@ -33,10 +33,10 @@ static wt_status choose_table(const wt_result *result, const char *path, const c
         wt_fail(err, WT_E_NOT_FOUND, "there is no table '%s'", name);
     else
         wt_fail(err, WT_E_MISSING, "there are %zu tables: say which", n);
-    nearest_name near = nearest_to(name != NULL ? name : "", name != NULL ? strlen(name) : 0);
+    spell_suggestion near = nearest_to(name != NULL ? name : "", name != NULL ? strlen(name) : 0);
     for (size_t i = 0; i < n; i++) {
         const char *const other = wt_table_name(wt_result_table(result, i));
-        nearest_try(&near, other, strlen(other));
+        spell_suggestion_try(&near, other, strlen(other));
     }
     wt_error_file(err, path);
     if (near.name != NULL)

@@ -32,8 +32,8 @@ void cmd_strict_remarks(cmd_session *s, const char *path, size_t n)
 {
     if (n == 0 || !s->common.strict)
         return;
-    cmd_say("weartrack %s: %s: %zu remark%s: exit status 1 (--strict)\n", s->name, path, n,
-            n == 1 ? "" : "s");
+    cmd_message("weartrack %s: %s: %zu remark%s: exit status 1 (--strict)\n", s->name, path, n,
+                n == 1 ? "" : "s");
     s->status = CMD_FAILED;
 }
 

@@ -20,13 +20,14 @@ static wt_status validate_case(cmd_session *s, wt_run_options *run, cmd_part *jo
 {
     wt_case *c = NULL;
     size_t n_failed = 0;
-    wt_status status = s->common.output != NULL ? wt_guard_write(s->common.output, &s->err) : WT_OK;
+    wt_status status =
+        s->common.output != NULL ? wt_check_overwrite(s->common.output, &s->err) : WT_OK;
     if (status == WT_OK)
         status = cmd_try_output(s->common.output, &s->err);
     if (status == WT_OK)
         status = wt_case_read(s->files[0], &c, &s->err);
     if (status == WT_OK)
-        status = wt_case_ask(c, asked, &s->err);
+        status = wt_case_request(c, asked, &s->err);
     if (status == WT_OK)
         status =
             wt_case_validate(c, s->files + 1, s->n_files - 1, job->structure, job->given, &s->err);
@@ -34,7 +35,7 @@ static wt_status validate_case(cmd_session *s, wt_run_options *run, cmd_part *jo
         status = cmd_run_case(s, c, run, &n_failed);
     wt_case_free(c);
     if (s->result != NULL && n_failed > 0)
-        cmd_say_failures(s, wt_result_find(s->result, "failures"));
+        cmd_print_failures(s, wt_result_find(s->result, "failures"));
     if (status == WT_OK && wt_result_find(s->result, "validation") == NULL)
         status = lacks_table(s);
     if (status == WT_OK)
@@ -64,7 +65,7 @@ int cmd_validate(int argc, char **argv)
     bool good = s.n_files > 0 || cmd_usage_error(&s, "one case file is needed");
     good = good && (s.common.n_columns == 0 || cmd_read_formats(&s));
     if (good) {
-        s.log = wt_parselog_new();
+        s.log = wt_log_new();
         cmd_end(&s, s.log == NULL ? wt_fail(&s.err, WT_E_MEMORY, "out of memory")
                                   : validate_case(&s, &run, &parts[0]));
     }

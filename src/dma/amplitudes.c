@@ -87,7 +87,7 @@ static bool is_nearer(const part *a, const part *b, double wanted)
 }
 
 /* How far what was asked for is from what was measured. */
-static void check_wanted(const part *parts, size_t n, double wanted, wt_parselog *log)
+static void check_wanted(const part *parts, size_t n, double wanted, wt_log *log)
 {
     const part *nearest = NULL;
     for (size_t i = 0; i < n; i++)
@@ -95,18 +95,18 @@ static void check_wanted(const part *parts, size_t n, double wanted, wt_parselog
             (nearest == NULL || !is_nearer(nearest, &parts[i], wanted)))
             nearest = &parts[i];
     if (n > 0 && nearest == NULL)
-        wt_parselog_add(log, WT_WARNING, parts[0].source, NULL,
-                        "sweeps of one strain are asked for, but no strain amplitude was read");
+        wt_log_add(log, WT_WARNING, parts[0].source, NULL,
+                   "sweeps of one strain are asked for, but no strain amplitude was read");
     else if (n > 0 && (nearest->amplitude / wanted > other_amplitude ||
                        wanted / nearest->amplitude > other_amplitude))
-        wt_parselog_add(log, WT_WARNING, nearest->source, NULL,
-                        "sweeps at a strain of %.3g %% are asked for; the nearest were measured "
-                        "at %.3g %%",
-                        100 * wanted, 100 * nearest->amplitude);
+        wt_log_add(log, WT_WARNING, nearest->source, NULL,
+                   "sweeps at a strain of %.3g %% are asked for; the nearest were measured "
+                   "at %.3g %%",
+                   100 * wanted, 100 * nearest->amplitude);
 }
 
 /* Those that are not kept go behind the others and are cleared with `dropped`. */
-static wt_status take_out(wt_sweep *sweep, const part *parts, wt_parselog *log, wt_error *err)
+static wt_status take_out(wt_sweep *sweep, const part *parts, wt_log *log, wt_error *err)
 {
     wt_sweep dropped = {0};
     const part *const ramps = parts + sweep->n_isotherms;
@@ -130,19 +130,19 @@ static wt_status take_out(wt_sweep *sweep, const part *parts, wt_parselog *log, 
     sweep->n_isotherms = isotherms;
     sweep->n_ramps = kept;
     if (dropped.n_isotherms > 0)
-        wt_parselog_add(log, WT_WARNING, dropped.isotherms[0].source, NULL,
-                        "%zu isotherm%s of other strain amplitudes left out", dropped.n_isotherms,
-                        dropped.n_isotherms > 1 ? "s" : "");
+        wt_log_add(log, WT_WARNING, dropped.isotherms[0].source, NULL,
+                   "%zu isotherm%s of other strain amplitudes left out", dropped.n_isotherms,
+                   dropped.n_isotherms > 1 ? "s" : "");
     if (dropped.n_ramps > 0)
-        wt_parselog_add(log, WT_WARNING, dropped.ramps[0].source, NULL,
-                        "%zu temperature sweep%s of other strain amplitudes left out",
-                        dropped.n_ramps, dropped.n_ramps > 1 ? "s" : "");
+        wt_log_add(log, WT_WARNING, dropped.ramps[0].source, NULL,
+                   "%zu temperature sweep%s of other strain amplitudes left out", dropped.n_ramps,
+                   dropped.n_ramps > 1 ? "s" : "");
     wt_sweep_clear(&dropped);
     return WT_OK;
 }
 
-wt_status flow_one_amplitude(wt_sweep *sweep, const wt_file_set *sets, size_t n_sets,
-                             wt_parselog *log, wt_error *err)
+wt_status flow_one_amplitude(wt_sweep *sweep, const wt_file_set *sets, size_t n_sets, wt_log *log,
+                             wt_error *err)
 {
     const double wanted = n_sets > 0 ? sets[0].read.strain : (double)NAN;
     const size_t n = sweep->n_isotherms + sweep->n_ramps;

@@ -18,15 +18,17 @@ static struct law_text law_words(const table_view *shift)
     if (isnan(c1.value) && isnan(energy.value))
         snprintf(words.text, sizeof words.text, "no law of the shift factors");
     else if (isnan(c1.value))
-        snprintf(words.text, sizeof words.text, "Arrhenius with %s", words_of_known(energy).text);
+        snprintf(words.text, sizeof words.text, "Arrhenius with %s",
+                 format_known_estimate(energy).text);
     else
-        snprintf(words.text, sizeof words.text, "WLF C1 = %s, C2 = %s%s", words_of_known(c1).text,
-                 words_of_known(shift_factors_value(shift, SHIFT_FACTORS_KEY_WLF_C2)).text,
+        snprintf(words.text, sizeof words.text, "WLF C1 = %s, C2 = %s%s",
+                 format_known_estimate(c1).text,
+                 format_known_estimate(shift_factors_value(shift, SHIFT_FACTORS_KEY_WLF_C2)).text,
                  isnan(energy.value) ? "" : ", Arrhenius in the cold");
     return words;
 }
 
-void answer_rubber(const answer_story *story)
+void answer_rubber(const answer_context *story)
 {
     const table_view *shift = &story->shift_factors, *prony = &story->prony;
     if (shift->table == NULL || prony->table == NULL || story->found.comparison.table != NULL ||
@@ -38,12 +40,12 @@ void answer_rubber(const answer_story *story)
                       limit = prony_value(prony, PRONY_KEY_EQUILIBRIUM_LIMIT);
     const char *verdict = shift_factors_words(shift, SHIFT_FACTORS_KEY_SUPERPOSITION);
     const bool holds = strncmp(verdict, "holds", 5) == 0; /* else a caveat says it */
-    answer_say(story, "What is the rubber like?", "material",
-               "At %s, from %zu isotherms: %s; equilibrium modulus %s%s (%s).%s%s%s",
-               words_of_celsius(reference).text, shift->n_rows, law_words(shift).text,
-               isnan(limit.value) ? "" : "at most ",
-               words_of_known(isnan(limit.value) ? equilibrium : limit).text,
-               prony_words(prony, PRONY_KEY_DEFORMATION),
-               holds ? " Time-temperature superposition " : "", holds ? verdict : "",
-               holds ? "." : "");
+    answer_add_sentence(story, "What is the rubber like?", "material",
+                        "At %s, from %zu isotherms: %s; equilibrium modulus %s%s (%s).%s%s%s",
+                        format_celsius(reference).text, shift->n_rows, law_words(shift).text,
+                        isnan(limit.value) ? "" : "at most ",
+                        format_known_estimate(isnan(limit.value) ? equilibrium : limit).text,
+                        prony_words(prony, PRONY_KEY_DEFORMATION),
+                        holds ? " Time-temperature superposition " : "", holds ? verdict : "",
+                        holds ? "." : "");
 }

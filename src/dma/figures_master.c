@@ -201,12 +201,13 @@ static void draw_master_curve(figure_drawing *d)
 
 static void caption_isotherms(figure_drawing *d)
 {
-    text_say(
+    text_append_translated(
         &d->caption,
         " %zu %s. Those that superposition can join have the same form, moved along "
         "the axis of frequency or time; where one crosses its neighbours, look at the sample, the "
         "clamping and the oven first.",
-        count_isotherms(d), say_count(d->language, count_isotherms(d), "isotherm", "isotherms"));
+        count_isotherms(d),
+        translate_count(d->language, count_isotherms(d), "isotherm", "isotherms"));
 }
 
 static void caption_master_curve(figure_drawing *d)
@@ -217,21 +218,23 @@ static void caption_master_curve(figure_drawing *d)
     value_span fit = SPAN_EMPTY;
 
     if (isfinite(reference))
-        text_say(&d->caption, " of %s", VALUE(d->language, WT_Q_TEMPERATURE, NULL, reference));
-    text_say(&d->caption,
-             ", and tan δ below; %zu points of %zu %s, coloured by the temperature of "
-             "the measurement.",
-             n, count_isotherms(d),
-             say_count(d->language, count_isotherms(d), "isotherm", "isotherms"));
+        text_append_translated(&d->caption, " of %s",
+                               VALUE(d->language, WT_Q_TEMPERATURE, NULL, reference));
+    text_append_translated(
+        &d->caption,
+        ", and tan δ below; %zu points of %zu %s, coloured by the temperature of "
+        "the measurement.",
+        n, count_isotherms(d),
+        translate_count(d->language, count_isotherms(d), "isotherm", "isotherms"));
     span_add_column(&fit, d->table, MASTER_CURVE_FITTED_STORAGE, true);
     if (span_empty(&fit))
         return;
     if (terms > 0)
-        text_say(&d->caption, " Lines: one relaxation spectrum of %zu terms behind both moduli.",
-                 terms);
-    text_words(&d->caption,
-               " Grey: its 95 % interval, mostly narrower than the line. A good one has "
-               "the points of all temperatures on one line without steps.");
+        text_append_translated(
+            &d->caption, " Lines: one relaxation spectrum of %zu terms behind both moduli.", terms);
+    text_append_phrase(&d->caption,
+                       " Grey: its 95 % interval, mostly narrower than the line. A good one has "
+                       "the points of all temperatures on one line without steps.");
 }
 
 /* ---- after a step ---------------------------------------------------------------------------- */
@@ -269,12 +272,14 @@ static void caption_after_step(figure_drawing *d)
     const double reference =
         master_curve_value(d->table, MASTER_CURVE_KEY_REFERENCE_TEMPERATURE).value;
     if (isfinite(reference))
-        text_say(&d->caption, " of %s", VALUE(d->language, WT_Q_TEMPERATURE, NULL, reference));
-    text_say(&d->caption,
-             "; %zu points of %zu %s, coloured by the temperature of the measurement. "
-             "Line: one relaxation spectrum behind them; grey: its 95 %% interval.",
-             d->table->n_rows, count_isotherms(d),
-             say_count(d->language, count_isotherms(d), "isotherm", "isotherms"));
+        text_append_translated(&d->caption, " of %s",
+                               VALUE(d->language, WT_Q_TEMPERATURE, NULL, reference));
+    text_append_translated(
+        &d->caption,
+        "; %zu points of %zu %s, coloured by the temperature of the measurement. "
+        "Line: one relaxation spectrum behind them; grey: its 95 %% interval.",
+        d->table->n_rows, count_isotherms(d),
+        translate_count(d->language, count_isotherms(d), "isotherm", "isotherms"));
 }
 
 /* ---- superposition without a frequency ------------------------------------------------------- */
@@ -287,7 +292,7 @@ static void plot_plane(figure_drawing *d, const combination *x, const combinatio
                    column, column + 1, y->name, column, column + 1);
     if (line)
         plot_item(d, d->data[0], "%s with lines ls 11 title '%s'", using,
-                  say(d->language, one_spectrum));
+                  translate(d->language, one_spectrum));
     else
         plot_points(d, using, "points ls 51");
 }

@@ -50,9 +50,10 @@ static void draw_materials(figure_drawing *d)
     }
     plot_materials(d, STORAGE, true, "");
     plot_materials(d, LOSS, false, " dt (6,4)");
-    plot_other(d, "keyentry with lines ls 11 title '%s'", say(d->language, "storage modulus"));
+    plot_other(d, "keyentry with lines ls 11 title '%s'",
+               translate(d->language, "storage modulus"));
     plot_other(d, "keyentry with lines ls 11 dt (6,4) title '%s'",
-               say(d->language, "loss modulus"));
+               translate(d->language, "loss modulus"));
     plot_end(d);
     drawing_axis(d, "y", &d->figure->y[1], NULL, d->y[1]);
     text_add(&d->script, "unset key\n");
@@ -67,8 +68,9 @@ static void caption_materials(figure_drawing *d)
 {
     const double at = materials_value(d->table, MATERIALS_KEY_TEMPERATURE).value;
     if (isfinite(at))
-        text_say(&d->caption, " All at %s, each over the frequencies that were measured of it.",
-                 VALUE(d->language, WT_Q_TEMPERATURE, NULL, at));
+        text_append_translated(&d->caption,
+                               " All at %s, each over the frequencies that were measured of it.",
+                               VALUE(d->language, WT_Q_TEMPERATURE, NULL, at));
 }
 
 /* ---- ratios ---------------------------------------------------------------------------------- */
@@ -173,17 +175,18 @@ static void caption_material_ratio(figure_drawing *d)
     const char *settled = material_ratio_words(d->table, MATERIAL_RATIO_KEY_SETTLED_BY);
     const double at = material_ratio_value(d->table, MATERIAL_RATIO_KEY_TEMPERATURE).value;
     const wt_estimate frequency = material_ratio_value(d->table, MATERIAL_RATIO_KEY_FREQUENCY);
-    text_say(&d->caption, " Divided by %s.",
-             material_ratio_words(d->table, MATERIAL_RATIO_KEY_FIRST));
+    text_append_translated(&d->caption, " Divided by %s.",
+                           material_ratio_words(d->table, MATERIAL_RATIO_KEY_FIRST));
     if (isfinite(at))
-        text_say(&d->caption, " Over frequency: at %s.",
-                 VALUE(d->language, WT_Q_TEMPERATURE, NULL, at));
+        text_append_translated(&d->caption, " Over frequency: at %s.",
+                               VALUE(d->language, WT_Q_TEMPERATURE, NULL, at));
     if (d->width > 1 && isfinite(frequency.value)) /* beside it */
-        text_say(&d->caption, " Over temperature: at %s.", ESTIMATE(d->language, &frequency));
-    text_say(&d->caption, " Do they differ? %s.",
-             material_ratio_words(d->table, MATERIAL_RATIO_KEY_DIFFERS));
+        text_append_translated(&d->caption, " Over temperature: at %s.",
+                               ESTIMATE(d->language, &frequency));
+    text_append_translated(&d->caption, " Do they differ? %s.",
+                           material_ratio_words(d->table, MATERIAL_RATIO_KEY_DIFFERS));
     if (settled != NULL)
-        text_say(&d->caption, " What would settle it: %s.", settled);
+        text_append_translated(&d->caption, " What would settle it: %s.", settled);
 }
 
 /* ---- one law for samples --------------------------------------------------------------------- */
@@ -201,7 +204,7 @@ static void draw_common_law(figure_drawing *d)
     drawing_axis(d, "x", &d->figure->x, NULL, d->x);
     drawing_axis(d, "y", &d->figure->y[0], NULL, d->y[0]);
     text_format(&d->script, "set ylabel '%s' enhanced\n",
-                say(d->language, "Shift factor, log_{10} a_T"));
+                translate(d->language, "Shift factor, log_{10} a_T"));
     for (size_t i = 0; i < d->n_groups; i++) {
         plot_item(d, d->data[i], "($1+x_offset):($%d):($%d) with filledcurves ls %zu notitle",
                   LAW + 1, LAW + 2, 81 + i);
@@ -217,7 +220,7 @@ static void draw_common_law(figure_drawing *d)
         text_add(&d->script, "unset key\n");
         drawing_axis(d, "y", &d->figure->y[1], NULL, span);
         text_format(&d->script, "set ylabel '%s'\n",
-                    say(d->language, "Own law against it (decades)"));
+                    translate(d->language, "Own law against it (decades)"));
         plot_other(d, "0 with lines ls 12 notitle");
         for (size_t i = 0; i < d->n_groups; i++)
             plot_item(d, d->data[i],
@@ -231,11 +234,11 @@ static void draw_common_law(figure_drawing *d)
 static void caption_common_law(figure_drawing *d)
 {
     const char *settled = common_law_words(d->table, COMMON_LAW_KEY_SETTLED_BY);
-    text_say(&d->caption, " Reference temperatures: %s. One law? %s.",
-             common_law_words(d->table, COMMON_LAW_KEY_MOVED),
-             common_law_words(d->table, COMMON_LAW_KEY_AGREE));
+    text_append_translated(&d->caption, " Reference temperatures: %s. One law? %s.",
+                           common_law_words(d->table, COMMON_LAW_KEY_MOVED),
+                           common_law_words(d->table, COMMON_LAW_KEY_AGREE));
     if (settled != NULL)
-        text_say(&d->caption, " What would settle it: %s.", settled);
+        text_append_translated(&d->caption, " What would settle it: %s.", settled);
 }
 
 /* ---- descriptions ---------------------------------------------------------------------------- */

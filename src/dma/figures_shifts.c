@@ -88,7 +88,7 @@ static void plot_residual(figure_drawing *d)
     drawing_axis(d, "y", &d->figure->y[1], NULL, span_residual(d, offset));
     text_add(&d->script, "unset key\n");
     text_format(&d->script, "set ylabel '%s' enhanced\n",
-                say(d->language, "Residual, log_{10} a_T"));
+                translate(d->language, "Residual, log_{10} a_T"));
     plot_item(d, d->data[0],
               "($1+x_offset):(over($1+x_offset,$6)-$5):($7-$5) with filledcurves ls 61 "
               "notitle");
@@ -112,7 +112,7 @@ void draw_shift_factors(figure_drawing *d)
         return;
     drawing_axes(d);
     text_format(&d->script, "set ylabel '%s' enhanced\n",
-                say(d->language, "Shift factor, log_{10} a_T"));
+                translate(d->language, "Shift factor, log_{10} a_T"));
     const bool law = define_law(d);
     if (law) {
         d->height = 1.6;
@@ -120,17 +120,17 @@ void draw_shift_factors(figure_drawing *d)
         plot_item(d, d->data[0],
                   "($1+x_offset):(over($1+x_offset,$6)+offset):($7+offset) with filledcurves ls 61 "
                   "title '%s'",
-                  say(d->language, "95 % interval of the law"));
+                  translate(d->language, "95 % interval of the law"));
         plot_other(d, "law(x) with lines ls 11 title '%s'",
-                   say(d->language, law_is_given(d->table) ? "given law" : "fitted law"));
+                   translate(d->language, law_is_given(d->table) ? "given law" : "fitted law"));
     }
     plot_item(d, d->data[0], "($1+x_offset):($4 == 0 ? NaN : $2):3 with yerrorbars ls 1 title '%s'",
-              say(d->language, "from overlap"));
+              translate(d->language, "from overlap"));
     if (count_undetermined(d->table) > 0)
         plot_item(d, d->data[0],
                   "($1+x_offset):($4 == 0 ? $2 : NaN) with points ls 14 title "
                   "'%s'",
-                  say(d->language, "too little overlap"));
+                  translate(d->language, "too little overlap"));
     plot_end(d);
     if (!law)
         return;
@@ -146,20 +146,22 @@ void caption_shift_factors(figure_drawing *d)
                       energy = shift_factors_value(d->table, SHIFT_FACTORS_KEY_ACTIVATION_ENERGY);
     const char *verdict = shift_factors_words(d->table, SHIFT_FACTORS_KEY_SUPERPOSITION);
     if (isfinite(c1.value))
-        text_say(&d->caption, " Line: WLF law with C₁ = %s and C₂ = %s, %s.",
-                 ESTIMATE(d->language, &c1), ESTIMATE(d->language, &c2),
-                 say(d->language, law_is_given(d->table)
-                                      ? "by which the shifts were given"
-                                      : "with the offset of the reference isotherm that was "
-                                        "fitted; band: its 95 % interval"));
+        text_append_translated(
+            &d->caption, " Line: WLF law with C₁ = %s and C₂ = %s, %s.", ESTIMATE(d->language, &c1),
+            ESTIMATE(d->language, &c2),
+            translate(d->language, law_is_given(d->table)
+                                       ? "by which the shifts were given"
+                                       : "with the offset of the reference isotherm that was "
+                                         "fitted; band: its 95 % interval"));
     if (isfinite(energy.value))
-        text_say(&d->caption,
-                 isfinite(c1.value) ? " Arrhenius in the cold with %s." : " Arrhenius with %s.",
-                 ESTIMATE(d->language, &energy));
-    text_say(&d->caption, " Time-temperature superposition: %s.", verdict);
+        text_append_translated(&d->caption,
+                               isfinite(c1.value) ? " Arrhenius in the cold with %s."
+                                                  : " Arrhenius with %s.",
+                               ESTIMATE(d->language, &energy));
+    text_append_translated(&d->caption, " Time-temperature superposition: %s.", verdict);
     if (undetermined > 0)
-        text_say(&d->caption, " Not determined by overlap: %zu of %zu isotherms.", undetermined,
-                 d->table->n_rows);
+        text_append_translated(&d->caption, " Not determined by overlap: %zu of %zu isotherms.",
+                               undetermined, d->table->n_rows);
 }
 
 /* ---- vertical shifts ------------------------------------------------------------------------- */
@@ -171,13 +173,13 @@ void draw_vertical_shifts(figure_drawing *d)
         return;
     drawing_axes(d);
     text_format(&d->script, "set ylabel '%s' enhanced\n",
-                say(d->language, "Shift factor, log_{10} b_T"));
+                translate(d->language, "Shift factor, log_{10} b_T"));
     plot_item(d, d->data[0], "($1+x_offset):4 with lines ls 12 title '%s'",
-              say(d->language, "rubber elasticity"));
+              translate(d->language, "rubber elasticity"));
     plot_item(d, d->data[0], "($1+x_offset):5 with lines ls 11 title '%s'",
-              say(d->language, "material"));
+              translate(d->language, "material"));
     plot_item(d, d->data[0], "($1+x_offset):2:3 with yerrorbars ls 1 title '%s'",
-              say(d->language, "isotherms"));
+              translate(d->language, "isotherms"));
     plot_end(d);
 }
 
@@ -189,9 +191,10 @@ void caption_vertical_shifts(figure_drawing *d)
                            shift_factors_get(d->table, row, SHIFT_FACTORS_LOG_B_PHYSICAL);
         most = fmax(most, isfinite(off) ? fabs(off) : 0);
     }
-    text_say(&d->caption,
-             " A good one is smooth, and near the line of rubber elasticity above the glass "
-             "transition; here the isotherms are off it by up to %s decade. A filler that "
-             "softens with temperature or a clamp that yields leads away from it.",
-             NUMBER(d->language, most, 2));
+    text_append_translated(
+        &d->caption,
+        " A good one is smooth, and near the line of rubber elasticity above the glass "
+        "transition; here the isotherms are off it by up to %s decade. A filler that "
+        "softens with temperature or a clamp that yields leads away from it.",
+        NUMBER(d->language, most, 2));
 }

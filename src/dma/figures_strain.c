@@ -26,11 +26,11 @@ static void plot_points(figure_drawing *d, int column, int law, int style, const
         (void)snprintf(colour, sizeof colour, ":($%d*cb_unit)", FREQUENCY);
     if (has_law(d))
         plot_item(d, d->data[0], "($1*x_unit):($%d*y_unit) with lines ls 11 title '%s'", law,
-                  say(d->language, "law of Kraus"));
+                  translate(d->language, "law of Kraus"));
     plot_item(d, d->data[0], "($1*x_unit):($%d*y_unit)%s with points ls %d %s notitle", column,
               colour, style, coloured ? "lc palette" : "lc rgb 'black'");
     plot_other(d, "keyentry with points ls %d lc rgb '#111111' title '%s'", style,
-               say(d->language, title));
+               translate(d->language, title));
 }
 
 /* Where so much of the start is left. */
@@ -39,7 +39,7 @@ static void plot_mark(figure_drawing *d, payne_column strain, double left, const
     const unsigned columns[] = {strain, PAYNE_STORAGE_START};
     const int marks = drawing_section(d, &d->tables->payne, title, NULL, columns, 2, 2);
     plot_item(d, marks, "($1*x_unit):(%g*$2*y_unit) with points ls 14 ps 1.5 title '%s'", left,
-              say(d->language, title));
+              translate(d->language, title));
 }
 
 /* Storage modulus above, loss modulus below. */
@@ -74,12 +74,14 @@ static void caption_payne(figure_drawing *d)
         half += isnan(payne_get(sweeps, row, PAYNE_STRAIN_HALF)) ? 1 : 0;
     }
     const size_t n = wt_table_block(d->table->table, d->table->n_rows - 1) + 1;
-    text_say(&d->caption, say_count(d->language, n, " %zu strain sweep.", " %zu strain sweeps."),
-             n);
+    text_append_translated(
+        &d->caption, translate_count(d->language, n, " %zu strain sweep.", " %zu strain sweeps."),
+        n);
     if (without > 0)
-        text_say(&d->caption, " Without a law of Kraus: %zu.", without);
+        text_append_translated(&d->caption, " Without a law of Kraus: %zu.", without);
     if (half > 0)
-        text_say(&d->caption, " In which half of the storage modulus is not lost: %zu.", half);
+        text_append_translated(&d->caption,
+                               " In which half of the storage modulus is not lost: %zu.", half);
 }
 
 const figure_description figures_payne[] = {

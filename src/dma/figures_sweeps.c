@@ -21,9 +21,9 @@ static void draw_dma_comparison(figure_drawing *d)
     span_add_section(&d->y[0], d, section, 2, true);
     drawing_axes(d);
     plot_item(d, section, "($1*x_unit):($3*y_unit) smooth unique with lines ls 11 title '%s'",
-              say(d->language, "DMA |E*|"));
+              translate(d->language, "DMA |E*|"));
     plot_item(d, section, "($1*x_unit):($2*y_unit) smooth unique with lines ls 15 title '%s'",
-              say(d->language, "DMA E′"));
+              translate(d->language, "DMA E′"));
     drawing_curves(d, 0);
     plot_end(d);
 }
@@ -34,11 +34,12 @@ static void caption_dma_comparison(figure_drawing *d)
     for (size_t row = 0; row < n; row++)
         extrapolated += dma_comparison_get(d->table, row, DMA_COMPARISON_EXTRAPOLATED) > 0;
     if (extrapolated > 0)
-        text_say(&d->caption,
-                 " %zu of %zu points lie outside the measured frequencies of the master curve.",
-                 extrapolated, n);
+        text_append_translated(
+            &d->caption,
+            " %zu of %zu points lie outside the measured frequencies of the master curve.",
+            extrapolated, n);
     if (n > 0 && wt_table_block(d->table->table, n - 1) > 0)
-        text_words(&d->caption, " The DMA is that at the temperature of each group.");
+        text_append_phrase(&d->caption, " The DMA is that at the temperature of each group.");
 }
 
 /* ---- relaxation spectrum --------------------------------------------------------------------- */
@@ -51,9 +52,9 @@ static void draw_relaxation_spectrum(figure_drawing *d)
     plot_item(d, d->data[0],
               "($1*x_unit):($3*y_unit):($4*y_unit) with filledcurves ls 61 title "
               "'%s'",
-              say(d->language, "limits on the safe side of 95 %"));
+              translate(d->language, "limits on the safe side of 95 %"));
     plot_item(d, d->data[0], "($1*x_unit):($2*y_unit) with lines ls 11 title '%s'",
-              say(d->language, "spectrum"));
+              translate(d->language, "spectrum"));
     plot_end(d);
 }
 
@@ -66,7 +67,7 @@ static void plot_ramp(figure_drawing *d, int column, int style, const char *titl
     plot_item(d, d->data[0], "($1+x_offset):($%d*y_unit)%s with points ls %d %s notitle", column,
               coloured ? ":($5*cb_unit)" : "", style, coloured ? "lc palette" : "lc rgb 'black'");
     plot_other(d, "keyentry with points ls %d lc rgb '#111111' title '%s'", style,
-               say(d->language, title));
+               translate(d->language, title));
 }
 
 static void plot_peaks(figure_drawing *d, glass_transition_column peak, const char *title)
@@ -75,7 +76,7 @@ static void plot_peaks(figure_drawing *d, glass_transition_column peak, const ch
                                           GLASS_TRANSITION_FACTOR_PEAK};
     const int peaks = drawing_section(d, &d->tables->glass_transition, title, NULL, columns, 2, 2);
     plot_item(d, peaks, "($1+x_offset):($2*y_unit) with points ls 14 ps 1.5 title '%s'",
-              say(d->language, title));
+              translate(d->language, title));
 }
 
 /* Moduli above, loss factor below. */
@@ -111,10 +112,10 @@ static void caption_ramp(figure_drawing *d)
     size_t none = 0;
     for (size_t row = 0; row < peaks->n_rows; row++)
         none += isnan(glass_transition_get(peaks, row, GLASS_TRANSITION_FACTOR_PEAK)) ? 1 : 0;
-    text_say(&d->caption, " %zu temperature sweeps.",
-             wt_table_block(d->table->table, d->table->n_rows - 1) + 1);
+    text_append_translated(&d->caption, " %zu temperature sweeps.",
+                           wt_table_block(d->table->table, d->table->n_rows - 1) + 1);
     if (none > 0)
-        text_say(&d->caption, " Without a peak of tan δ in range: %zu.", none);
+        text_append_translated(&d->caption, " Without a peak of tan δ in range: %zu.", none);
 }
 
 /* ---- descriptions ---------------------------------------------------------------------------- */

@@ -31,34 +31,35 @@ static const struct system {
     [WT_SOLID_MM_T_S] = {"millimetre, tonne, second; stress in MPa", 1e6, 1, 1e12},
     [WT_SOLID_MM_KG_MS] = {"millimetre, kilogram, millisecond; stress in GPa", 1e9, 1e-3, 1e9}};
 
-wt_solid_options wt_solid_options_defaults(void)
+wt_fem_export_options wt_fem_export_options_defaults(void)
 {
-    return (wt_solid_options){
+    return (wt_fem_export_options){
         .poisson_ratio = 0.5, .density = (double)NAN, .expansion = (double)NAN};
 }
 
 static const wt_param rows[] = {
-    {PARAM_CHOICE_OF("export-units", wt_solid_options, units, "m-kg-s|mm-t-s|mm-kg-ms"),
+    {PARAM_CHOICE_OF("export-units", wt_fem_export_options, units, "m-kg-s|mm-t-s|mm-kg-ms"),
      .flags = PARAM_NO_CASE,
      .help = "of the files of --export: Pa and s, MPa and s, or GPa and ms"},
-    {PARAM_CHOICE_OF("export-temperature", wt_solid_options, temperature, "degC|K"),
+    {PARAM_CHOICE_OF("export-temperature", wt_fem_export_options, temperature, "degC|K"),
      .flags = PARAM_NO_CASE, .help = "unit of the temperatures in the files of --export"},
-    {PARAM_CHOICE_OF("export-domain", wt_solid_options, domain, "time|frequency"),
+    {PARAM_CHOICE_OF("export-domain", wt_fem_export_options, domain, "time|frequency"),
      .flags = PARAM_NO_CASE,
      .help =
          "Abaqus: *VISCOELASTIC, TIME=PRONY, or FREQUENCY=PRONY for vibrations at the reference "
          "temperature; the other programs take one file for both"},
-    {PARAM_TEXT_OF("export-name", wt_solid_options, name), .flags = PARAM_NO_CASE, .value = "NAME",
-     .unset = "RUBBER", .help = "name of the material in the files of --export"},
-    {PARAM("export-density", wt_solid_options, density, WT_Q_MASS_DENSITY, ABOVE(0)),
+    {PARAM_TEXT_OF("export-name", wt_fem_export_options, name), .flags = PARAM_NO_CASE,
+     .value = "NAME", .unset = "RUBBER", .help = "name of the material in the files of --export"},
+    {PARAM("export-density", wt_fem_export_options, density, WT_Q_MASS_DENSITY, ABOVE(0)),
      .flags = PARAM_NO_CASE, .value = "RHO", .unset = "not written",
      .help = "mass density, for the files of --export"},
-    {PARAM("export-expansion", wt_solid_options, expansion, WT_Q_THERMAL_EXPANSION, ABOVE(0)),
+    {PARAM("export-expansion", wt_fem_export_options, expansion, WT_Q_THERMAL_EXPANSION, ABOVE(0)),
      .flags = PARAM_NO_CASE, .value = "ALPHA", .unset = "not written",
      .help = "coefficient of linear thermal expansion, for the files of --export"},
-    POISSON_RATIO(wt_solid_options),
+    POISSON_RATIO(wt_fem_export_options),
 };
-PARAM_TABLE(wt_solid_options_params, wt_solid_options, rows, wt_solid_options_defaults, NO_PARTS)
+PARAM_TABLE(wt_fem_export_options_params, wt_fem_export_options, rows,
+            wt_fem_export_options_defaults, NO_PARTS)
 
 /* What is written, in the units of the file. */
 typedef struct solid {
@@ -67,7 +68,7 @@ typedef struct solid {
     wt_rubber rubber;
     table_view series, shifts_of; /* the second without a table: not known */
     const struct system *system;
-    const wt_solid_options *options;
+    const wt_fem_export_options *options;
     const char *name;
     bool incompressible;
     double nu, zero;           /* of the unit of temperature [K] */
@@ -280,13 +281,13 @@ static void say_series(solid *s)
             "%sPoisson's ratio %.6g at all times, so that bulk and shear modulus relax alike; "
             "bulk modulus %.6g, %.6g.\n",
             s->comment, s->nu, bulk_of(s, s->instant), bulk_of(s, s->long_term));
-    print_solid(
-        s,
-        "%sHolds for times from %s at the reference temperature; what is faster or "
-        "slower was not measured.\n",
-        s->comment,
-        ends_of(1 / p->frequency_max / s->system->time, 1 / p->frequency_min / s->system->time, 3)
-            .text);
+    print_solid(s,
+                "%sHolds for times from %s at the reference temperature; what is faster or "
+                "slower was not measured.\n",
+                s->comment,
+                format_range(1 / p->frequency_max / s->system->time,
+                             1 / p->frequency_min / s->system->time, 3)
+                    .text);
     print_solid(
         s,
         "%sStorage and loss modulus are within %.2g %% and %.2g %% of the spectrum that was "
@@ -512,11 +513,11 @@ static const struct program {
                 [WT_SOLID_CODE_ASTER] = {"code_aster", "# ", write_code_aster},
                 [WT_SOLID_TABLE] = {"table", "# ", write_table}};
 
-bool wt_solid_program_find(const char *name, size_t length, wt_solid_program *program)
+bool wt_fem_program_find(const char *name, size_t length, wt_fem_program *program)
 {
     for (size_t i = 0; i < COUNT_OF(programs); i++)
         if (strlen(programs[i].name) == length && strncmp(programs[i].name, name, length) == 0) {
-            *program = (wt_solid_program)i;
+            *program = (wt_fem_program)i;
             return true;
         }
     return false;
@@ -526,7 +527,7 @@ static const char default_name[] = "RUBBER";
 
 /* What all programs take for a name: Ansys names parameters with 32 characters at most, Code_Aster
  * concepts with 8. */
-static wt_status check_name(wt_solid_program program, const char *name, wt_error *err)
+static wt_status check_name(wt_fem_program program, const char *name, wt_error *err)
 {
     static const char letters[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz";
     static const char others[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789_";
@@ -541,9 +542,10 @@ static wt_status check_name(wt_solid_program program, const char *name, wt_error
     return WT_E_ARG;
 }
 
-wt_status wt_solid_check(wt_solid_program program, const wt_solid_options *options, wt_error *err)
+wt_status wt_fem_export_check(wt_fem_program program, const wt_fem_export_options *options,
+                              wt_error *err)
 {
-    wt_status status = param_check(wt_solid_options_params(), options, err);
+    wt_status status = param_check(wt_fem_export_options_params(), options, err);
     if (status == WT_OK)
         status = check_name(program, options->name, err);
     if (status != WT_OK || program != WT_SOLID_CODE_ASTER || options->poisson_ratio < 0.5)
@@ -555,9 +557,9 @@ wt_status wt_solid_check(wt_solid_program program, const wt_solid_options *optio
     return WT_E_RANGE;
 }
 
-wt_status wt_solid_write(FILE *out, wt_solid_program program, const wt_table *prony_reduced,
-                         const wt_table *shift_factors, const wt_solid_options *options,
-                         wt_error *err)
+wt_status wt_fem_export(FILE *out, wt_fem_program program, const wt_table *prony_reduced,
+                        const wt_table *shift_factors, const wt_fem_export_options *options,
+                        wt_error *err)
 {
     if (out == NULL || (size_t)program >= COUNT_OF(programs))
         return wt_fail(err, WT_E_ARG, "nothing to export to");
@@ -565,7 +567,7 @@ wt_status wt_solid_write(FILE *out, wt_solid_program program, const wt_table *pr
         return wt_fail(err, WT_E_MISSING,
                        "there is no series to export: the loss modulus or the "
                        "loss factor alone tells no level of the moduli");
-    const wt_solid_options o = options != NULL ? *options : wt_solid_options_defaults();
+    const wt_fem_export_options o = options != NULL ? *options : wt_fem_export_options_defaults();
     solid s = {.out = out,
                .comment = programs[program].comment,
                .options = &o,
@@ -573,7 +575,7 @@ wt_status wt_solid_write(FILE *out, wt_solid_program program, const wt_table *pr
                .nu = o.poisson_ratio,
                .incompressible = o.poisson_ratio >= 0.5,
                .zero = o.temperature == WT_SOLID_CELSIUS ? WT_ZERO_CELSIUS : 0};
-    wt_status status = wt_solid_check(program, &o, err);
+    wt_status status = wt_fem_export_check(program, &o, err);
     if (status == WT_OK)
         status = table_bind(prony_reduced, &prony_reduced_schema, "", &s.series, err);
     if (status == WT_OK && shift_factors != NULL)

@@ -23,8 +23,8 @@ wt_status flow_law_meant(const flow_law_text *law, const char *text, wt_status s
                          wt_error *err)
 {
     const size_t length = strcspn(text, ":");
-    nearest_name near = nearest_to(text, length);
-    nearest_try(&near, law->prefix, strlen(law->prefix) - 1);
+    spell_suggestion near = nearest_to(text, length);
+    spell_suggestion_try(&near, law->prefix, strlen(law->prefix) - 1);
     if (status != WT_E_NOT_FOUND || text[length] != ':' || near.name == NULL)
         return status;
     status = wt_fail(err, WT_E_ARG, "\"%s\" is no file, and no %s", text, law->name);
@@ -34,10 +34,10 @@ wt_status flow_law_meant(const flow_law_text *law, const char *text, wt_status s
 
 static void advise_parameter(const wt_params *params, const char *name, wt_error *err)
 {
-    nearest_name near = nearest_to(name, strlen(name));
+    spell_suggestion near = nearest_to(name, strlen(name));
     for (size_t i = 0; i < wt_params_count(params); i++) {
         const char *const known = wt_params_get(params, i)->name;
-        nearest_try(&near, known, strlen(known));
+        spell_suggestion_try(&near, known, strlen(known));
     }
     if (near.name != NULL)
         wt_error_advice(err, "did you mean %s?", near.name);

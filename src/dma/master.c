@@ -354,9 +354,9 @@ static wt_status check_strain(const wt_sweep *sweep, const wt_job *work, wt_erro
 {
     const size_t n = sweep->n_strain_sweeps;
     if (n > 0 && sweep->n_isotherms + sweep->n_ramps > 0)
-        wt_parselog_add(work->log, WT_WARNING, sweep->strain_sweeps[0].source, NULL,
-                        "%zu strain sweep%s left out of the master curve: see `weartrack payne`", n,
-                        n > 1 ? "s are" : " is");
+        wt_log_add(work->log, WT_WARNING, sweep->strain_sweeps[0].source, NULL,
+                   "%zu strain sweep%s left out of the master curve: see `weartrack payne`", n,
+                   n > 1 ? "s are" : " is");
     if (n == 0 || sweep->n_isotherms + sweep->n_ramps > 0)
         return WT_OK;
     wt_fail(err, WT_E_EMPTY, "a master curve needs isotherms");
@@ -377,9 +377,9 @@ static wt_status prepare_sweep(const wt_master_job *job, const wt_job *work, wt_
     if (status == WT_OK)
         status = flow_shifts_give(law, job->shifts, job->fit.vertical, sweep, work->log, err);
     if (status == WT_OK && law->kind != WT_LAW_NONE)
-        wt_parselog_add(work->log, WT_NOTE, NULL, NULL,
-                        "the shifts are those of the law that is given: its errors are in no "
-                        "interval");
+        wt_log_add(work->log, WT_NOTE, NULL, NULL,
+                   "the shifts are those of the law that is given: its errors are in no "
+                   "interval");
     return status;
 }
 
@@ -503,10 +503,10 @@ wt_status wt_rubber_refit(const wt_rubber *rubber, wt_vertical_shift vertical, w
 static void say_unfinished(const wt_master *m, const wt_job *work)
 {
     if (!is_settled(m))
-        wt_parselog_add(work->log, WT_WARNING, NULL, NULL,
-                        "the fit ended before it was settled: a further step would move a number "
-                        "by up to %.2g of its standard error",
-                        m->step_left);
+        wt_log_add(work->log, WT_WARNING, NULL, NULL,
+                   "the fit ended before it was settled: a further step would move a number "
+                   "by up to %.2g of its standard error",
+                   m->step_left);
 }
 
 /* In decades, of E' if it is told. */
@@ -524,10 +524,10 @@ static void say_cost(const wt_master *m, const wt_job *work)
     for (size_t i = 0; i < m->n; i++)
         error += M_LN10 * shown_error(m, i) / (double)m->n;
     cost_add_nodes(work->cost, m->evaluations);
-    cost_say(work, (cost_summary){.items = (double)m->n_shifts,
-                                  .tolerance_asked = m->step_allowed * error,
-                                  .error_estimated = m->step_left * error,
-                                  .number = {1, error, 0, "1"}});
+    cost_report(work, (cost_summary){.items = (double)m->n_shifts,
+                                     .tolerance_asked = m->step_allowed * error,
+                                     .error_estimated = m->step_left * error,
+                                     .number = {1, error, 0, "1"}});
 }
 
 wt_status wt_master_make(const wt_master_job *job, const wt_job *work, wt_master_tables *tables,

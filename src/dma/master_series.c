@@ -116,12 +116,12 @@ wt_status flow_reduced_table(const wt_master *m, const wt_master_job *job, const
         wt_prony_deviation(&m->prony, &p, deviation);
         const double most = fmax(deviation[0], deviation[1]);
         if (most > how->error)
-            wt_parselog_add(work->log, WT_WARNING, NULL, NULL,
-                            "the reduced Prony series of %zu term%s is off the spectrum by up to "
-                            "%.3g %%, more than the %.3g %% of --prony-error: %s",
-                            p.n, p.n == 1 ? "" : "s", 100 * most, 100 * how->error,
-                            how->terms > 0 ? "more terms are closer"
-                                           : "its long-term modulus may not be that of the rubber");
+            wt_log_add(work->log, WT_WARNING, NULL, NULL,
+                       "the reduced Prony series of %zu term%s is off the spectrum by up to "
+                       "%.3g %%, more than the %.3g %% of --prony-error: %s",
+                       p.n, p.n == 1 ? "" : "s", 100 * most, 100 * how->error,
+                       how->terms > 0 ? "more terms are closer"
+                                      : "its long-term modulus may not be that of the rubber");
     }
     wt_prony_clear(&p);
     return status;

@@ -150,8 +150,8 @@ static wt_status no_common_frequency(const wt_compared pair[2], const range own[
     wt_fail(err, WT_E_RANGE, "the materials have no frequency in common at %.1f °C",
             temperature - WT_ZERO_CELSIUS);
     wt_error_found(err, "%s: %s rad/s; %s: %s rad/s", pair[0].name,
-                   ends_of(own[0].low, own[0].high, 3).text, pair[1].name,
-                   ends_of(own[1].low, own[1].high, 3).text);
+                   format_range(own[0].low, own[0].high, 3).text, pair[1].name,
+                   format_range(own[1].low, own[1].high, 3).text);
     wt_error_advice(err, "compare them at another temperature (at-temperature), or measure at more "
                          "temperatures");
     return WT_E_RANGE;
@@ -169,8 +169,8 @@ static wt_status no_such_frequency(const wt_compared pair[2], const range own[2]
     wt_error_place(err, "at-frequency");
     wt_error_found(err, "%.3g rad/s; at %.1f °C %s: %s rad/s; %s: %s rad/s", s->at_frequency,
                    s->at_temperature - WT_ZERO_CELSIUS, pair[0].name,
-                   ends_of(own[0].low, own[0].high, 3).text, pair[1].name,
-                   ends_of(own[1].low, own[1].high, 3).text);
+                   format_range(own[0].low, own[0].high, 3).text, pair[1].name,
+                   format_range(own[1].low, own[1].high, 3).text);
     wt_error_advice(err, one ? "leave it out" : "choose one that both have at some temperature");
     return WT_E_RANGE;
 }
@@ -215,11 +215,11 @@ static wt_status over_temperature(const wt_compared pair[2], const setting *s, d
 
 /* Where superposition does not hold, one spectrum is off the isotherms by its misfit, and E'' by
  * what Kramers and Kronig demand of it. */
-static wt_status find_beside(const wt_compared *m, double sample_error, material_beside *b,
+static wt_status find_beside(const wt_compared *m, double sample_error, compared_material *b,
                              wt_error *err)
 {
     table_view view;
-    *b = (material_beside){.sample = {sample_error, sample_error, 0}};
+    *b = (compared_material){.sample = {sample_error, sample_error, 0}};
     if (m->shift_factors == NULL)
         return WT_OK;
     const wt_status status = table_bind(m->shift_factors, &shift_factors_schema, "", &view, err);
@@ -256,7 +256,7 @@ static wt_interval interval_of(double ln, double error)
                          exp(ln + NORMAL_95 * error)};
 }
 
-static wt_status add_material(const wt_compared *m, const material_beside *beside,
+static wt_status add_material(const wt_compared *m, const compared_material *beside,
                               double temperature, const wt_job *work, table_writer *t,
                               wt_error *err)
 {
@@ -298,10 +298,10 @@ static void put_ratios(table_writer *t, const char *name, const char *over,
 /* ---- words ----------------------------------------------------------------------------------- */
 
 /* Of all pairs together. */
-typedef struct sayings {
+typedef struct verdict_texts {
     char differs[1024], settled_by[640], outside[640];
     bool known, misfit; /* some interval is; one holds a misfit */
-} sayings;
+} verdict_texts;
 
 #define ADD(field, ...)                                                                            \
     do {                                                                                           \
@@ -313,7 +313,7 @@ typedef struct sayings {
 
 /* What one of them alone has, by a fifth of a decade or more. */
 static void say_outside(const wt_compared *m, range own, range shared, double temperature,
-                        sayings *s)
+                        verdict_texts *s)
 {
     const double at = temperature - WT_ZERO_CELSIUS;
     if (own.low < shared.low / 1.6 && own.low > 0)
@@ -322,7 +322,7 @@ static void say_outside(const wt_compared *m, range own, range shared, double te
         ADD(s->outside, "%s above %.2g rad/s at %.1f °C", m->name, shared.high, at);
 }
 
-static void say_temperatures(const wt_materials_job *job, const setting *set, sayings *s)
+static void say_temperatures(const wt_materials_job *job, const setting *set, verdict_texts *s)
 {
     const range r = set->temperature;
     for (size_t i = 0; i < job->n_materials; i++) {
@@ -343,8 +343,8 @@ static void say_temperatures(const wt_materials_job *job, const setting *set, sa
 
 /* A material against the first. */
 static wt_status add_pair(const wt_materials_job *job, const wt_compared pair[2],
-                          const material_beside beside[2], const wt_job *work, setting *s,
-                          table_writer *t, sayings *words, wt_error *err)
+                          const compared_material beside[2], const wt_job *work, setting *s,
+                          table_writer *t, verdict_texts *words, wt_error *err)
 {
     material_place place[MOST_PLACES + TEMPERATURES];
     material_values values[2] = {{0}, {0}};
@@ -388,7 +388,7 @@ static wt_status add_pair(const wt_materials_job *job, const wt_compared pair[2]
     return status;
 }
 
-static void set_keys(const wt_materials_job *job, const setting *s, const sayings *words,
+static void set_keys(const wt_materials_job *job, const setting *s, const verdict_texts *words,
                      table_writer *t)
 {
     material_ratio_keys keys = {words->differs,
@@ -420,10 +420,10 @@ static void warn_deformation(const wt_materials_job *job, const wt_job *work)
     for (size_t i = 1; i < job->n_materials; i++) {
         const wt_compared *m = &job->materials[i];
         if (m->rubber->prony.deformation != first->rubber->prony.deformation)
-            wt_parselog_add(work->log, WT_WARNING, m->name, NULL,
-                            "one of %s and %s was measured in shear and the other in tension: E = "
-                            "2 (1 + %g) G, and what that is off by the ratio of moduli is off by",
-                            first->name, m->name, m->rubber->poisson_ratio);
+            wt_log_add(work->log, WT_WARNING, m->name, NULL,
+                       "one of %s and %s was measured in shear and the other in tension: E = "
+                       "2 (1 + %g) G, and what that is off by the ratio of moduli is off by",
+                       first->name, m->name, m->rubber->poisson_ratio);
     }
 }
 
@@ -431,8 +431,8 @@ static wt_status make_tables(const wt_materials_job *job, const wt_job *work,
                              wt_materials_tables *tables, wt_error *err)
 {
     setting s = {.at_frequency = job->frequency};
-    sayings words = {.known = false};
-    material_beside first;
+    verdict_texts words = {.known = false};
+    compared_material first;
     wt_status status = find_temperature(job, &s, err);
     if (status == WT_OK)
         status = find_beside(&job->materials[0], job->sample_error, &first, err);
@@ -443,7 +443,7 @@ static wt_status make_tables(const wt_materials_job *job, const wt_job *work,
                  ratios = table_begin(&material_ratio_schema, err);
     for (size_t i = 0; status == WT_OK && i < job->n_materials; i++) {
         const wt_compared pair[2] = {job->materials[0], job->materials[i]};
-        material_beside beside[2] = {first, first};
+        compared_material beside[2] = {first, first};
         status = find_beside(&pair[1], job->sample_error, &beside[1], err);
         words.misfit = words.misfit || beside[1].misfit[MATERIALS_E1] > 0;
         if (status == WT_OK)

@@ -21,12 +21,12 @@ typedef struct material_values {
 } material_values;
 
 /* Relative errors that the draws do not hold, by quantity. */
-typedef struct material_beside {
+typedef struct compared_material {
     double misfit[MATERIALS_QUANTITIES], sample[MATERIALS_QUANTITIES];
-} material_beside;
+} compared_material;
 
 /* v: cleared by the caller, also on failure. */
-wt_status material_values_make(const wt_rubber *rubber, const material_beside *beside,
+wt_status material_values_make(const wt_rubber *rubber, const compared_material *beside,
                                const material_place *place, size_t n, const wt_job *work,
                                material_values *v, wt_error *err) WT_NODISCARD;
 void material_values_clear(material_values *v);
@@ -48,7 +48,7 @@ typedef struct material_verdict {
 
 /* Of the second against the first. */
 material_verdict material_judge(const wt_compared pair[2], const material_values values[2],
-                                const material_beside beside[2], const material_ratio *ratio,
+                                const compared_material beside[2], const material_ratio *ratio,
                                 double margin);
 
 #endif

@@ -62,7 +62,7 @@ static void centre_draws(material_values *v)
     }
 }
 
-wt_status material_values_make(const wt_rubber *rubber, const material_beside *beside,
+wt_status material_values_make(const wt_rubber *rubber, const compared_material *beside,
                                const material_place *place, size_t n, const wt_job *work,
                                material_values *v, wt_error *err)
 {

@@ -13,16 +13,16 @@ enum { Q = MATERIALS_QUANTITIES };
 static const char *const quantity_names[Q] = {"E'", "E''", "tan delta"};
 
 /* One quantity over all that was compared. */
-typedef struct finding {
+typedef struct result_value {
     double low, high;     /* the ratio */
     bool differs, within; /* somewhere for sure; everywhere within the margin */
     size_t widest;        /* where the interval reaches furthest from one */
     double reach;         /* that far, in ln */
-} finding;
+} result_value;
 
-static finding find_difference(const material_ratio *r, int q, double margin)
+static result_value find_difference(const material_ratio *r, int q, double margin)
 {
-    finding f = {(double)INFINITY, 0, false, true, 0, 0};
+    result_value f = {(double)INFINITY, 0, false, true, 0, 0};
     for (size_t i = 0; i < r->n; i++) {
         const double x = r->value[i * Q + (size_t)q], e = r->error[i * Q + (size_t)q];
         const double reach = fabs(x) + NORMAL_95 * e;
@@ -44,7 +44,8 @@ static finding find_difference(const material_ratio *r, int q, double margin)
         clocale_print((field) + used_, sizeof(field) - used_, __VA_ARGS__);                        \
     } while (0)
 
-static void say_list(char *text, size_t size, const finding *f, bool (*is_one)(const finding *))
+static void say_list(char *text, size_t size, const result_value *f,
+                     bool (*is_one)(const result_value *))
 {
     size_t n = 0, left = 0;
     for (int q = 0; q < Q; q++)
@@ -62,17 +63,17 @@ static void say_list(char *text, size_t size, const finding *f, bool (*is_one)(c
     }
 }
 
-static bool is_alike(const finding *f)
+static bool is_alike(const result_value *f)
 {
     return f->within && !f->differs;
 }
 
-static bool is_open(const finding *f)
+static bool is_open(const result_value *f)
 {
     return !f->within && !f->differs;
 }
 
-static void say_difference(const finding *f, const wt_compared pair[2], material_verdict *v)
+static void say_difference(const result_value *f, const wt_compared pair[2], material_verdict *v)
 {
     int n = 0, left = 0;
     for (int q = 0; q < Q; q++)
@@ -100,8 +101,8 @@ static void say_difference(const finding *f, const wt_compared pair[2], material
 }
 
 /* What the interval is mostly made of, where it reaches furthest. */
-static void say_what_settles(const finding *f, const wt_compared pair[2],
-                             const material_values values[2], const material_beside beside[2],
+static void say_what_settles(const result_value *f, const wt_compared pair[2],
+                             const material_values values[2], const compared_material beside[2],
                              material_verdict *v)
 {
     int worst = -1;
@@ -146,11 +147,11 @@ static void say_no_error(const wt_compared pair[2], const material_values values
 }
 
 material_verdict material_judge(const wt_compared pair[2], const material_values values[2],
-                                const material_beside beside[2], const material_ratio *ratio,
+                                const compared_material beside[2], const material_ratio *ratio,
                                 double margin)
 {
     material_verdict v = {0};
-    finding f[Q];
+    result_value f[Q];
     bool differs = false, within = true;
     if (!ratio->known) {
         say_no_error(pair, values, &v);

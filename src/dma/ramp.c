@@ -136,12 +136,12 @@ static double loss_factor(const wt_ramp *ramp, size_t i)
     return ramp->loss_factor != NULL ? ramp->loss_factor[i] : (double)NAN;
 }
 
-static wt_status take_usable(const wt_ramp *ramp, pool *memory, wt_parselog *log, usable *u,
+static wt_status take_usable(const wt_ramp *ramp, arena *memory, wt_log *log, usable *u,
                              wt_error *err)
 {
-    *u = (usable){.temperature = pool_numbers(memory, ramp->n)};
+    *u = (usable){.temperature = arena_numbers(memory, ramp->n)};
     for (int q = 0; q < QUANTITIES; q++)
-        u->value[q] = pool_numbers(memory, ramp->n);
+        u->value[q] = arena_numbers(memory, ramp->n);
     if (memory->failed)
         return wt_fail(err, WT_E_MEMORY, "out of memory");
     for (size_t i = 0; i < ramp->n; i++) {
@@ -163,10 +163,10 @@ static wt_status take_usable(const wt_ramp *ramp, pool *memory, wt_parselog *log
         u->n++;
     }
     if (u->n < ramp->n)
-        wt_parselog_add(log, WT_WARNING, ramp->source, NULL,
-                        "temperature sweep at %.4g rad/s: %zu of %zu points left out, no positive "
-                        "modulus",
-                        ramp->angular_frequency, ramp->n - u->n, ramp->n);
+        wt_log_add(log, WT_WARNING, ramp->source, NULL,
+                   "temperature sweep at %.4g rad/s: %zu of %zu points left out, no positive "
+                   "modulus",
+                   ramp->angular_frequency, ramp->n - u->n, ramp->n);
     return WT_OK;
 }
 
@@ -227,7 +227,7 @@ static wt_status put_others(table_writer *t, const wt_ramp *ramp, const usable *
     wt_peak lower[MOST_OTHERS];
     size_t n = 0;
     const wt_status status =
-        wt_peaks_beside(u->temperature, u->value[q], u->n, MOST_OTHERS, lower, &n, err);
+        wt_secondary_peaks(u->temperature, u->value[q], u->n, MOST_OTHERS, lower, &n, err);
     for (size_t i = 0; i < n; i++) {
         const wt_peak none = {.found = false,
                               .why_not = q == LOSS ? "of the loss modulus" : "of tan delta"};
@@ -353,7 +353,7 @@ static wt_status put_all(const wt_ramp_job *job, const wt_job *work, const wt_sw
     wt_status status = WT_OK;
     for (size_t i = 0; i < sweep->n_ramps && status == WT_OK; i++) {
         const wt_ramp *ramp = &sweep->ramps[i];
-        pool memory = {0};
+        arena memory = {0};
         usable u;
         peaks found = {0};
         put_points(&w->ramp, ramp);
@@ -362,7 +362,7 @@ static wt_status put_all(const wt_ramp_job *job, const wt_job *work, const wt_sw
             status = put_transition(&w->transition, job, ramp, &u, &found, err);
         if (status == WT_OK)
             status = put_moduli(&w->moduli, job, ramp, &u, err);
-        pool_free(&memory);
+        arena_free(&memory);
         add_motion(&factors, &found.factor, ramp->angular_frequency);
         add_motion(&losses, &found.loss, ramp->angular_frequency);
         const double off = fabs(log(ramp->angular_frequency / (2 * M_PI)));
@@ -430,7 +430,7 @@ wt_status wt_ramp_make(const wt_ramp_job *job, const wt_job *work, wt_ramp_table
     if (status == WT_OK)
         status = make_tables(job, work, &sweep, &t, err);
     if (status == WT_OK) {
-        cost_say(work, (cost_summary){.items = (double)sweep.n_ramps});
+        cost_report(work, (cost_summary){.items = (double)sweep.n_ramps});
         *tables = t;
         t = (wt_ramp_tables){0};
     }

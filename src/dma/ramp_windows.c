@@ -239,34 +239,33 @@ static wt_status check_isotherms(const wt_sweep *sweep, wt_error *err)
 }
 
 static void warn_of_windows(const wt_sweep *sweep, const windows *w, const wt_master *master,
-                            bool given, double moved, wt_parselog *log)
+                            bool given, double moved, wt_log *log)
 {
     const size_t frequencies = count_frequencies(sweep);
-    wt_parselog_add(log, WT_NOTE, sweep->ramps[0].source, NULL,
-                    "%zu temperature sweep%s at %zu frequenc%s %s fitted as %zu isotherms, each "
-                    "point brought to the temperature of its isotherm by the shift law%s",
-                    sweep->n_ramps, sweep->n_ramps > 1 ? "s" : "", frequencies,
-                    frequencies > 1 ? "ies" : "y", sweep->n_ramps > 1 ? "are" : "is", w->n,
-                    given ? " that is given" : "");
+    wt_log_add(log, WT_NOTE, sweep->ramps[0].source, NULL,
+               "%zu temperature sweep%s at %zu frequenc%s %s fitted as %zu isotherms, each "
+               "point brought to the temperature of its isotherm by the shift law%s",
+               sweep->n_ramps, sweep->n_ramps > 1 ? "s" : "", frequencies,
+               frequencies > 1 ? "ies" : "y", sweep->n_ramps > 1 ? "are" : "is", w->n,
+               given ? " that is given" : "");
     if (w->n_left_out > 0)
-        wt_parselog_add(log, WT_WARNING, sweep->ramps[0].source, NULL,
-                        "%zu points of the temperature sweeps left out, no positive modulus",
-                        w->n_left_out);
+        wt_log_add(log, WT_WARNING, sweep->ramps[0].source, NULL,
+                   "%zu points of the temperature sweeps left out, no positive modulus",
+                   w->n_left_out);
     if (moved >= enough)
-        wt_parselog_add(log, WT_WARNING, sweep->ramps[0].source, NULL,
-                        "the shift law and what it makes of the temperature sweeps do not agree "
-                        "to better than %.2g decades",
-                        moved);
+        wt_log_add(log, WT_WARNING, sweep->ramps[0].source, NULL,
+                   "the shift law and what it makes of the temperature sweeps do not agree "
+                   "to better than %.2g decades",
+                   moved);
     if (master->law.kind == WT_LAW_NONE)
-        wt_parselog_add(log, WT_WARNING, sweep->ramps[0].source, NULL,
-                        "no shift law brings the points of the temperature sweeps to one "
-                        "temperature: those of %.1f K count as an isotherm",
-                        w->point[w->first[1] - 1].temperature - w->point[0].temperature);
+        wt_log_add(log, WT_WARNING, sweep->ramps[0].source, NULL,
+                   "no shift law brings the points of the temperature sweeps to one "
+                   "temperature: those of %.1f K count as an isotherm",
+                   w->point[w->first[1] - 1].temperature - w->point[0].temperature);
 }
 
 wt_status flow_ramps_fit(wt_sweep *sweep, const wt_master_options *options,
-                         const wt_shift_law *given, wt_parselog *log, wt_master *master,
-                         wt_error *err)
+                         const wt_shift_law *given, wt_log *log, wt_master *master, wt_error *err)
 {
     windows w = {0};
     const bool known = given->kind != WT_LAW_NONE;

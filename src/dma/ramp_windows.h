@@ -9,7 +9,7 @@
  * temperature of its isotherm by the law, and fits all of them. A law that is given (kind NONE:
  * none is) holds their shifts too; without one WT_E_MISSING for one frequency alone. */
 wt_status flow_ramps_fit(wt_sweep *sweep, const wt_master_options *options,
-                         const wt_shift_law *given, wt_parselog *log, wt_master *master,
+                         const wt_shift_law *given, wt_log *log, wt_master *master,
                          wt_error *err) WT_NODISCARD;
 
 #endif

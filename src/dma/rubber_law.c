@@ -263,10 +263,11 @@ size_t wt_rubber_describe(const wt_rubber *rubber, char *buffer, size_t size)
 {
     char law[128] = "", transverse[256] = "";
     if (rubber->kind == WT_RUBBER_TABLE)
-        clocale_print(law, sizeof law, "%zu points from %s rad/s, outside the end %s",
-                      rubber->sweep.isotherms[0].n,
-                      ends_of(rubber->prony.frequency_min, rubber->prony.frequency_max, 3).text,
-                      rubber->extrapolation == WT_EXTRAPOLATE_HOLD ? "values" : "slopes");
+        clocale_print(
+            law, sizeof law, "%zu points from %s rad/s, outside the end %s",
+            rubber->sweep.isotherms[0].n,
+            format_range(rubber->prony.frequency_min, rubber->prony.frequency_max, 3).text,
+            rubber->extrapolation == WT_EXTRAPOLATE_HOLD ? "values" : "slopes");
     else if (rubber->kind == WT_RUBBER_ZENER)
         clocale_print(law, sizeof law,
                       "fractional Zener, E0 %.4g Pa, Eg %.4g Pa, tau %.4g s, alpha %.4g",

@@ -105,7 +105,7 @@ wt_status flow_sample_take(wt_sweep *sweep, const char *name, wt_error *err)
 }
 
 /* Two files that measured at one temperature and say nothing of a sample. */
-static void warn_of_files(const wt_sweep *sweep, wt_parselog *log)
+static void warn_of_files(const wt_sweep *sweep, wt_log *log)
 {
     for (size_t i = 1; i < sweep->n_isotherms; i++) {
         const wt_isotherm *a = &sweep->isotherms[i - 1], *b = &sweep->isotherms[i];
@@ -114,16 +114,16 @@ static void warn_of_files(const wt_sweep *sweep, wt_parselog *log)
             !(fabs(a->temperature - b->temperature) <= same_temperature) ||
             (strcspn(b->source, ",") == length && strncmp(a->source, b->source, length) == 0))
             continue;
-        wt_parselog_add(log, WT_WARNING, b->source, NULL,
-                        "measured at %.1f degC like %.*s: taken as one material measured again; if "
-                        "each file is of a material, give --sample-by file",
-                        b->temperature - WT_ZERO_CELSIUS, (int)length, a->source);
+        wt_log_add(log, WT_WARNING, b->source, NULL,
+                   "measured at %.1f degC like %.*s: taken as one material measured again; if "
+                   "each file is of a material, give --sample-by file",
+                   b->temperature - WT_ZERO_CELSIUS, (int)length, a->source);
         return;
     }
 }
 
 wt_status flow_one_sample(const wt_sweep *sweep, const wt_file_set *sets, size_t n_sets,
-                          wt_parselog *log, wt_error *err)
+                          wt_log *log, wt_error *err)
 {
     char found[256] = "";
     wt_samples samples = {0, NULL};

@@ -16,36 +16,37 @@ static const double level = 0.01;
 /* Letters that a sample takes beside its name, whatever its numbers are. */
 enum { MOST_WORDS = 160 };
 
-wt_common_law_job wt_common_law_job_defaults(void)
+wt_shared_shift_law_job wt_shared_shift_law_job_defaults(void)
 {
-    return (wt_common_law_job){.reference = (double)NAN, .margin = 0.1};
+    return (wt_shared_shift_law_job){.reference = (double)NAN, .margin = 0.1};
 }
 
 static const wt_param rows[] = {
-    {PARAM_CHOICE_OF("common-law", wt_common_law_job, common, "none|same|moved"),
+    {PARAM_CHOICE_OF("common-law", wt_shared_shift_law_job, common, "none|same|moved"),
      .flags = PARAM_NO_CASE,
      .help = "of several samples fit one law of the shift factors, too, and say whether they have "
              "one: same: the same constants at the same reference temperature; moved: the same "
              "constants, each sample at a reference temperature of its own, as rubbers of one kind "
              "whose glass transitions differ"},
-    {PARAM("common-law-margin", wt_common_law_job, margin, WT_Q_NONE, ABOVE(0)), .value = "X",
+    {PARAM("common-law-margin", wt_shared_shift_law_job, margin, WT_Q_NONE, ABOVE(0)), .value = "X",
      .flags = PARAM_NO_CASE,
      .help = "decades of log a that do not matter: that samples have one law is said only if the "
              "intervals of what their own laws differ from it lie within them"},
 };
-PARAM_TABLE(wt_common_law_job_params, wt_common_law_job, rows, wt_common_law_job_defaults, NO_PARTS)
+PARAM_TABLE(wt_shared_shift_law_job_params, wt_shared_shift_law_job, rows,
+            wt_shared_shift_law_job_defaults, NO_PARTS)
 
 /* ---- the table ------------------------------------------------------------------------------- */
 
 TABLE_ROW(common_law, COMMON_LAW, const char *sample, *note; wt_interval moved;
-          wt_common_point point;)
+          wt_shared_law_point point;)
 
-static void put_sample(const wt_common_law_job *job, const wt_common_law *law, size_t sample,
-                       table_writer *t)
+static void put_sample(const wt_shared_shift_law_job *job, const wt_shared_shift_law *law,
+                       size_t sample, table_writer *t)
 {
     const double none = (double)NAN;
     const wt_interval unknown = {none, none, none, none};
-    const wt_common_member *m = &law->members[sample];
+    const wt_shared_law_member *m = &law->members[sample];
     const wt_interval moved = job->common == WT_COMMON_MOVED ? m->moved : unknown;
     table_block(t);
     if (!m->used)
@@ -59,7 +60,7 @@ static void put_sample(const wt_common_law_job *job, const wt_common_law *law, s
 /* ---- words ----------------------------------------------------------------------------------- */
 
 /* The end of an interval of a difference that is furthest from 0; NaN: none is known. */
-static double furthest_difference(const wt_common_law *law, size_t *sample)
+static double furthest_difference(const wt_shared_shift_law *law, size_t *sample)
 {
     double most = (double)NAN;
     for (size_t i = 0; i < law->n; i++) {
@@ -73,7 +74,8 @@ static double furthest_difference(const wt_common_law *law, size_t *sample)
     return most;
 }
 
-static void set_verdict(const wt_common_law_job *job, const wt_common_law *law, table_writer *t)
+static void set_verdict(const wt_shared_shift_law_job *job, const wt_shared_shift_law *law,
+                        table_writer *t)
 {
     size_t sample = 0;
     const double most = furthest_difference(law, &sample);
@@ -113,7 +115,7 @@ static void set_verdict(const wt_common_law_job *job, const wt_common_law *law, 
 }
 
 /* As --shift-law takes it, at a reference temperature. */
-static void law_words(const wt_common_law *law, double reference, char *text, size_t size)
+static void law_words(const wt_shared_shift_law *law, double reference, char *text, size_t size)
 {
     if (law->kind == WT_LAW_WLF)
         clocale_print(text, size, "wlf:reference-temperature=%.6gdegC,c1=%.6g,c2=%.6gK",
@@ -129,7 +131,7 @@ typedef struct list {
     size_t size, used;
 } list;
 
-static list make_list(const wt_common_law_job *job)
+static list make_list(const wt_shared_shift_law_job *job)
 {
     list made = {.size = 1};
     for (size_t i = 0; i < job->n; i++)
@@ -150,13 +152,14 @@ static void add_words(list *to, const char *format, ...)
     to->used += strlen(to->text + to->used);
 }
 
-static void set_each(const wt_common_law_job *job, const wt_common_law *law, table_writer *t)
+static void set_each(const wt_shared_shift_law_job *job, const wt_shared_shift_law *law,
+                     table_writer *t)
 {
     char one[MOST_WORDS];
     const bool each = job->common == WT_COMMON_MOVED;
     list moved = make_list(job), given = make_list(job), without = make_list(job);
     for (size_t i = 0; i < law->n_members; i++) {
-        const wt_common_member *m = &law->members[i];
+        const wt_shared_law_member *m = &law->members[i];
         if (!m->used) {
             add_words(&without, "%s%s: %s", without.used > 0 ? ", " : "", job->names[i],
                       m->why_not);
@@ -185,7 +188,7 @@ static void set_each(const wt_common_law_job *job, const wt_common_law *law, tab
     free(without.text);
 }
 
-static void set_constants(const wt_common_law *law, table_writer *t)
+static void set_constants(const wt_shared_shift_law *law, table_writer *t)
 {
     const bool wlf = law->kind == WT_LAW_WLF;
     common_law_set_text(t, COMMON_LAW_KEY_LAW, wlf ? "WLF" : "Arrhenius");
@@ -201,14 +204,15 @@ static void set_constants(const wt_common_law *law, table_writer *t)
     common_law_set_value(t, COMMON_LAW_KEY_TEMPERATURE_SPREAD, law->spread, (double)NAN, 0);
 }
 
-wt_status wt_common_law_make(const wt_common_law_job *job, wt_table **table, wt_error *err)
+wt_status wt_shared_shift_law_make(const wt_shared_shift_law_job *job, wt_table **table,
+                                   wt_error *err)
 {
     if (job == NULL || table == NULL || job->names == NULL)
         return wt_fail(err, WT_E_ARG, "no samples for a common law");
-    wt_common_law law = {0};
-    wt_status status = param_check(wt_common_law_job_params(), job, err);
+    wt_shared_shift_law law = {0};
+    wt_status status = param_check(wt_shared_shift_law_job_params(), job, err);
     if (status == WT_OK)
-        status = wt_common_law_fit(job->fits, job->n, job->common, job->reference, &law, err);
+        status = wt_shared_shift_law_fit(job->fits, job->n, job->common, job->reference, &law, err);
     if (status != WT_OK)
         return status;
     table_writer t = table_begin(&common_law_schema, err);
@@ -217,6 +221,6 @@ wt_status wt_common_law_make(const wt_common_law_job *job, wt_table **table, wt_
     set_verdict(job, &law, &t);
     set_constants(&law, &t);
     set_each(job, &law, &t);
-    wt_common_law_clear(&law);
+    wt_shared_shift_law_clear(&law);
     return table_end(&t, table);
 }

@@ -57,9 +57,9 @@ static const flow_law_text arrhenius_text = {.prefix = "arrhenius:",
 static void advise_law(const char *text, wt_error *err)
 {
     static const flow_law_text *const laws[] = {&wlf_text, &arrhenius_text};
-    nearest_name near = nearest_to(text, strcspn(text, ":"));
+    spell_suggestion near = nearest_to(text, strcspn(text, ":"));
     for (size_t i = 0; i < sizeof laws / sizeof *laws; i++)
-        nearest_try(&near, laws[i]->prefix, strlen(laws[i]->prefix) - 1);
+        spell_suggestion_try(&near, laws[i]->prefix, strlen(laws[i]->prefix) - 1);
     if (near.name != NULL)
         wt_error_advice(err, "did you mean %.*s?", (int)near.name_length, near.name);
 }
@@ -208,7 +208,7 @@ static wt_status give_vertical(const wt_table *table, size_t row, wt_vertical_sh
 }
 
 static wt_status give_table(const wt_table *table, wt_vertical_shift vertical, wt_sweep *sweep,
-                            wt_parselog *log, wt_error *err)
+                            wt_log *log, wt_error *err)
 {
     const long temperature = wt_table_find(table, "temperature"),
                log_a = wt_table_find(table, "log_a");
@@ -251,23 +251,21 @@ static wt_status give_table(const wt_table *table, wt_vertical_shift vertical, w
         wt_error_expected(err, "log_a at temperatures within %g K of theirs", same_temperature);
         return WT_E_MISSING;
     }
-    wt_parselog_add(
-        log, WT_NOTE, NULL, NULL,
-        "%zu of %zu shifts are as given, %zu of them with their vertical shift, without "
-        "an error of their own; the others are fitted",
-        given, sweep->n_isotherms, held);
+    wt_log_add(log, WT_NOTE, NULL, NULL,
+               "%zu of %zu shifts are as given, %zu of them with their vertical shift, without "
+               "an error of their own; the others are fitted",
+               given, sweep->n_isotherms, held);
     const size_t unused = count_unused(&r, sweep);
     if (unused > 0)
-        wt_parselog_add(log, WT_WARNING, NULL, NULL,
-                        "%zu of the %zu given shifts are of no isotherm: no temperature within %g "
-                        "K of theirs was measured",
-                        unused, wt_table_n_rows(table), same_temperature);
+        wt_log_add(log, WT_WARNING, NULL, NULL,
+                   "%zu of the %zu given shifts are of no isotherm: no temperature within %g "
+                   "K of theirs was measured",
+                   unused, wt_table_n_rows(table), same_temperature);
     return WT_OK;
 }
 
 wt_status flow_shifts_give(const wt_shift_law *law, const wt_table *table,
-                           wt_vertical_shift vertical, wt_sweep *sweep, wt_parselog *log,
-                           wt_error *err)
+                           wt_vertical_shift vertical, wt_sweep *sweep, wt_log *log, wt_error *err)
 {
     wt_status status = law->kind != WT_LAW_NONE ? give_law(law, sweep, err) : WT_OK;
     if (status == WT_OK && table != NULL)

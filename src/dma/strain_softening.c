@@ -18,26 +18,26 @@ static wt_status no_memory(wt_error *err)
     return wt_fail(err, WT_E_MEMORY, "out of memory for the softening with strain");
 }
 
-wt_softness_choice wt_softness_choice_defaults(void)
+wt_strain_softening_choice wt_strain_softening_choice_defaults(void)
 {
-    return (wt_softness_choice){.temperature = (double)NAN};
+    return (wt_strain_softening_choice){.temperature = (double)NAN};
 }
 
-void wt_softness_clear(wt_softness *softness)
+void wt_strain_softening_clear(wt_strain_softening *softness)
 {
     if (softness == NULL)
         return;
     free(softness->table.strain); /* the others stand behind it */
-    *softness = (wt_softness){0};
+    *softness = (wt_strain_softening){0};
 }
 
 /* Room for n points, with errors or without. */
-static wt_status make_room(wt_softness *s, size_t n, bool errors, wt_error *err)
+static wt_status make_room(wt_strain_softening *s, size_t n, bool errors, wt_error *err)
 {
     double *numbers = calloc(5 * n, sizeof *numbers);
     if (numbers == NULL)
         return no_memory(err);
-    *s = (wt_softness){
+    *s = (wt_strain_softening){
         .table = {.n = n, .strain = numbers, .storage = numbers + n, .loss = numbers + 2 * n},
         .temperature = (double)NAN};
     if (errors) {
@@ -70,7 +70,7 @@ static const double same_strain = 0.05;
 static const double same_temperature = 1.5, other_temperature = 10;
 
 /* Whether a row has moduli and is of the temperature and sample that count; NaN, NULL: any. */
-static bool is_of(const table_view *v, size_t row, wt_softness_choice choice)
+static bool is_of(const table_view *v, size_t row, wt_strain_softening_choice choice)
 {
     const double temperature = payne_sweep_get(v, row, PAYNE_SWEEP_TEMPERATURE);
     return is_usable(payne_sweep_get(v, row, PAYNE_SWEEP_STRAIN)) &&
@@ -94,9 +94,10 @@ static wt_status refuse_several(const char *what, const char *one, const char *o
 }
 
 /* A sample that is named, if the table names any; one is enough that is named nowhere. */
-static wt_status choose_sample(const table_view *v, wt_softness_choice *choice, wt_error *err)
+static wt_status choose_sample(const table_view *v, wt_strain_softening_choice *choice,
+                               wt_error *err)
 {
-    const wt_softness_choice any = wt_softness_choice_defaults();
+    const wt_strain_softening_choice any = wt_strain_softening_choice_defaults();
     const char *first = NULL;
     bool named = false, there = false;
     for (size_t row = 0; row < v->n_rows; row++) {
@@ -131,9 +132,10 @@ static wt_status without_temperature(const char *what, wt_error *err)
 }
 
 /* The temperature of a sweep that is nearest to the one that is asked for. */
-static wt_status choose_temperature(const table_view *v, wt_softness_choice *choice, wt_error *err)
+static wt_status choose_temperature(const table_view *v, wt_strain_softening_choice *choice,
+                                    wt_error *err)
 {
-    const wt_softness_choice of = {.temperature = (double)NAN, .sample = choice->sample};
+    const wt_strain_softening_choice of = {.temperature = (double)NAN, .sample = choice->sample};
     double low = (double)NAN, high = (double)NAN, nearest = (double)NAN;
     for (size_t row = 0; row < v->n_rows; row++) {
         const double here = payne_sweep_get(v, row, PAYNE_SWEEP_TEMPERATURE);
@@ -162,7 +164,7 @@ static wt_status choose_temperature(const table_view *v, wt_softness_choice *cho
     return WT_OK;
 }
 
-static double mean_temperature(const table_view *v, wt_softness_choice choice)
+static double mean_temperature(const table_view *v, wt_strain_softening_choice choice)
 {
     double sum = 0, n = 0;
     for (size_t row = 0; row < v->n_rows; row++)
@@ -183,7 +185,7 @@ static bool begins_sweep(const table_view *v, size_t row)
 }
 
 /* The sweeps behind one another in the arrays of `room`. */
-static size_t take_sweeps(const table_view *v, wt_softness_choice choice, one_sweep room,
+static size_t take_sweeps(const table_view *v, wt_strain_softening_choice choice, one_sweep room,
                           one_sweep *sweeps)
 {
     size_t n = 0, at = 0;
@@ -267,7 +269,7 @@ static void put_mean(const one_sweep *sweeps, size_t n, const double *x, bool lo
     }
 }
 
-static wt_status mean_of(const one_sweep *sweeps, size_t n, double *x, wt_softness *s,
+static wt_status mean_of(const one_sweep *sweeps, size_t n, double *x, wt_strain_softening *s,
                          wt_error *err)
 {
     const size_t points = common_strains(sweeps, n, x, err);
@@ -282,8 +284,8 @@ static wt_status mean_of(const one_sweep *sweeps, size_t n, double *x, wt_softne
     return WT_OK;
 }
 
-static wt_status of_sweeps(const wt_table *table, wt_softness_choice choice, wt_softness *softness,
-                           wt_error *err)
+static wt_status of_sweeps(const wt_table *table, wt_strain_softening_choice choice,
+                           wt_strain_softening *softness, wt_error *err)
 {
     table_view v;
     wt_status status = table_bind(table, &payne_sweep_schema, "", &v, err);
@@ -333,7 +335,7 @@ static wt_status refuse_table(wt_error *err)
     return WT_E_MISSING;
 }
 
-static wt_status of_given(const wt_table *table, wt_softness *s, wt_error *err)
+static wt_status of_given(const wt_table *table, wt_strain_softening *s, wt_error *err)
 {
     const size_t n = wt_table_n_rows(table);
     long column[GIVEN];
@@ -369,7 +371,7 @@ static wt_status of_given(const wt_table *table, wt_softness *s, wt_error *err)
 
 /* ---- both ------------------------------------------------------------------------------------ */
 
-static wt_status check_errors(const wt_softness *s, wt_error *err)
+static wt_status check_errors(const wt_strain_softening *s, wt_error *err)
 {
     for (size_t k = 0; s->storage_error != NULL && k < s->table.n; k++)
         if (!(s->storage_error[k] >= 0 && isfinite(s->storage_error[k])) ||
@@ -382,12 +384,12 @@ static wt_status check_errors(const wt_softness *s, wt_error *err)
     return WT_OK;
 }
 
-wt_status wt_softness_from_table(const wt_table *table, wt_softness_choice choice,
-                                 wt_softness *softness, wt_error *err)
+wt_status wt_strain_softening_from_table(const wt_table *table, wt_strain_softening_choice choice,
+                                         wt_strain_softening *softness, wt_error *err)
 {
     if (table == NULL || softness == NULL)
         return wt_fail(err, WT_E_ARG, "no table of a softening with strain");
-    wt_softness s = {0};
+    wt_strain_softening s = {0};
     const bool swept = wt_table_find(table, "storage_ratio") >= 0;
     wt_status status = WT_OK;
     if (swept)
@@ -403,12 +405,13 @@ wt_status wt_softness_from_table(const wt_table *table, wt_softness_choice choic
     if (status == WT_OK)
         *softness = s;
     else
-        wt_softness_clear(&s);
+        wt_strain_softening_clear(&s);
     return status;
 }
 
-wt_status wt_softness_read(const char *path, const char *name, wt_softness_choice choice,
-                           const wt_job *work, wt_softness *softness, wt_error *err)
+wt_status wt_strain_softening_read(const char *path, const char *name,
+                                   wt_strain_softening_choice choice, const wt_job *work,
+                                   wt_strain_softening *softness, wt_error *err)
 {
     static const wt_tables_role role = {
         "softening", "softening",
@@ -418,22 +421,21 @@ wt_status wt_softness_read(const char *path, const char *name, wt_softness_choic
     wt_status status = wt_tables_read(path, name, work, role, &tables, err);
     if (status == WT_OK) {
         const wt_table *swept = wt_result_find(tables, "payne_sweep");
-        status = wt_softness_from_table(swept != NULL ? swept : wt_result_table(tables, 0), choice,
-                                        softness, err);
+        status = wt_strain_softening_from_table(swept != NULL ? swept : wt_result_table(tables, 0),
+                                                choice, softness, err);
     }
     if (status != WT_OK)
         wt_error_file(err, name);
     else if (fabs(softness->temperature - choice.temperature) > other_temperature)
-        wt_parselog_add(work->log, WT_WARNING, name, NULL,
-                        "strain sweeps at %.1f °C are asked for; the nearest were measured at "
-                        "%.1f °C",
-                        choice.temperature - WT_ZERO_CELSIUS,
-                        softness->temperature - WT_ZERO_CELSIUS);
+        wt_log_add(work->log, WT_WARNING, name, NULL,
+                   "strain sweeps at %.1f °C are asked for; the nearest were measured at "
+                   "%.1f °C",
+                   choice.temperature - WT_ZERO_CELSIUS, softness->temperature - WT_ZERO_CELSIUS);
     wt_result_free(tables);
     return status;
 }
 
-bool softness_has_errors(const wt_softness *softness)
+bool strain_softening_has_errors(const wt_strain_softening *softness)
 {
     bool any = false;
     for (size_t k = 0; softness->storage_error != NULL && k < softness->table.n; k++)
@@ -441,7 +443,7 @@ bool softness_has_errors(const wt_softness *softness)
     return any;
 }
 
-void softness_describe(const wt_softness *s, char *text, size_t size)
+void strain_softening_describe(const wt_strain_softening *s, char *text, size_t size)
 {
     const double *strain = s->table.strain;
     char from[64], at[32];
@@ -455,11 +457,11 @@ void softness_describe(const wt_softness *s, char *text, size_t size)
     else
         clocale_print(at, sizeof at, " at %.1f °C", s->temperature - WT_ZERO_CELSIUS);
     clocale_print(text, size, "%s%s, strain %s; %s", from, at,
-                  ends_of(strain[0], strain[s->table.n - 1], 3).text,
-                  softness_has_errors(s) ? s->n_sweeps > 1
-                                               ? "the scatter between the sweeps is drawn"
-                                               : "errors are drawn"
-                                         : "its error is not known and not in the standard errors");
+                  format_range(strain[0], strain[s->table.n - 1], 3).text,
+                  strain_softening_has_errors(s)
+                      ? s->n_sweeps > 1 ? "the scatter between the sweeps is drawn"
+                                        : "errors are drawn"
+                      : "its error is not known and not in the standard errors");
 }
 
 /* All points move together: what differs between sweeps is the whole curve. */
@@ -469,8 +471,8 @@ static void move_curve(double *value, const double *error, size_t n, double norm
         value[k] *= exp(normal * error[k] / value[k]);
 }
 
-wt_status softness_draw(const wt_softness *softness, uint64_t seed, size_t replicate,
-                        wt_softness *drawn, wt_error *err)
+wt_status strain_softening_draw(const wt_strain_softening *softness, uint64_t seed,
+                                size_t replicate, wt_strain_softening *drawn, wt_error *err)
 {
     const wt_softening *t = &softness->table;
     const wt_status status = make_room(drawn, t->n, false, err);

@@ -6,11 +6,12 @@
 #include "weartrack/flow.h"
 
 /* Whether anything of it can be drawn. */
-bool softness_has_errors(const wt_softness *softness);
+bool strain_softening_has_errors(const wt_strain_softening *softness);
 /* Where it comes from and what is known of its error. */
-void softness_describe(const wt_softness *softness, char *text, size_t size);
+void strain_softening_describe(const wt_strain_softening *softness, char *text, size_t size);
 /* A copy without errors, of a replicate (WT_NO_REPLICATE: as it is); to be cleared. */
-wt_status softness_draw(const wt_softness *softness, uint64_t seed, size_t replicate,
-                        wt_softness *drawn, wt_error *err) WT_NODISCARD;
+wt_status strain_softening_draw(const wt_strain_softening *softness, uint64_t seed,
+                                size_t replicate, wt_strain_softening *drawn,
+                                wt_error *err) WT_NODISCARD;
 
 #endif

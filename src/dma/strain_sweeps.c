@@ -29,12 +29,12 @@ typedef struct usable {
     bool loss_measured;
 } usable;
 
-static wt_status take_usable(const wt_strain_sweep *sweep, pool *memory, wt_parselog *log,
-                             usable *u, wt_error *err)
+static wt_status take_usable(const wt_strain_sweep *sweep, arena *memory, wt_log *log, usable *u,
+                             wt_error *err)
 {
-    *u = (usable){.strain = pool_numbers(memory, sweep->n),
-                  .storage = pool_numbers(memory, sweep->n),
-                  .loss = pool_numbers(memory, sweep->n)};
+    *u = (usable){.strain = arena_numbers(memory, sweep->n),
+                  .storage = arena_numbers(memory, sweep->n),
+                  .loss = arena_numbers(memory, sweep->n)};
     if (memory->failed)
         return wt_fail(err, WT_E_MEMORY, "out of memory");
     bool alone = true;
@@ -50,10 +50,10 @@ static wt_status take_usable(const wt_strain_sweep *sweep, pool *memory, wt_pars
         u->loss[u->n++] = loss;
     }
     if (u->n < sweep->n)
-        wt_parselog_add(log, WT_WARNING, sweep->source, NULL,
-                        "strain sweep at %.4g rad/s: %zu of %zu points left out, no positive "
-                        "modulus",
-                        sweep->angular_frequency, sweep->n - u->n, sweep->n);
+        wt_log_add(log, WT_WARNING, sweep->source, NULL,
+                   "strain sweep at %.4g rad/s: %zu of %zu points left out, no positive "
+                   "modulus",
+                   sweep->angular_frequency, sweep->n - u->n, sweep->n);
     return WT_OK;
 }
 
@@ -90,7 +90,7 @@ static wt_status make_tables(const wt_job *work, const wt_sweep *sweep, wt_payne
     payne_set_text(&numbers, PAYNE_KEY_DEFORMATION, deformation);
     for (size_t i = 0; i < sweep->n_strain_sweeps && status == WT_OK; i++) {
         const wt_strain_sweep *s = &sweep->strain_sweeps[i];
-        pool memory = {0};
+        arena memory = {0};
         usable u;
         wt_payne payne;
         status = take_usable(s, &memory, work->log, &u, err);
@@ -103,7 +103,7 @@ static wt_status make_tables(const wt_job *work, const wt_sweep *sweep, wt_payne
                 told++;
             }
         }
-        pool_free(&memory);
+        arena_free(&memory);
     }
     if (status == WT_OK && told == 0) {
         status = wt_fail(err, WT_E_RANGE, "no strain sweep has a positive modulus");
@@ -132,7 +132,7 @@ wt_status wt_payne_make(const wt_payne_job *job, const wt_job *work, wt_payne_ta
     if (status == WT_OK)
         status = make_tables(work, &sweep, &t, err);
     if (status == WT_OK) {
-        cost_say(work, (cost_summary){.items = (double)sweep.n_strain_sweeps});
+        cost_report(work, (cost_summary){.items = (double)sweep.n_strain_sweeps});
         *tables = t;
         t = (wt_payne_tables){0};
     }

@@ -101,12 +101,12 @@ static size_t keep_points(const cut *c, sweep_points p)
 }
 
 /* What goes: whole ones, and single points. */
-typedef struct gone {
+typedef struct removed_data {
     wt_sweep sweep;
     size_t points;
-} gone;
+} removed_data;
 
-static void cut_isotherms(const cut *c, wt_sweep *sweep, gone *g)
+static void cut_isotherms(const cut *c, wt_sweep *sweep, removed_data *g)
 {
     size_t kept = 0;
     for (size_t i = 0; i < sweep->n_isotherms; i++) {
@@ -124,7 +124,7 @@ static void cut_isotherms(const cut *c, wt_sweep *sweep, gone *g)
     sweep->n_isotherms = kept;
 }
 
-static void cut_ramps(const cut *c, wt_sweep *sweep, gone *g)
+static void cut_ramps(const cut *c, wt_sweep *sweep, removed_data *g)
 {
     size_t kept = 0;
     for (size_t i = 0; i < sweep->n_ramps; i++) {
@@ -142,7 +142,7 @@ static void cut_ramps(const cut *c, wt_sweep *sweep, gone *g)
     sweep->n_ramps = kept;
 }
 
-static wt_status take_out(const char *text, wt_sweep *sweep, wt_parselog *log, wt_error *err)
+static wt_status take_out(const char *text, wt_sweep *sweep, wt_log *log, wt_error *err)
 {
     cut c;
     wt_status status = read_cut(text, &c, err);
@@ -151,8 +151,9 @@ static wt_status take_out(const char *text, wt_sweep *sweep, wt_parselog *log, w
         wt_error_expected(err, c.of_time ? "frequency: for an oscillation"
                                          : "time: for relaxation and creep");
     }
-    gone g = {.sweep = {.isotherms = calloc(sweep->n_isotherms + 1, sizeof *sweep->isotherms),
-                        .ramps = calloc(sweep->n_ramps + 1, sizeof *sweep->ramps)}};
+    removed_data g = {
+        .sweep = {.isotherms = calloc(sweep->n_isotherms + 1, sizeof *sweep->isotherms),
+                  .ramps = calloc(sweep->n_ramps + 1, sizeof *sweep->ramps)}};
     if (status == WT_OK && (g.sweep.isotherms == NULL || g.sweep.ramps == NULL))
         status = wt_fail(err, WT_E_MEMORY, "out of memory");
     if (status == WT_OK) {
@@ -160,10 +161,10 @@ static wt_status take_out(const char *text, wt_sweep *sweep, wt_parselog *log, w
         cut_ramps(&c, sweep, &g);
         const size_t isotherms = g.sweep.n_isotherms, ramps = g.sweep.n_ramps;
         const bool none = isotherms + ramps + g.points == 0;
-        wt_parselog_add(log, none ? WT_WARNING : WT_NOTE, NULL, NULL,
-                        "left out by %s: %zu isotherms, %zu temperature sweeps, %zu points of "
-                        "others%s",
-                        text, isotherms, ramps, g.points, none ? "; nothing lies there" : "");
+        wt_log_add(log, none ? WT_WARNING : WT_NOTE, NULL, NULL,
+                   "left out by %s: %zu isotherms, %zu temperature sweeps, %zu points of "
+                   "others%s",
+                   text, isotherms, ramps, g.points, none ? "; nothing lies there" : "");
     }
     wt_sweep_clear(&g.sweep);
     return status;
@@ -178,7 +179,7 @@ wt_status flow_cuts_check(const char *const *texts, size_t n, wt_error *err)
     return status;
 }
 
-wt_status flow_sweep_cut(const char *const *texts, size_t n, wt_sweep *sweep, wt_parselog *log,
+wt_status flow_sweep_cut(const char *const *texts, size_t n, wt_sweep *sweep, wt_log *log,
                          wt_error *err)
 {
     wt_status status = WT_OK;

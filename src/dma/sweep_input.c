@@ -105,13 +105,13 @@ static wt_status read_sweeps(const wt_file_set *sets, size_t n_sets, const wt_jo
         }
         wt_input_close(input);
         if (status != WT_OK)
-            status = flow_leave_out(work, &files.file[i], &failure)
+            status = flow_skip_file(work, &files.file[i], &failure)
                          ? WT_OK
                          : wt_job_failed(work, files.file[i].name, status, &failure, err);
     }
     if (status == WT_OK && n_sweeps(sweep) == 0) {
         status = wt_fail(err, WT_E_EMPTY, "no DMA sweep could be read");
-        flow_tell_files(&files, 0, err);
+        flow_error_add_files(&files, 0, err);
     }
     if (status == WT_OK) {
         wt_sweep_sort(sweep);

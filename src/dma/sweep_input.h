@@ -23,14 +23,14 @@ wt_status flow_sample_take(wt_sweep *sweep, const char *name, wt_error *err) WT_
 /* Isotherms and temperature sweeps of several samples are WT_E_AMBIGUOUS unless the first set says
  * which. */
 wt_status flow_one_sample(const wt_sweep *sweep, const wt_file_set *sets, size_t n_sets,
-                          wt_parselog *log, wt_error *err) WT_NODISCARD;
+                          wt_log *log, wt_error *err) WT_NODISCARD;
 /* Of isotherms and temperature sweeps of several strain amplitudes at one temperature and frequency
  * keeps those nearest to the one that the first set names; without one they are WT_E_AMBIGUOUS. */
-wt_status flow_one_amplitude(wt_sweep *sweep, const wt_file_set *sets, size_t n_sets,
-                             wt_parselog *log, wt_error *err) WT_NODISCARD;
+wt_status flow_one_amplitude(wt_sweep *sweep, const wt_file_set *sets, size_t n_sets, wt_log *log,
+                             wt_error *err) WT_NODISCARD;
 
 /* Takes out the isotherms, temperature sweeps and points that the texts name. */
-wt_status flow_sweep_cut(const char *const *texts, size_t n, wt_sweep *sweep, wt_parselog *log,
+wt_status flow_sweep_cut(const char *const *texts, size_t n, wt_sweep *sweep, wt_log *log,
                          wt_error *err) WT_NODISCARD;
 
 /* Whether the texts are understood. */
@@ -42,7 +42,7 @@ wt_status flow_shift_law(const char *text, wt_shift_law *law, wt_error *err) WT_
  * (unless NULL), whose vertical shifts, if it has any, are held, too: they must not be with
  * `vertical` NONE. */
 wt_status flow_shifts_give(const wt_shift_law *law, const wt_table *table,
-                           wt_vertical_shift vertical, wt_sweep *sweep, wt_parselog *log,
+                           wt_vertical_shift vertical, wt_sweep *sweep, wt_log *log,
                            wt_error *err) WT_NODISCARD;
 
 #endif

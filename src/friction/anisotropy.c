@@ -37,10 +37,10 @@ static void say_effect(const wt_friction_point *with, const wt_friction_point *w
                   "roughness that is the same in all directions; the force of the hysteresis turns "
                   "by %.1f deg to the side",
                   atan2(with->side.value, with->hysteresis.value) * 180 / M_PI);
-    contrast_words(with, without, against, text, size);
+    friction_difference_describe(with, without, against, text, size);
 }
 
-static wt_status make_table(const contrast *c, wt_table **table, wt_error *err)
+static wt_status make_table(const friction_difference *c, wt_table **table, wt_error *err)
 {
     const size_t n = c->n - 1;
     table_writer t = table_begin(&anisotropy_schema, err);
@@ -64,12 +64,12 @@ wt_status wt_anisotropy_make(const wt_sliding *sliding, const wt_job *work, wt_t
         status = wt_fail(err, WT_E_ARG, "the roughness is the same in all directions");
     if (status != WT_OK)
         return status;
-    contrast c;
+    friction_difference c;
     wt_sliding without = *sliding;
     without.anisotropy = (wt_anisotropy){{0}, {0}};
-    status = contrast_make(sliding, &without, work, NULL, NULL, &c, err);
+    status = friction_difference_make(sliding, &without, work, NULL, NULL, &c, err);
     if (status == WT_OK)
         status = make_table(&c, table, err);
-    contrast_clear(&c);
+    friction_difference_clear(&c);
     return status;
 }

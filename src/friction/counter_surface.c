@@ -203,9 +203,9 @@ static wt_status read_errors(const flow_file *file, const wt_job *work, wt_surfa
         status = take_errors(table, wt_result_find(tables, place_errors_schema.name), surface,
                              &taken, err);
     if (status == WT_OK && !taken && (piped || table != NULL))
-        wt_parselog_add(work->log, WT_WARNING, file->name, NULL,
-                        "the errors of the spectrum are not read%s: no error holds the surface",
-                        piped ? " from a pipe; give a file" : "");
+        wt_log_add(work->log, WT_WARNING, file->name, NULL,
+                   "the errors of the spectrum are not read%s: no error holds the surface",
+                   piped ? " from a pipe; give a file" : "");
     wt_result_free(tables);
     return status;
 }
@@ -227,9 +227,9 @@ static wt_status take_profile(const char *name, const wt_job *work, wt_power_spe
     free(spectrum->density);
     spectrum->density = c;
     spectrum->kind = WT_SPECTRUM_2D;
-    wt_parselog_add(work->log, WT_WARNING, name, NULL,
-                    "the spectrum is that of a line (m^3): friction is for a surface that is the "
-                    "same in all directions");
+    wt_log_add(work->log, WT_WARNING, name, NULL,
+               "the spectrum is that of a line (m^3): friction is for a surface that is the "
+               "same in all directions");
     return WT_OK;
 }
 
@@ -335,7 +335,7 @@ static wt_status read_surface(const char *path, const wt_read_options *read, con
 void flow_surface_cost(const wt_surface *surface, const wt_job *work)
 {
     const size_t items = surface->self_affine ? COUNT_OF(law_rows) : surface->spectrum.n;
-    cost_say(work, (cost_summary){.items = (double)items});
+    cost_report(work, (cost_summary){.items = (double)items});
 }
 
 wt_status wt_surface_open(const char *text, const wt_read_options *read, const wt_job *work,

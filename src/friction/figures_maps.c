@@ -78,14 +78,15 @@ static void draw_collapse(figure_drawing *d)
 
 static void caption_collapse(figure_drawing *d)
 {
-    text_say(&d->caption, " Nominal pressure %s; a_T is 1 at %s.",
-             VALUE(d->language, WT_Q_PRESSURE, NULL,
-                   friction_map_value(d->table, FRICTION_MAP_KEY_PRESSURE).value),
-             VALUE(d->language, WT_Q_TEMPERATURE, NULL,
-                   friction_map_value(d->table, FRICTION_MAP_KEY_REFERENCE_TEMPERATURE).value));
+    text_append_translated(
+        &d->caption, " Nominal pressure %s; a_T is 1 at %s.",
+        VALUE(d->language, WT_Q_PRESSURE, NULL,
+              friction_map_value(d->table, FRICTION_MAP_KEY_PRESSURE).value),
+        VALUE(d->language, WT_Q_TEMPERATURE, NULL,
+              friction_map_value(d->table, FRICTION_MAP_KEY_REFERENCE_TEMPERATURE).value));
     const char *beyond = friction_map_words(d->table, FRICTION_MAP_KEY_MATERIAL_STATEMENT);
     if (beyond != NULL && beyond[0] != '\0')
-        text_say(&d->caption, " Note: %s.", beyond);
+        text_append_translated(&d->caption, " Note: %s.", beyond);
 }
 
 /* ---- maps ------------------------------------------------------------------------------------ */
@@ -223,8 +224,8 @@ static void caption_pressure_map(figure_drawing *d)
 {
     const double temperature = friction_map_value(d->table, FRICTION_MAP_KEY_TEMPERATURE).value;
     if (isfinite(temperature))
-        text_say(&d->caption, " Temperature %s.",
-                 VALUE(d->language, WT_Q_TEMPERATURE, NULL, temperature));
+        text_append_translated(&d->caption, " Temperature %s.",
+                               VALUE(d->language, WT_Q_TEMPERATURE, NULL, temperature));
 }
 
 /* ---- decades --------------------------------------------------------------------------------- */
@@ -280,19 +281,19 @@ static void draw_decades(figure_drawing *d)
 
 static void caption_decades(figure_drawing *d)
 {
-    text_say(&d->caption, " The most: %s.",
-             friction_decades_words(d->table, FRICTION_DECADES_KEY_STRONGEST));
+    text_append_translated(&d->caption, " The most: %s.",
+                           friction_decades_words(d->table, FRICTION_DECADES_KEY_STRONGEST));
 }
 
 /* ---- direction of sliding -------------------------------------------------------------------- */
 
 static void caption_anisotropy(figure_drawing *d)
 {
-    text_say(&d->caption,
-             " Power spectrum over its mean at an angle phi from the velocity: 1 + "
-             "%s. %s.",
-             anisotropy_words(d->table, ANISOTROPY_KEY_TEXTURE),
-             anisotropy_words(d->table, ANISOTROPY_KEY_EFFECT));
+    text_append_translated(&d->caption,
+                           " Power spectrum over its mean at an angle phi from the velocity: 1 + "
+                           "%s. %s.",
+                           anisotropy_words(d->table, ANISOTROPY_KEY_TEXTURE),
+                           anisotropy_words(d->table, ANISOTROPY_KEY_EFFECT));
 }
 
 const figure_description figures_friction_maps[] = {

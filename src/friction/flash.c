@@ -72,7 +72,7 @@ void flash_describe(const wt_sliding *sliding, const wt_friction_point *points, 
 
 /* ---- the job --------------------------------------------------------------------------------- */
 
-static void say_change(const contrast *e, char text[192])
+static void say_change(const friction_difference *e, char text[192])
 {
     const wt_friction_point *with = &e->with[e->n - 1], *without = &e->without[e->n - 1];
     char velocity[32];
@@ -90,7 +90,7 @@ static void say_change(const contrast *e, char text[192])
 
 /* WLF constants hold up to 100 K above the glass transition: Ferry, Viscoelastic Properties of
  * Polymers. What is hotter than the isotherms is beyond what the law was fitted to. */
-static void say_law_range(const contrast *e, char text[192])
+static void say_law_range(const friction_difference *e, char text[192])
 {
     const double most = e->sliding->rubber->temperature_max;
     double hottest = 0;
@@ -104,7 +104,7 @@ static void say_law_range(const contrast *e, char text[192])
                       hottest - WT_ZERO_CELSIUS, most - WT_ZERO_CELSIUS);
 }
 
-static wt_status make_table(const contrast *e, wt_table **table, wt_error *err)
+static wt_status make_table(const friction_difference *e, wt_table **table, wt_error *err)
 {
     const wt_flash *flash = &e->sliding->flash;
     const size_t n = e->n - 1;
@@ -139,12 +139,12 @@ wt_status wt_flash_make(const wt_sliding *sliding, const wt_job *work, wt_table 
         status = wt_fail(err, WT_E_ARG, "no flash temperature was asked for");
     if (status != WT_OK)
         return status;
-    contrast e;
+    friction_difference e;
     wt_sliding without = *sliding;
     without.flash.on = false;
-    status = contrast_make(sliding, &without, work, NULL, NULL, &e, err);
+    status = friction_difference_make(sliding, &without, work, NULL, NULL, &e, err);
     if (status == WT_OK)
         status = make_table(&e, table, err);
-    contrast_clear(&e);
+    friction_difference_clear(&e);
     return status;
 }

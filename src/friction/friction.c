@@ -24,7 +24,7 @@ enum { HYSTERESIS, AREA, TOTAL, LAYERED, CHANGE, RELATIVE, N_KINDS };
 
 typedef struct friction_task {
     const wt_sliding *sliding;
-    const wt_layer_known *layer; /* NULL = none */
+    const wt_layer_observation *layer; /* NULL = none */
     const wt_job *work;
     size_t n;                  /* velocities, and the reference if it is not the only one */
     double *velocity;          /* [n] the reference is the last */
@@ -266,7 +266,7 @@ static void set_keys(friction_task *task, const sliding_contact *c, table_writer
     if (wt_rubber_describe(s->rubber, keys.material, sizeof keys.material) == 0)
         keys.material[0] = '\0';
     if (s->softness != NULL) {
-        softness_describe(s->softness, keys.softening, sizeof keys.softening);
+        strain_softening_describe(s->softness, keys.softening, sizeof keys.softening);
         keys.strain.value = task->strain;
     }
     anisotropy_describe(&s->anisotropy, keys.anisotropy, sizeof keys.anisotropy);
@@ -318,7 +318,7 @@ static void release_numbers(friction_task *task)
     replicates_clear(&task->replicates);
 }
 
-static wt_status check_layer(const wt_layer_known *layer, wt_error *err)
+static wt_status check_layer(const wt_layer_observation *layer, wt_error *err)
 {
     if (layer != NULL && isinf(layer->thickness.value)) {
         wt_fail(err, WT_E_RANGE, "friction needs a layer of finite thickness");
@@ -358,7 +358,7 @@ static void summarise_friction(const friction_task *task, wt_friction_tables *t)
         if (p->extrapolated_share > t->extrapolated_share)
             t->extrapolated_share = p->extrapolated_share;
     }
-    cost_say(task->work, cost);
+    cost_report(task->work, cost);
 }
 
 static void note_not_reached(friction_task *task, const wt_friction_point *points)
@@ -445,7 +445,7 @@ static wt_status draw_at_nodes(friction_task *task, wt_error *err)
 static wt_status draw_replicates(friction_task *task, wt_error *err)
 {
     replicates *r = &task->replicates;
-    const wt_layer_known *layer = task->layer;
+    const wt_layer_observation *layer = task->layer;
     if (!isnan(task->sliding->shear_stress.value))
         replicates_add(r, task->sliding->shear_stress.standard_error, FLOW_DRAW_SHEAR_STRESS,
                        "shear stress");
@@ -463,7 +463,7 @@ static wt_status draw_replicates(friction_task *task, wt_error *err)
     return status;
 }
 
-wt_status wt_friction_make(const wt_sliding *sliding, const wt_layer_known *layer,
+wt_status wt_friction_make(const wt_sliding *sliding, const wt_layer_observation *layer,
                            const wt_job *work, wt_friction_tables *tables, wt_error *err)
 {
     if (work == NULL || tables == NULL)

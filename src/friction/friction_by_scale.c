@@ -18,7 +18,7 @@ TABLE_KEYS(friction_decades, FRICTION_DECADES, char strongest[160];)
 /* The edges of the decades: q0, the powers of ten between, q1. */
 typedef struct decades {
     const wt_sliding *sliding;
-    const wt_layer_known *known; /* with the cracks; NULL: none */
+    const wt_layer_observation *known; /* with the cracks; NULL: none */
     size_t n;
     double *q;               /* [n] */
     wt_friction_node *nodes; /* [n] */
@@ -50,8 +50,8 @@ static void say_strongest(decades *d, double velocity, size_t i, double share)
     clocale_print(d->strongest, sizeof d->strongest,
                   "%s rad/m, wavelengths of %s um, at %s: %.0f %% of the "
                   "hysteresis friction",
-                  ends_of(d->q[i - 1], d->q[i], 3).text,
-                  ends_of(2e6 * M_PI / d->q[i], 2e6 * M_PI / d->q[i - 1], 3).text, speed,
+                  format_range(d->q[i - 1], d->q[i], 3).text,
+                  format_range(2e6 * M_PI / d->q[i], 2e6 * M_PI / d->q[i - 1], 3).text, speed,
                   100 * share);
 }
 
@@ -114,7 +114,7 @@ static void add_velocities(const wt_sliding *sliding, const sliding_contact *c, 
         add_decades(c, d, last, false, t, cost);
 }
 
-wt_status wt_friction_decades_make(const wt_sliding *sliding, const wt_layer_known *known,
+wt_status wt_friction_decades_make(const wt_sliding *sliding, const wt_layer_observation *known,
                                    const wt_job *work, wt_table **table, wt_error *err)
 {
     if (work == NULL || table == NULL)
@@ -138,7 +138,7 @@ wt_status wt_friction_decades_make(const wt_sliding *sliding, const wt_layer_kno
         snprintf(keys.strongest, sizeof keys.strongest, "%s",
                  d.strongest[0] != '\0' ? d.strongest : "none: there is no hysteresis friction");
         friction_decades_set_keys(&t, &keys);
-        cost_say(work, cost);
+        cost_report(work, cost);
         status = table_end(&t, table);
     }
     sliding_contact_clear(&c);

@@ -8,8 +8,9 @@
 #include <math.h>
 #include <stdlib.h>
 
-static wt_status compute(const contrast *c, const wt_sliding *sliding, const wt_job *work,
-                         wt_friction_point *points, sliding_contact *contact, wt_error *err)
+static wt_status compute(const friction_difference *c, const wt_sliding *sliding,
+                         const wt_job *work, wt_friction_point *points, sliding_contact *contact,
+                         wt_error *err)
 {
     const wt_layer_state none = {.modulus_ratio = 1};
     wt_job own = *work;
@@ -22,7 +23,7 @@ static wt_status compute(const contrast *c, const wt_sliding *sliding, const wt_
     return status;
 }
 
-static void say_cost(const contrast *c, const wt_job *work)
+static void say_cost(const friction_difference *c, const wt_job *work)
 {
     cost_summary cost = {.tolerance_asked = work->tolerance, .items = 2 * (double)c->n};
     for (size_t i = 0; i < c->n; i++) {
@@ -30,14 +31,15 @@ static void say_cost(const contrast *c, const wt_job *work)
         if (h->value > 0)
             cost.error_estimated = fmax(cost.error_estimated, h->numerical_error / h->value);
     }
-    cost_say(work, cost);
+    cost_report(work, cost);
 }
 
-wt_status contrast_make(const wt_sliding *with, const wt_sliding *without, const wt_job *work,
-                        contrast_more *more, void *user, contrast *c, wt_error *err)
+wt_status friction_difference_make(const wt_sliding *with, const wt_sliding *without,
+                                   const wt_job *work, friction_difference_extend *more, void *user,
+                                   friction_difference *c, wt_error *err)
 {
     sliding_contact contact = {0}, other = {0};
-    *c = (contrast){.sliding = with, .n = with->n_velocity + 1};
+    *c = (friction_difference){.sliding = with, .n = with->n_velocity + 1};
     c->velocity = malloc(c->n * sizeof *c->velocity);
     c->with = calloc(c->n, sizeof *c->with);
     c->without = calloc(c->n, sizeof *c->without);
@@ -59,16 +61,16 @@ wt_status contrast_make(const wt_sliding *with, const wt_sliding *without, const
     return status;
 }
 
-void contrast_clear(contrast *c)
+void friction_difference_clear(friction_difference *c)
 {
     free(c->velocity);
     free(c->with);
     free(c->without);
-    *c = (contrast){.n = 0};
+    *c = (friction_difference){.n = 0};
 }
 
-void contrast_words(const wt_friction_point *with, const wt_friction_point *without,
-                    const char *against, char *text, size_t size)
+void friction_difference_describe(const wt_friction_point *with, const wt_friction_point *without,
+                                  const char *against, char *text, size_t size)
 {
     char velocity[32];
     wt_format_si(with->velocity, "m/s", 3, velocity, sizeof velocity);

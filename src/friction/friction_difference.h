@@ -5,26 +5,27 @@
 
 #include "friction/sliding_contact.h"
 
-typedef struct contrast {
+typedef struct friction_difference {
     const wt_sliding *sliding;         /* with it; borrowed */
     double *velocity;                  /* [n] the reference last */
     wt_friction_point *with, *without; /* [n] */
     size_t n;
     double temperature; /* of the rubber, or of its surroundings [K] */
-} contrast;
+} friction_difference;
 
 /* Looks further at the contact with it. */
-typedef wt_status contrast_more(void *user, const contrast *c, const sliding_contact *contact,
-                                wt_error *err);
+typedef wt_status friction_difference_extend(void *user, const friction_difference *c,
+                                             const sliding_contact *contact, wt_error *err);
 
 /* Of the values themselves; `more` may be NULL. Says what it cost. To be cleared, also on failure.
  */
-wt_status contrast_make(const wt_sliding *with, const wt_sliding *without, const wt_job *work,
-                        contrast_more *more, void *user, contrast *c, wt_error *err) WT_NODISCARD;
-void contrast_clear(contrast *c);
+wt_status friction_difference_make(const wt_sliding *with, const wt_sliding *without,
+                                   const wt_job *work, friction_difference_extend *more, void *user,
+                                   friction_difference *c, wt_error *err) WT_NODISCARD;
+void friction_difference_clear(friction_difference *c);
 /* Of one velocity: "at 300 mm/s hysteresis friction +1.0 %, contact area -2.0 % against AGAINST".
  */
-void contrast_words(const wt_friction_point *with, const wt_friction_point *without,
-                    const char *against, char *text, size_t size);
+void friction_difference_describe(const wt_friction_point *with, const wt_friction_point *without,
+                                  const char *against, char *text, size_t size);
 
 #endif

@@ -32,7 +32,7 @@ typedef struct map_line {
 
 typedef struct friction_map {
     const wt_sliding *sliding;
-    const wt_layer_known *known; /* NULL: none */
+    const wt_layer_observation *known; /* NULL: none */
     const wt_job *work;
     size_t n_lines;
     map_line *lines;           /* [n_lines] */
@@ -208,12 +208,12 @@ static wt_status make_table(friction_map *m, wt_table **table, wt_error *err)
     add_lines(m, &c, &t, &cost);
     if (t.status == WT_OK)
         set_keys(m, &c, &t);
-    cost_say(m->work, cost);
+    cost_report(m->work, cost);
     sliding_contact_clear(&c);
     return table_end(&t, table);
 }
 
-wt_status wt_friction_map_make(const wt_sliding *sliding, const wt_layer_known *known,
+wt_status wt_friction_map_make(const wt_sliding *sliding, const wt_layer_observation *known,
                                const wt_job *work, wt_table **table, wt_error *err)
 {
     if (work == NULL || table == NULL)

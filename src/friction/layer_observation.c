@@ -12,52 +12,57 @@
 #include <math.h>
 #include <string.h>
 
-wt_layer_known wt_layer_known_defaults(void)
+wt_layer_observation wt_layer_observation_defaults(void)
 {
     const double unknown = (double)NAN;
-    return (wt_layer_known){.thickness = {0, 0, 0, "m"},
-                            .modulus_ratio = {1, 0, 0, "1"},
-                            .ratio_slope = {0, 0, 0, "1"},
-                            .ratio_frequency = unknown,
-                            .ratio_lowest = unknown,
-                            .ratio_highest = unknown,
-                            .ratio_temperature = unknown};
+    return (wt_layer_observation){.thickness = {0, 0, 0, "m"},
+                                  .modulus_ratio = {1, 0, 0, "1"},
+                                  .ratio_slope = {0, 0, 0, "1"},
+                                  .ratio_frequency = unknown,
+                                  .ratio_lowest = unknown,
+                                  .ratio_highest = unknown,
+                                  .ratio_temperature = unknown};
 }
 
 static const wt_param rows[] = {
-    LAYER_STATE_ROWS(wt_layer_known, ),
-    {PARAM("modulus-ratio-df", wt_layer_known, modulus_ratio_df, WT_Q_NONE, AT_LEAST(0)),
+    LAYER_STATE_ROWS(wt_layer_observation, ),
+    {PARAM("modulus-ratio-df", wt_layer_observation, modulus_ratio_df, WT_Q_NONE, AT_LEAST(0)),
      .value = "N",
      .help = "degrees of freedom of the error of the modulus ratio, as weartrack compare gives "
              "them; 0: a normal error"},
     /* Beyond 1 the phase alone turns a storage modulus negative. */
-    {PARAM("ratio-slope", wt_layer_known, ratio_slope, WT_Q_NONE, FROM_TO(-1, 1)), .value = "S",
+    {PARAM("ratio-slope", wt_layer_observation, ratio_slope, WT_Q_NONE, FROM_TO(-1, 1)),
+     .value = "S",
      .help =
          "of ln modulus ratio against ln frequency, such as \"0.06 +- 0.02\"; the ratio is then "
          "complex, with the phase that causality asks for (reconstructed); 0: one ratio"},
-    {PARAM("ratio-frequency", wt_layer_known, ratio_frequency, WT_Q_ANGULAR_FREQUENCY, AT_LEAST(0)),
+    {PARAM("ratio-frequency", wt_layer_observation, ratio_frequency, WT_Q_ANGULAR_FREQUENCY,
+           AT_LEAST(0)),
      .value = "W", .unset = "needed with a slope",
      .help = "angular frequency at which the modulus ratio is as given"},
-    {PARAM("ratio-lowest", wt_layer_known, ratio_lowest, WT_Q_ANGULAR_FREQUENCY, AT_LEAST(0)),
+    {PARAM("ratio-lowest", wt_layer_observation, ratio_lowest, WT_Q_ANGULAR_FREQUENCY, AT_LEAST(0)),
      .value = "W", .unset = "needed with a slope",
      .help = "lowest angular frequency measured; below it the ratio is constant"},
-    {PARAM("ratio-highest", wt_layer_known, ratio_highest, WT_Q_ANGULAR_FREQUENCY, AT_LEAST(0)),
+    {PARAM("ratio-highest", wt_layer_observation, ratio_highest, WT_Q_ANGULAR_FREQUENCY,
+           AT_LEAST(0)),
      .value = "W", .unset = "needed with a slope", .help = "likewise, the highest one"},
-    {PARAM("ratio-temperature", wt_layer_known, ratio_temperature, WT_Q_TEMPERATURE, AT_LEAST(0)),
+    {PARAM("ratio-temperature", wt_layer_observation, ratio_temperature, WT_Q_TEMPERATURE,
+           AT_LEAST(0)),
      .value = "T", .unset = "that of the sliding",
      .help =
          "of these frequencies; another one needs the shift law of the bulk, which the layer is "
          "taken to have"},
-    {PARAM_FLAG_OF("ratio-by-rate", wt_layer_known, by_rate), .flags = PARAM_NO_OPTION,
+    {PARAM_FLAG_OF("ratio-by-rate", wt_layer_observation, by_rate), .flags = PARAM_NO_OPTION,
      .help = "the modulus ratio goes with the frequency as the comparison finds it at several "
              "indentation rates"},
-    {PARAM_FLAG_OF("bulk-shear", wt_layer_known, bulk_shear),
+    {PARAM_FLAG_OF("bulk-shear", wt_layer_observation, bulk_shear),
      .help = "shear stress of the bulk for the layer, too, not times the modulus ratio"},
 };
-PARAM_TABLE(wt_layer_known_params, wt_layer_known, rows, wt_layer_known_defaults, NO_PARTS)
+PARAM_TABLE(wt_layer_observation_params, wt_layer_observation, rows, wt_layer_observation_defaults,
+            NO_PARTS)
 
 /* What a slope needs beside itself. */
-static wt_status check_slope(const wt_layer_known *k, wt_error *err)
+static wt_status check_slope(const wt_layer_observation *k, wt_error *err)
 {
     if (k->ratio_slope.value == 0 && !(k->ratio_slope.standard_error > 0))
         return WT_OK;
@@ -75,15 +80,16 @@ static wt_status check_slope(const wt_layer_known *k, wt_error *err)
     return WT_E_RANGE;
 }
 
-wt_status sliding_layer_check(const wt_layer_known *known, wt_error *err)
+wt_status sliding_layer_check(const wt_layer_observation *known, wt_error *err)
 {
     if (known == NULL)
         return WT_OK;
-    const wt_status status = param_check(wt_layer_known_params(), known, err);
+    const wt_status status = param_check(wt_layer_observation_params(), known, err);
     return status == WT_OK ? check_slope(known, err) : status;
 }
 
-wt_ratio_slope sliding_layer_slope(const wt_layer_known *known, uint64_t seed, size_t replicate)
+wt_ratio_slope sliding_layer_slope(const wt_layer_observation *known, uint64_t seed,
+                                   size_t replicate)
 {
     wt_ratio_slope slope = {.exponent = 0};
     if (known == NULL || !(known->ratio_frequency > 0))
@@ -137,7 +143,7 @@ static void widen_by_gain(const wt_sliding *sliding, const wt_roughness *roughne
     range[1] = fmax(range[1], found[1]);
 }
 
-wt_status sliding_layer_gain(const wt_sliding *sliding, const wt_layer_known *known,
+wt_status sliding_layer_gain(const wt_sliding *sliding, const wt_layer_observation *known,
                              const wt_job *work, double range[2], wt_error *err)
 {
     const double reference = sliding->rubber->prony.reference_temperature,
@@ -167,7 +173,7 @@ wt_status sliding_layer_gain(const wt_sliding *sliding, const wt_layer_known *kn
 }
 
 /* How its ratio goes with the frequency, and what is to be said of that. */
-static void describe_slope(const wt_layer_known *known, const double range[2], wt_parselog *log,
+static void describe_slope(const wt_layer_observation *known, const double range[2], wt_log *log,
                            char *text, size_t size)
 {
     char says[128] = "";
@@ -175,16 +181,16 @@ static void describe_slope(const wt_layer_known *known, const double range[2], w
         clocale_print(says, sizeof says,
                       "from %s rad/s its loss modulus would be below 0 by such a slope, and is "
                       "taken as 0",
-                      ends_of(range[0], range[1], 2).text);
+                      format_range(range[0], range[1], 2).text);
     clocale_print(text, size,
                   "%.4g times those of the bulk at %.3g rad/s, as omega^%.3g with the phase of a "
                   "causal ratio (reconstructed) from %s rad/s, constant outside; "
                   "sheared at the frequency velocity over thickness%s%s",
                   known->modulus_ratio.value, known->ratio_frequency, known->ratio_slope.value,
-                  ends_of(known->ratio_lowest, known->ratio_highest, 3).text,
+                  format_range(known->ratio_lowest, known->ratio_highest, 3).text,
                   says[0] != '\0' ? "; " : "", says);
     if (says[0] != '\0')
-        wt_parselog_add(log, WT_WARNING, NULL, NULL, "layer: %s", says);
+        wt_log_add(log, WT_WARNING, NULL, NULL, "layer: %s", says);
 }
 
 /* A material without a law is shifted by that of the bulk. */
@@ -198,8 +204,8 @@ static void describe_material(const wt_sliding *sliding, char *text, size_t size
                          "for it has none of its own");
 }
 
-void sliding_layer_describe(const wt_sliding *sliding, const wt_layer_known *known,
-                            const double range[2], wt_parselog *log, char *text, size_t size)
+void sliding_layer_describe(const wt_sliding *sliding, const wt_layer_observation *known,
+                            const double range[2], wt_log *log, char *text, size_t size)
 {
     text[0] = '\0';
     if (sliding->layer_rubber != NULL)
@@ -208,7 +214,7 @@ void sliding_layer_describe(const wt_sliding *sliding, const wt_layer_known *kno
         describe_slope(known, range, log, text, size);
 }
 
-wt_layer_state sliding_layer(const wt_layer_known *known, uint64_t seed, size_t replicate)
+wt_layer_state sliding_layer(const wt_layer_observation *known, uint64_t seed, size_t replicate)
 {
     wt_layer_state state = {.modulus_ratio = 1};
     if (known == NULL)
@@ -223,7 +229,7 @@ wt_layer_state sliding_layer(const wt_layer_known *known, uint64_t seed, size_t 
     return state;
 }
 
-wt_layer_shear sliding_layer_shear_of(const wt_layer_known *known)
+wt_layer_shear sliding_layer_shear_of(const wt_layer_observation *known)
 {
     wt_layer_shear shear = known->shear != NULL ? *known->shear : wt_layer_shear_defaults();
     if (known->bulk_shear)
@@ -231,7 +237,7 @@ wt_layer_shear sliding_layer_shear_of(const wt_layer_known *known)
     return shear;
 }
 
-double sliding_layer_shear(const wt_layer_known *known, double bulk, wt_layer_state layer,
+double sliding_layer_shear(const wt_layer_observation *known, double bulk, wt_layer_state layer,
                            double area_ratio)
 {
     if (known == NULL)

@@ -11,7 +11,7 @@ enum { MOST_KEPT = 1024 };
 
 typedef struct drawn_item {
     drawn_material of;
-    pool memory; /* of the series */
+    arena memory; /* of the series */
 } drawn_item;
 
 typedef struct own_material {
@@ -22,7 +22,7 @@ typedef struct own_material {
     bool held;
 } own_material;
 
-struct wt_drawn {
+struct wt_material_cache {
     own_material own;        /* of the values themselves; all else is of the replicates */
     const wt_rubber *rubber; /* whose materials they are; NULL: none yet */
     wt_estimate temperature;
@@ -36,25 +36,25 @@ struct wt_drawn {
 static void drop_item(drawn_item *item)
 {
     angular_clear(item->of.series);
-    pool_free(&item->memory);
+    arena_free(&item->memory);
     wt_material_free(item->of.material);
     *item = (drawn_item){0};
 }
 
-static void drop_materials(wt_drawn *d)
+static void drop_materials(wt_material_cache *d)
 {
     for (size_t i = 0; i < d->n; i++)
         drop_item(&d->items[i]);
     free(d->items);
-    *d = (wt_drawn){.own = d->own};
+    *d = (wt_material_cache){.own = d->own};
 }
 
-wt_drawn *drawn_new(void)
+wt_material_cache *material_cache_new(void)
 {
-    return calloc(1, sizeof(wt_drawn));
+    return calloc(1, sizeof(wt_material_cache));
 }
 
-void drawn_free(wt_drawn *drawn)
+void material_cache_free(wt_material_cache *drawn)
 {
     if (drawn != NULL) {
         drop_item(&drawn->own.item);
@@ -68,7 +68,7 @@ static bool is_that(double a, double b)
     return a == b || (isnan(a) && isnan(b));
 }
 
-static bool is_of(const wt_drawn *d, const wt_sliding *s, const wt_job *work)
+static bool is_of(const wt_material_cache *d, const wt_sliding *s, const wt_job *work)
 {
     return d->rubber == s->rubber && d->seed == work->seed &&
            is_that(d->temperature.value, s->temperature.value) &&
@@ -76,28 +76,28 @@ static bool is_of(const wt_drawn *d, const wt_sliding *s, const wt_job *work)
            (d->one || d->n == MOST_KEPT || d->n >= work->replicates);
 }
 
-static wt_status start_materials(wt_drawn *d, const wt_sliding *sliding, const wt_job *work,
-                                 wt_error *err)
+static wt_status start_materials(wt_material_cache *d, const wt_sliding *sliding,
+                                 const wt_job *work, wt_error *err)
 {
     const wt_rubber *rubber = sliding->rubber;
     const bool one = rubber->n_draws == 0 && !(rubber->c1_error > 0) && !(rubber->c2_error > 0) &&
                      !(sliding->temperature.standard_error > 0);
     const size_t n = work->replicates < MOST_KEPT ? work->replicates : MOST_KEPT;
     drop_materials(d);
-    *d = (wt_drawn){.own = d->own,
-                    .rubber = rubber,
-                    .temperature = sliding->temperature,
-                    .seed = work->seed,
-                    .one = one,
-                    .items = calloc(one ? 1 : n + 1, sizeof *d->items)};
+    *d = (wt_material_cache){.own = d->own,
+                             .rubber = rubber,
+                             .temperature = sliding->temperature,
+                             .seed = work->seed,
+                             .one = one,
+                             .items = calloc(one ? 1 : n + 1, sizeof *d->items)};
     if (d->items == NULL)
         return wt_fail(err, WT_E_MEMORY, "out of memory for the materials of the replicates");
     d->n = one ? 1 : n;
     return WT_OK;
 }
 
-wt_status drawn_begin(wt_drawn *d, const wt_sliding *sliding, const wt_job *work, double slowest,
-                      double fastest, wt_error *err)
+wt_status material_cache_begin(wt_material_cache *d, const wt_sliding *sliding, const wt_job *work,
+                               double slowest, double fastest, wt_error *err)
 {
     wt_roughness *road = NULL;
     wt_status status = is_of(d, sliding, work) ? WT_OK : start_materials(d, sliding, work, err);
@@ -110,10 +110,11 @@ wt_status drawn_begin(wt_drawn *d, const wt_sliding *sliding, const wt_job *work
     wt_roughness_free(road);
     /* from now on the threads only read it */
     drawn_material all;
-    return d->one ? drawn_get(d, 0, &all, err) : WT_OK;
+    return d->one ? material_cache_get(d, 0, &all, err) : WT_OK;
 }
 
-static wt_status make_material(const wt_drawn *d, size_t replicate, drawn_item *item, wt_error *err)
+static wt_status make_material(const wt_material_cache *d, size_t replicate, drawn_item *item,
+                               wt_error *err)
 {
     drawn_material *of = &item->of;
     wt_status status = wt_rubber_at(
@@ -123,13 +124,14 @@ static wt_status make_material(const wt_drawn *d, size_t replicate, drawn_item *
         status = angular_new(of->material, REPLICATE_TOLERANCE, &item->memory, &of->series, err);
     if (status != WT_OK) { /* the next contact says so again */
         wt_material_free(of->material);
-        pool_free(&item->memory);
+        arena_free(&item->memory);
         *item = (drawn_item){0};
     }
     return status;
 }
 
-wt_status drawn_get(wt_drawn *d, size_t replicate, drawn_material *material, wt_error *err)
+wt_status material_cache_get(wt_material_cache *d, size_t replicate, drawn_material *material,
+                             wt_error *err)
 {
     *material = (drawn_material){0};
     if (!d->one && replicate >= d->n)
@@ -179,7 +181,7 @@ static wt_status cover_own(own_material *own, const wt_sliding *sliding, double 
     return angular_cover(own->item.of.series, lowest, highest, err);
 }
 
-wt_status drawn_values_get(wt_drawn *drawn, const wt_sliding *sliding, double tolerance,
+wt_status drawn_values_get(wt_material_cache *drawn, const wt_sliding *sliding, double tolerance,
                            double slowest, double fastest, drawn_values *values, wt_error *err)
 {
     *values = (drawn_values){.statement = ""};
@@ -198,7 +200,7 @@ wt_status drawn_values_get(wt_drawn *drawn, const wt_sliding *sliding, double to
     return status;
 }
 
-void drawn_hold(wt_drawn *drawn, bool held)
+void material_cache_pin(wt_material_cache *drawn, bool held)
 {
     if (drawn != NULL)
         drawn->own.held = held;

@@ -12,12 +12,13 @@
  * per cent. */
 #define REPLICATE_TOLERANCE 1e-5
 
-wt_drawn *drawn_new(void); /* NULL when out of memory */
-void drawn_free(wt_drawn *drawn);
+wt_material_cache *material_cache_new(void); /* NULL when out of memory */
+void material_cache_free(wt_material_cache *drawn);
 /* Before the replicates of this contact at these velocities. What is there of another one goes. Not
  * while replicates are at work. */
-wt_status drawn_begin(wt_drawn *drawn, const wt_sliding *sliding, const wt_job *work,
-                      double slowest, double fastest, wt_error *err) WT_NODISCARD;
+wt_status material_cache_begin(wt_material_cache *drawn, const wt_sliding *sliding,
+                               const wt_job *work, double slowest, double fastest,
+                               wt_error *err) WT_NODISCARD;
 
 typedef struct drawn_material {
     wt_material *material;
@@ -25,8 +26,8 @@ typedef struct drawn_material {
 } drawn_material;
 /* Of one replicate, borrowed; NULLs: none is kept for it. A replicate is asked for by one thread at
  * a time. */
-wt_status drawn_get(wt_drawn *drawn, size_t replicate, drawn_material *material,
-                    wt_error *err) WT_NODISCARD;
+wt_status material_cache_get(wt_material_cache *drawn, size_t replicate, drawn_material *material,
+                             wt_error *err) WT_NODISCARD;
 
 /* Of the values themselves, with what must be said of it, borrowed; its series, if its law has no
  * closed form, over the wavenumbers of the surface at these velocities. NULLs: there is none, and a
@@ -36,9 +37,9 @@ typedef struct drawn_values {
     drawn_material of;
     const char *statement;
 } drawn_values;
-wt_status drawn_values_get(wt_drawn *drawn, const wt_sliding *sliding, double tolerance,
+wt_status drawn_values_get(wt_material_cache *drawn, const wt_sliding *sliding, double tolerance,
                            double slowest, double fastest, drawn_values *values,
                            wt_error *err) WT_NODISCARD;
-void drawn_hold(wt_drawn *drawn, bool held); /* NULL: nothing */
+void material_cache_pin(wt_material_cache *drawn, bool held); /* NULL: nothing */
 
 #endif

@@ -79,7 +79,7 @@ wt_status wt_contact_area_table(const wt_sliding *sliding, const wt_job *work, w
     table_writer t = table_begin(&contact_area_schema, err);
     cost_summary cost = {.tolerance_asked = work->tolerance};
     add_areas(sliding, &c, &t, &cost);
-    cost_say(work, cost);
+    cost_report(work, cost);
     sliding_contact_clear(&c);
     return table_end(&t, table);
 }

@@ -96,7 +96,7 @@ static void fit_slope(const rate_ratios *r, double *slope, double *error)
     *error = all.error * sqrt(scatter) * students_t_quantile(all.df) / NORMAL_95;
 }
 
-static wt_status take_slope(const rate_ratios *r, wt_layer_known *known, wt_error *err)
+static wt_status take_slope(const rate_ratios *r, wt_layer_observation *known, wt_error *err)
 {
     double low = (double)INFINITY, high = -(double)INFINITY, sum = 0;
     for (size_t i = 0; i < r->n; i++) {
@@ -120,8 +120,8 @@ static wt_status take_slope(const rate_ratios *r, wt_layer_known *known, wt_erro
     return WT_OK;
 }
 
-wt_status wt_layer_known_by_rate(const wt_table *comparison, const wt_table *modulus_rate,
-                                 wt_layer_known *known, wt_error *err)
+wt_status wt_layer_observation_by_rate(const wt_table *comparison, const wt_table *modulus_rate,
+                                       wt_layer_observation *known, wt_error *err)
 {
     table_view c, m;
     rate_ratios r = {.n = 0};

@@ -68,7 +68,7 @@ replicates replicates_of(const wt_sliding *sliding, const wt_job *work, const ch
     if (anisotropy_is_any(&sliding->anisotropy))
         add_words(r.lacks, sizeof r.lacks, "anisotropy of the roughness");
     if (sliding->softness != NULL) {
-        const bool drawn = softness_has_errors(sliding->softness);
+        const bool drawn = strain_softening_has_errors(sliding->softness);
         replicates_add(&r, drawn, FLOW_DRAW_SOFT_STORAGE, "softening with strain");
         if (drawn)
             add_line(&r, FLOW_DRAW_SOFT_LOSS);
@@ -76,8 +76,8 @@ replicates replicates_of(const wt_sliding *sliding, const wt_job *work, const ch
     return r;
 }
 
-void replicates_add_layer(replicates *r, const wt_sliding *sliding, const wt_layer_known *known,
-                          const char *ratio)
+void replicates_add_layer(replicates *r, const wt_sliding *sliding,
+                          const wt_layer_observation *known, const char *ratio)
 {
     if (sliding->layer_rubber != NULL) {
         if (sliding->layer_rubber->n_draws > 0)
@@ -132,15 +132,15 @@ static wt_status begin_materials(replicates *r, wt_error *err)
         slowest = fmin(slowest, fmin(v[0], reference));
         fastest = fmax(fastest, fmax(v[s->n_velocity - 1], reference));
     }
-    r->drawn = shared ? r->work->drawn : drawn_new();
-    return r->drawn != NULL ? drawn_begin(r->drawn, s, r->work, slowest, fastest, err)
+    r->drawn = shared ? r->work->drawn : material_cache_new();
+    return r->drawn != NULL ? material_cache_begin(r->drawn, s, r->work, slowest, fastest, err)
                             : wt_fail(err, WT_E_MEMORY, "out of memory");
 }
 
 static void end_materials(replicates *r)
 {
     if (r->drawn != r->work->drawn)
-        drawn_free(r->drawn);
+        material_cache_free(r->drawn);
     r->drawn = NULL;
 }
 
@@ -271,10 +271,10 @@ wt_status replicates_draw(replicates *r, size_t stride, replicate_fn one, const 
     for (size_t i = 0; i < r->n; i++)
         lost += isnan(r->value[i * stride]) != 0;
     if (lost > 0)
-        wt_parselog_add(r->work->log, WT_WARNING, NULL, NULL,
-                        "%zu of %zu replicates of the %s have no solution and are left out of the "
-                        "standard errors",
-                        lost, r->n, r->what);
+        wt_log_add(r->work->log, WT_WARNING, NULL, NULL,
+                   "%zu of %zu replicates of the %s have no solution and are left out of the "
+                   "standard errors",
+                   lost, r->n, r->what);
     return find_errors(r, err);
 }
 

@@ -12,9 +12,9 @@ enum { REPLICATES_MOST = 12 };
 typedef struct replicates {
     const wt_sliding *sliding;
     const wt_job *work;
-    double velocity;  /* the only one [m/s]; 0: those of the list and the reference */
-    wt_drawn *drawn;  /* while they are drawn */
-    const char *what; /* "friction", for messages */
+    double velocity;          /* the only one [m/s]; 0: those of the list and the reference */
+    wt_material_cache *drawn; /* while they are drawn */
+    const char *what;         /* "friction", for messages */
     flow_draw draw[REPLICATES_MOST]; /* [n_draws] the normal numbers that are drawn */
     size_t n_draws;
     bool varies;                    /* an error is stated or measured: there are replicates */
@@ -31,8 +31,8 @@ replicates replicates_of(const wt_sliding *sliding, const wt_job *work, const ch
  * stated. */
 void replicates_add(replicates *r, double standard_error, flow_draw draw, const char *words);
 /* What the modulus of a layer has errors of. `ratio`: in words. */
-void replicates_add_layer(replicates *r, const wt_sliding *sliding, const wt_layer_known *known,
-                          const char *ratio);
+void replicates_add_layer(replicates *r, const wt_sliding *sliding,
+                          const wt_layer_observation *known, const char *ratio);
 /* What is drawn, as said in a table. */
 const char *replicates_include(const replicates *r);
 

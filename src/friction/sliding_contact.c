@@ -80,10 +80,10 @@ wt_status flow_sliding_check(const wt_sliding *sliding, const wt_job *work, wt_e
     if (status == WT_OK)
         status = wt_anisotropy_check(&sliding->anisotropy, err);
     if (status == WT_OK && sliding->pressure.value > most_borne)
-        wt_parselog_add(work->log, WT_WARNING, NULL, NULL,
-                        "the nominal pressure of %.4g MPa is above the %.4g MPa that rubber bears: "
-                        "is its unit right?",
-                        1e-6 * sliding->pressure.value, 1e-6 * most_borne);
+        wt_log_add(work->log, WT_WARNING, NULL, NULL,
+                   "the nominal pressure of %.4g MPa is above the %.4g MPa that rubber bears: "
+                   "is its unit right?",
+                   1e-6 * sliding->pressure.value, 1e-6 * most_borne);
     return status;
 }
 
@@ -102,16 +102,16 @@ double flow_layer_velocity(const wt_sliding *sliding, const wt_layer_job *layer)
 static wt_status make_workspace(const wt_sliding *sliding, wt_friction_options options,
                                 uint64_t seed, size_t replicate, sliding_contact *c, wt_error *err)
 {
-    wt_softness softness = {0};
+    wt_strain_softening softness = {0};
     wt_status status = WT_OK;
     if (sliding->softness != NULL) {
-        status = softness_draw(sliding->softness, seed, replicate, &softness, err);
+        status = strain_softening_draw(sliding->softness, seed, replicate, &softness, err);
         options.softening = &softness.table;
         options.strain_factor = sliding->strain_factor;
     }
     if (status == WT_OK)
         status = wt_friction_workspace_new(c->material, c->roughness, &options, &c->workspace, err);
-    wt_softness_clear(&softness);
+    wt_strain_softening_clear(&softness);
     return status;
 }
 
@@ -147,8 +147,8 @@ static wt_status share_values(const wt_sliding *sliding, const wt_job *work, dra
 }
 
 wt_status sliding_contact_make(const wt_sliding *sliding, const wt_job *work, size_t replicate,
-                               wt_drawn *shared, wt_layer_state layer, sliding_contact *contact,
-                               wt_error *err)
+                               wt_material_cache *shared, wt_layer_state layer,
+                               sliding_contact *contact, wt_error *err)
 {
     sliding_contact c = {.cost = work->cost};
     const uint64_t seed = work->seed;
@@ -176,7 +176,7 @@ wt_status sliding_contact_make(const wt_sliding *sliding, const wt_job *work, si
     options.without_share = drawn || (layered && !own && layer.slope.exponent == 0) ||
                             (work->left_out & WT_EXTRA_SHARE) != 0;
     drawn_material kept = {0};
-    wt_status status = shared != NULL ? drawn_get(shared, replicate, &kept, err)
+    wt_status status = shared != NULL ? material_cache_get(shared, replicate, &kept, err)
                        : drawn        ? WT_OK
                                       : share_values(sliding, work, &kept, &c, err);
     c.shared = kept.material != NULL;

@@ -29,8 +29,8 @@ double flow_layer_velocity(const wt_sliding *sliding, const wt_layer_job *layer)
  * prepares the kernel. A replicate takes one thread and asks for a small numerical error, as many
  * are made at a time. */
 wt_status sliding_contact_make(const wt_sliding *sliding, const wt_job *work, size_t replicate,
-                               wt_drawn *drawn, wt_layer_state layer, sliding_contact *contact,
-                               wt_error *err) WT_NODISCARD;
+                               wt_material_cache *drawn, wt_layer_state layer,
+                               sliding_contact *contact, wt_error *err) WT_NODISCARD;
 /* What must be said of numbers whose relative error is not below the tolerance. */
 #define TOLERANCE_STATEMENT "the tolerance %.2g is not reached, the numerical error is up to %.2g"
 /* Shear stress of the contact at a point, by the temperature there. */

@@ -24,7 +24,7 @@ typedef struct effect {
 } effect;
 
 /* How much of the friction is there where the first strain of the table is met, and the last. */
-static wt_status find_shares(void *user, const contrast *of, const sliding_contact *c,
+static wt_status find_shares(void *user, const friction_difference *of, const sliding_contact *c,
                              wt_error *err)
 {
     effect *e = user;
@@ -46,7 +46,8 @@ static wt_status find_shares(void *user, const contrast *of, const sliding_conta
     return status;
 }
 
-static wt_status make_table(const contrast *c, const effect *e, wt_table **table, wt_error *err)
+static wt_status make_table(const friction_difference *c, const effect *e, wt_table **table,
+                            wt_error *err)
 {
     table_writer t = table_begin(&softening_schema, err);
     double above = (double)NAN;
@@ -68,9 +69,9 @@ static wt_status make_table(const contrast *c, const effect *e, wt_table **table
     softening_keys keys = {.strain_factor = c->sliding->strain_factor,
                            .strain = {e->strain, (double)NAN, (double)NAN, NULL},
                            .share_above = {above, (double)NAN, (double)NAN, NULL}};
-    softness_describe(c->sliding->softness, keys.source, sizeof keys.source);
-    contrast_words(&c->with[c->n - 1], &c->without[c->n - 1], "the moduli at small strain",
-                   keys.effect, sizeof keys.effect);
+    strain_softening_describe(c->sliding->softness, keys.source, sizeof keys.source);
+    friction_difference_describe(&c->with[c->n - 1], &c->without[c->n - 1],
+                                 "the moduli at small strain", keys.effect, sizeof keys.effect);
     softening_set_keys(&t, &keys);
     return table_end(&t, table);
 }
@@ -85,16 +86,16 @@ wt_status wt_softening_make(const wt_sliding *sliding, const wt_job *work, wt_ta
         status = wt_fail(err, WT_E_ARG, "the material does not soften with strain");
     if (status != WT_OK)
         return status;
-    contrast c = {.n = 0};
+    friction_difference c = {.n = 0};
     wt_sliding without = *sliding;
     without.softness = NULL;
     effect e = {.rows = calloc(sliding->n_velocity + 1, sizeof *e.rows)};
     if (e.rows == NULL)
         return wt_fail(err, WT_E_MEMORY, "out of memory");
-    status = contrast_make(sliding, &without, work, find_shares, &e, &c, err);
+    status = friction_difference_make(sliding, &without, work, find_shares, &e, &c, err);
     if (status == WT_OK)
         status = make_table(&c, &e, table, err);
-    contrast_clear(&c);
+    friction_difference_clear(&c);
     free(e.rows);
     return status;
 }

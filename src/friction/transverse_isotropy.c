@@ -131,7 +131,7 @@ static void say_cost(const directions *d, const wt_job *work)
             cost.items++;
             cost.error_estimated = fmax(cost.error_estimated, h->numerical_error / fabs(h->value));
         }
-    cost_say(work, cost);
+    cost_report(work, cost);
 }
 
 wt_status wt_directions_make(const wt_sliding *sliding, const wt_job *work, wt_table **table,

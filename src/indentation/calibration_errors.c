@@ -16,7 +16,7 @@
  * no longer be one that is accepted. */
 static const double small_step = 0.01, most_step = 0.3;
 
-const char *common_source_words(wt_common_source source)
+const char *calibration_source_text(wt_shared_law_source source)
 {
     static const char *const words[WT_COMMON_SOURCES] = {
         [WT_COMMON_SPRING_CONSTANT] = "spring constant",
@@ -36,7 +36,7 @@ static double first_known(double a, double b)
     return isnan(a) && b > 0 ? b : a;
 }
 
-static wt_tip moved_tip(const wt_tip *tip, wt_common_source source, double factor)
+static wt_tip moved_tip(const wt_tip *tip, wt_shared_law_source source, double factor)
 {
     wt_tip moved = *tip;
     /* a cap that was tangent to the faces stays so */
@@ -55,7 +55,7 @@ static wt_tip moved_tip(const wt_tip *tip, wt_common_source source, double facto
 }
 
 /* Tables of the moved tips. A step beyond 90 degrees is halved. */
-static wt_status move_tip(const wt_tip *tip, wt_common_source source, common_errors *to,
+static wt_status move_tip(const wt_tip *tip, wt_shared_law_source source, calibration_errors *to,
                           wt_error *err)
 {
     wt_status status = WT_OK;
@@ -69,11 +69,11 @@ static wt_status move_tip(const wt_tip *tip, wt_common_source source, common_err
     return status;
 }
 
-wt_status common_errors_begin(const wt_indent_job *job, common_errors *to, wt_error *err)
+wt_status calibration_errors_begin(const wt_indent_job *job, calibration_errors *to, wt_error *err)
 {
     const wt_tip *tip = &job->tip;
     const wt_estimate k = job->spring_constant, s = job->sensitivity;
-    *to = (common_errors){
+    *to = (calibration_errors){
         .error = {[WT_COMMON_SPRING_CONSTANT] =
                       first_known(relative_error(k.value, k.standard_error), job->lever_error),
                   [WT_COMMON_SENSITIVITY] = first_known(relative_error(s.value, s.standard_error),
@@ -95,11 +95,11 @@ wt_status common_errors_begin(const wt_indent_job *job, common_errors *to, wt_er
     for (int i = WT_COMMON_HALF_ANGLE; i <= WT_COMMON_RADIUS; i++)
         if (status == WT_OK && to->step[i] > 0 &&
             (to->stated || (i == WT_COMMON_RADIUS && tells_misfit)))
-            status = move_tip(tip, (wt_common_source)i, to, err);
+            status = move_tip(tip, (wt_shared_law_source)i, to, err);
     return status;
 }
 
-void common_errors_tell(const common_errors *of, wt_indent_workspace *workspace)
+void calibration_errors_apply(const calibration_errors *of, wt_indent_workspace *workspace)
 {
     size_t n = 0;
     for (int i = WT_COMMON_HALF_ANGLE; i <= WT_COMMON_RADIUS; i++)
@@ -112,16 +112,16 @@ void common_errors_tell(const common_errors *of, wt_indent_workspace *workspace)
             (tip_move){of->tip[WT_COMMON_RADIUS][0], of->tip[WT_COMMON_RADIUS][1], 1 / step};
 }
 
-told_tips common_errors_untell(wt_indent_workspace *workspace)
+cached_tips calibration_errors_reset(wt_indent_workspace *workspace)
 {
-    told_tips told = {.any_radius = workspace->any_radius};
+    cached_tips told = {.any_radius = workspace->any_radius};
     memcpy(told.moves, workspace->tip_move, sizeof told.moves);
     memset(workspace->tip_move, 0, sizeof workspace->tip_move);
     workspace->any_radius = (tip_move){0};
     return told;
 }
 
-void common_errors_tell_again(const told_tips *told, wt_indent_workspace *workspace)
+void calibration_errors_apply_cached(const cached_tips *told, wt_indent_workspace *workspace)
 {
     memcpy(workspace->tip_move, told->moves, sizeof told->moves);
     workspace->any_radius = told->any_radius;
@@ -134,14 +134,14 @@ static void clear_curve(common_curve *curve)
     *curve = (common_curve){0};
 }
 
-void common_errors_clear(common_errors *errors)
+void calibration_errors_clear(calibration_errors *errors)
 {
     for (int i = 0; i < WT_COMMON_SOURCES; i++)
         for (int way = 0; way < 2; way++)
             wt_contact_table_free(errors->tip[i][way]);
     for (size_t i = 0; i < errors->n; i++)
         clear_curve(&errors->curve[i]);
-    *errors = (common_errors){0};
+    *errors = (calibration_errors){0};
 }
 
 /* ---- curves ---------------------------------------------------------------------------------- */
@@ -172,7 +172,7 @@ static wt_status copy_branch(const wt_force_curve *curve, wt_segment_kind kind, 
 
 /* Keeps every second of them: those that remain are as if there had been half as many from the
  * start. */
-static void thin_out(common_errors *to)
+static void thin_out(calibration_errors *to)
 {
     size_t kept = 0;
     for (size_t i = 0; i < to->n; i++)
@@ -184,8 +184,8 @@ static void thin_out(common_errors *to)
     to->stride *= 2;
 }
 
-wt_status common_errors_keep(common_errors *to, const wt_force_curve *curve,
-                             const wt_contact_table *contact, bool own_tip, wt_error *err)
+wt_status calibration_errors_store(calibration_errors *to, const wt_force_curve *curve,
+                                   const wt_contact_table *contact, bool own_tip, wt_error *err)
 {
     if (!to->stated || to->seen++ % to->stride != 0)
         return WT_OK;
@@ -205,7 +205,7 @@ wt_status common_errors_keep(common_errors *to, const wt_force_curve *curve,
 /* ---- fits ------------------------------------------------------------------------------------ */
 
 typedef struct refit {
-    common_errors *to;
+    calibration_errors *to;
     const wt_indent_options *options;
     wt_indent_workspace *const *workspaces;
     double *scratch; /* [room] for each thread: forces that are scaled */
@@ -225,8 +225,8 @@ static curve_branch scale_branch(const common_branch *b, double factor, double *
 static wt_status fit_moved(const refit *f, size_t item, int way, unsigned worker,
                            double *log_modulus)
 {
-    const common_errors *to = f->to;
-    const wt_common_source source = (wt_common_source)(item % WT_COMMON_SOURCES);
+    const calibration_errors *to = f->to;
+    const wt_shared_law_source source = (wt_shared_law_source)(item % WT_COMMON_SOURCES);
     const common_curve *curve = &to->curve[item / WT_COMMON_SOURCES];
     const double factor = exp((2 * way - 1) * to->step[source]);
     double *scratch = f->scratch + worker * f->room;
@@ -236,15 +236,15 @@ static wt_status fit_moved(const refit *f, size_t item, int way, unsigned worker
         scale_branch(&curve->branch[0], signal ? factor : 1, scratch),
         scale_branch(&curve->branch[1], signal ? factor : 1, scratch + curve->branch[0].n)};
     wt_indent_workspace *workspace = f->workspaces[worker];
-    told_tips told;
+    cached_tips told;
     wt_indent_fit fit;
     if (curve->own_tip)
-        told = common_errors_untell(workspace);
+        told = calibration_errors_reset(workspace);
     const wt_status status = curve_fit_branches(
         signal ? curve->contact : to->tip[source][way], f->options, &scaled[0], &scaled[1],
         curve->spring_constant * (lever ? factor : 1), workspace, &fit, &f->errors[item]);
     if (curve->own_tip)
-        common_errors_tell_again(&told, workspace);
+        calibration_errors_apply_cached(&told, workspace);
     if (status == WT_OK)
         *log_modulus = fit.modulus.value > 0 ? log(fit.modulus.value) : (double)NAN;
     return status;
@@ -255,9 +255,9 @@ static wt_status fit_moved(const refit *f, size_t item, int way, unsigned worker
 static wt_status move_source(void *user, size_t item, unsigned worker)
 {
     const refit *f = user;
-    common_errors *to = f->to;
+    calibration_errors *to = f->to;
     const size_t at = item / WT_COMMON_SOURCES;
-    const wt_common_source source = (wt_common_source)(item % WT_COMMON_SOURCES);
+    const wt_shared_law_source source = (wt_shared_law_source)(item % WT_COMMON_SOURCES);
     const bool of_tip = source == WT_COMMON_HALF_ANGLE || source == WT_COMMON_RADIUS;
     const double step = of_tip && to->curve[at].own_tip ? 0 : to->step[source];
     double log_modulus[2] = {0, 0};
@@ -272,8 +272,9 @@ static wt_status move_source(void *user, size_t item, unsigned worker)
     return WT_OK;
 }
 
-wt_status common_errors_fit(common_errors *to, const wt_indent_options *options, unsigned threads,
-                            wt_indent_workspace *const *workspaces, wt_error *err)
+wt_status calibration_errors_fit(calibration_errors *to, const wt_indent_options *options,
+                                 unsigned threads, wt_indent_workspace *const *workspaces,
+                                 wt_error *err)
 {
     const size_t n = to->n * WT_COMMON_SOURCES;
     refit f = {.to = to, .options = options, .workspaces = workspaces};
@@ -302,7 +303,7 @@ wt_status common_errors_fit(common_errors *to, const wt_indent_options *options,
     return status;
 }
 
-void common_errors_set_keys(const common_errors *of, table_writer *rows)
+void calibration_errors_set_keys(const calibration_errors *of, table_writer *rows)
 {
     for (int i = 0; i < WT_COMMON_SOURCES && of->stated; i++) {
         const indentation_key error = (indentation_key)(INDENTATION_KEY_LEVER_ERROR + i),

@@ -25,7 +25,7 @@ typedef struct common_curve {
 } common_curve;
 
 /* What an error does to the modulus, by curves that are fitted anew with the source moved. */
-typedef struct common_errors {
+typedef struct calibration_errors {
     bool stated;                     /* else nothing is done */
     double error[WT_COMMON_SOURCES]; /* relative; NaN: not stated */
     double step[WT_COMMON_SOURCES];  /* of the logarithm of the source; 0: the tip has none */
@@ -33,31 +33,32 @@ typedef struct common_errors {
     common_curve curve[COMMON_CURVES];
     double gain[COMMON_CURVES][WT_COMMON_SOURCES];
     size_t n, seen, stride;
-} common_errors;
+} calibration_errors;
 
-wt_status common_errors_begin(const wt_indent_job *job, common_errors *to,
-                              wt_error *err) WT_NODISCARD;
+wt_status calibration_errors_begin(const wt_indent_job *job, calibration_errors *to,
+                                   wt_error *err) WT_NODISCARD;
 /* Fits of the workspace take the stated errors of the tip into account, as long as these are there.
  */
-void common_errors_tell(const common_errors *of, wt_indent_workspace *workspace);
+void calibration_errors_apply(const calibration_errors *of, wt_indent_workspace *workspace);
 /* What a workspace was told, taken from it while a curve with a tip of its own is fitted. */
-typedef struct told_tips {
+typedef struct cached_tips {
     tip_move moves[CURVE_TIP_MOVES], any_radius;
-} told_tips;
-told_tips common_errors_untell(wt_indent_workspace *workspace);
-void common_errors_tell_again(const told_tips *told, wt_indent_workspace *workspace);
+} cached_tips;
+cached_tips calibration_errors_reset(wt_indent_workspace *workspace);
+void calibration_errors_apply_cached(const cached_tips *told, wt_indent_workspace *workspace);
 /* Keeps a copy of an accepted curve: of every so many of them. contact: of its tip, as long as the
  * errors are there; own_tip: that is not the one of the job. */
-wt_status common_errors_keep(common_errors *to, const wt_force_curve *curve,
-                             const wt_contact_table *contact, bool own_tip,
-                             wt_error *err) WT_NODISCARD;
+wt_status calibration_errors_store(calibration_errors *to, const wt_force_curve *curve,
+                                   const wt_contact_table *contact, bool own_tip,
+                                   wt_error *err) WT_NODISCARD;
 /* Fits what is kept. workspaces: one for each of the threads. */
-wt_status common_errors_fit(common_errors *to, const wt_indent_options *options, unsigned threads,
-                            wt_indent_workspace *const *workspaces, wt_error *err) WT_NODISCARD;
-void common_errors_set_keys(const common_errors *of, table_writer *rows);
-void common_errors_clear(common_errors *errors);
+wt_status calibration_errors_fit(calibration_errors *to, const wt_indent_options *options,
+                                 unsigned threads, wt_indent_workspace *const *workspaces,
+                                 wt_error *err) WT_NODISCARD;
+void calibration_errors_set_keys(const calibration_errors *of, table_writer *rows);
+void calibration_errors_clear(calibration_errors *errors);
 
-const char *common_source_words(wt_common_source source);
+const char *calibration_source_text(wt_shared_law_source source);
 
 /* NULL if no group states a common error. names: [n]; a group without curves has no row. */
 wt_status modulus_budget_make(const wt_group_data *groups, const char *const *names, size_t n,

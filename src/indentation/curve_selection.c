@@ -33,7 +33,7 @@ static const char *number_in(const char *word)
     return colon + 1;
 }
 
-static wt_status read_word(const char *word, shown_curves *shown, wt_error *err)
+static wt_status read_word(const char *word, curve_selection *shown, wt_error *err)
 {
     const char *number = number_in(word);
     const bool is_worst = strncmp(word, worst, strlen(worst)) == 0;
@@ -56,9 +56,9 @@ static wt_status read_word(const char *word, shown_curves *shown, wt_error *err)
     return WT_OK;
 }
 
-wt_status shown_curves_begin(const wt_indent_job *job, shown_curves *shown, wt_error *err)
+wt_status curve_selection_begin(const wt_indent_job *job, curve_selection *shown, wt_error *err)
 {
-    *shown = (shown_curves){.words = job->curves, .n_words = job->n_curves};
+    *shown = (curve_selection){.words = job->curves, .n_words = job->n_curves};
     wt_status status = WT_OK;
     for (size_t i = 0; status == WT_OK && i < job->n_curves; i++)
         status = read_word(job->curves[i], shown, err);
@@ -69,7 +69,7 @@ wt_status shown_curves_begin(const wt_indent_job *job, shown_curves *shown, wt_e
     return status;
 }
 
-static bool is_named(shown_curves *shown, const flow_file *file, size_t curve)
+static bool is_named(curve_selection *shown, const flow_file *file, size_t curve)
 {
     bool named = false;
     for (size_t i = 0; i < shown->n_words; i++) {
@@ -85,7 +85,7 @@ static bool is_named(shown_curves *shown, const flow_file *file, size_t curve)
 }
 
 /* Makes room among the worst for one with this error; false if it is none of them. */
-static bool is_worst(shown_curves *shown, double error)
+static bool is_worst(curve_selection *shown, double error)
 {
     size_t best = shown->n;
     if (!(error >= 0) || shown->most_worst == 0)
@@ -132,17 +132,17 @@ static origin origin_of(const wt_indent_fit *fit, const wt_segment *approach, do
     return (origin){direction, direction * height[first], 0, 0, k};
 }
 
-static shown_sample sample_at(const origin *from, const wt_segment *segment, const double *force,
-                              size_t i)
+static selected_sample sample_at(const origin *from, const wt_segment *segment, const double *force,
+                                 size_t i)
 {
     const double z = from->direction * segment_height(segment)[i] - from->position;
     const double f = force[i] - from->force - from->tilt * z;
-    return (shown_sample){wt_segment_kind_name(segment->kind), z, f,
-                          tip_position(z, f, from->spring_constant), (double)NAN};
+    return (selected_sample){wt_segment_kind_name(segment->kind), z, f,
+                             tip_position(z, f, from->spring_constant), (double)NAN};
 }
 
 /* Appends samples of which no more than 2 for each of the bins are left, in their order. */
-static void thin(const shown_sample *from, size_t n, size_t bins, shown_curve *to)
+static void thin(const selected_sample *from, size_t n, size_t bins, selected_curve *to)
 {
     if (n <= 2 * bins) {
         for (size_t i = 0; i < n; i++)
@@ -164,14 +164,14 @@ static void thin(const shown_sample *from, size_t n, size_t bins, shown_curve *t
     }
 }
 
-typedef struct shown_scratch {
-    shown_sample *sample;                       /* [longest] */
+typedef struct selection_scratch {
+    selected_sample *sample;                    /* [longest] */
     double *force, *delta, *out, *time, *model; /* [longest], of one allocation */
-} shown_scratch;
+} selection_scratch;
 
 /* The finite samples of a segment; returns how many. */
 static size_t take_samples(const origin *from, const wt_segment *segment, const double *force,
-                           shown_sample *to)
+                           selected_sample *to)
 {
     const double *height = segment_height(segment);
     size_t n = 0;
@@ -184,7 +184,7 @@ static size_t take_samples(const origin *from, const wt_segment *segment, const 
 /* Fitted forces: 0 on the baseline, the law in contact. Returns the first sample in contact. */
 static wt_status add_fit(const wt_indent_fit *fit, const wt_indent_options *options,
                          const wt_contact_table *contact, const wt_segment *approach,
-                         const double *force, const origin *from, shown_scratch *s, size_t n,
+                         const double *force, const origin *from, selection_scratch *s, size_t n,
                          size_t *first, wt_error *err)
 {
     *first = n;
@@ -204,9 +204,9 @@ static wt_status add_fit(const wt_indent_fit *fit, const wt_indent_options *opti
     return status;
 }
 
-static wt_status add_samples(shown_curve *to, const wt_force_curve *curve, const wt_indent_fit *fit,
-                             const wt_contact_table *contact, const wt_indent_options *options,
-                             shown_scratch *s, wt_error *err)
+static wt_status add_samples(selected_curve *to, const wt_force_curve *curve,
+                             const wt_indent_fit *fit, const wt_contact_table *contact,
+                             const wt_indent_options *options, selection_scratch *s, wt_error *err)
 {
     const wt_segment *approach = wt_force_curve_segment(curve, WT_SEGMENT_APPROACH);
     const wt_segment *retract = wt_force_curve_segment(curve, WT_SEGMENT_RETRACT);
@@ -238,7 +238,7 @@ static wt_status add_samples(shown_curve *to, const wt_force_curve *curve, const
     return WT_OK;
 }
 
-static wt_status keep_samples(shown_curve *to, const wt_force_curve *curve,
+static wt_status keep_samples(selected_curve *to, const wt_force_curve *curve,
                               const wt_indent_fit *fit, const wt_contact_table *contact,
                               const wt_indent_options *options, wt_error *err)
 {
@@ -251,12 +251,12 @@ static wt_status keep_samples(shown_curve *to, const wt_force_curve *curve,
                                ? retract->n_points
                                : approach->n_points;
     double *numbers = malloc(arrays * longest * sizeof *numbers);
-    shown_scratch s = {.sample = malloc(longest * sizeof *s.sample),
-                       .force = numbers,
-                       .delta = numbers + longest,
-                       .out = numbers + 2 * longest,
-                       .time = numbers + 3 * longest,
-                       .model = numbers + 4 * longest};
+    selection_scratch s = {.sample = malloc(longest * sizeof *s.sample),
+                           .force = numbers,
+                           .delta = numbers + longest,
+                           .out = numbers + 2 * longest,
+                           .time = numbers + 3 * longest,
+                           .model = numbers + 4 * longest};
     to->sample = malloc(most * sizeof *to->sample);
     wt_status status = numbers == NULL || s.sample == NULL || to->sample == NULL
                            ? wt_fail(err, WT_E_MEMORY, "out of memory for the curves to look at")
@@ -266,15 +266,16 @@ static wt_status keep_samples(shown_curve *to, const wt_force_curve *curve,
     return status;
 }
 
-wt_status shown_curves_add(shown_curves *shown, const flow_file *file, const wt_force_curve *curve,
-                           const wt_indent_fit *fit, const wt_contact_table *contact,
-                           const wt_indent_options *options, wt_error *err)
+wt_status curve_selection_add(curve_selection *shown, const flow_file *file,
+                              const wt_force_curve *curve, const wt_indent_fit *fit,
+                              const wt_contact_table *contact, const wt_indent_options *options,
+                              wt_error *err)
 {
     if (shown->n_words == 0)
         return WT_OK;
     const bool usable = wt_curve_usable(fit->verdict);
     const bool named = is_named(shown, file, curve->index);
-    shown_curve kept = {.file = file->name, .curve = curve->index};
+    selected_curve kept = {.file = file->name, .curve = curve->index};
     if (usable)
         kept.error = fit->modulus.standard_error / fit->modulus.value;
     if (!named && !shown->all && !(shown->rejected && !usable)) {
@@ -282,7 +283,7 @@ wt_status shown_curves_add(shown_curves *shown, const flow_file *file, const wt_
             return WT_OK;
         kept.by_error = true;
     }
-    shown_curve *grown = array_grow(shown->curve, shown->n, sizeof *grown);
+    selected_curve *grown = array_grow(shown->curve, shown->n, sizeof *grown);
     if (grown == NULL)
         return wt_fail(err, WT_E_MEMORY, "out of memory for the curves to look at");
     shown->curve = grown;
@@ -294,8 +295,8 @@ wt_status shown_curves_add(shown_curves *shown, const flow_file *file, const wt_
 
 /* ---- the table ------------------------------------------------------------------------------- */
 
-wt_status shown_curves_table(const shown_curves *shown, const char *group, wt_table **table,
-                             wt_error *err)
+wt_status curve_selection_table(const curve_selection *shown, const char *group, wt_table **table,
+                                wt_error *err)
 {
     for (size_t i = 0; i < shown->n_words; i++) {
         if (shown->met[i] || number_in(shown->words[i]) == NULL ||
@@ -317,10 +318,10 @@ wt_status shown_curves_table(const shown_curves *shown, const char *group, wt_ta
     }
     t = table_continue(*table, &curves_schema, group, err);
     for (size_t i = 0; i < shown->n; i++) {
-        const shown_curve *c = &shown->curve[i];
+        const selected_curve *c = &shown->curve[i];
         table_block(&t);
         for (size_t j = 0; j < c->n; j++) {
-            const shown_sample *s = &c->sample[j];
+            const selected_sample *s = &c->sample[j];
             TABLE_ADD(curves, &t, group, c->file, c->curve, s->segment, s->displacement, s->force,
                       s->indentation, s->fitted_force, s->force - s->fitted_force);
         }
@@ -328,11 +329,11 @@ wt_status shown_curves_table(const shown_curves *shown, const char *group, wt_ta
     return table_end(&t, NULL);
 }
 
-void shown_curves_clear(shown_curves *shown)
+void curve_selection_clear(curve_selection *shown)
 {
     for (size_t i = 0; i < shown->n; i++)
         free(shown->curve[i].sample);
     free(shown->curve);
     free(shown->met);
-    *shown = (shown_curves){0};
+    *shown = (curve_selection){0};
 }

@@ -6,42 +6,43 @@
 #include "core/table/registry.h"
 #include "job/inputs.h"
 
-typedef struct shown_sample {
+typedef struct selected_sample {
     const char *segment; /* static */
     double displacement, force, indentation, fitted_force;
-} shown_sample;
+} selected_sample;
 
-typedef struct shown_curve {
+typedef struct selected_curve {
     const char *file; /* borrowed from the list of files */
     size_t curve;
     double error;  /* relative, of the modulus */
     bool by_error; /* kept only as long as it is among the worst */
-    shown_sample *sample;
+    selected_sample *sample;
     size_t n;
-} shown_curve;
+} selected_curve;
 
 /* What `--curves` asks for. */
-typedef struct shown_curves {
+typedef struct curve_selection {
     bool median, rejected, all;
     size_t most_worst, n_worst;
     const char *const *words; /* [n_words] borrowed from the job; those that are FILE:N name one */
     bool *met;                /* [n_words] */
     size_t n_words;
-    shown_curve *curve; /* [n] in the order of the rows */
+    selected_curve *curve; /* [n] in the order of the rows */
     size_t n;
-} shown_curves;
+} curve_selection;
 
-/* Reads the words of the job. shown_curves_clear also after a failure. */
-wt_status shown_curves_begin(const wt_indent_job *job, shown_curves *shown,
-                             wt_error *err) WT_NODISCARD;
+/* Reads the words of the job. curve_selection_clear also after a failure. */
+wt_status curve_selection_begin(const wt_indent_job *job, curve_selection *shown,
+                                wt_error *err) WT_NODISCARD;
 /* Keeps the samples of the curve of the next row, if it is asked for. */
-wt_status shown_curves_add(shown_curves *shown, const flow_file *file, const wt_force_curve *curve,
-                           const wt_indent_fit *fit, const wt_contact_table *contact,
-                           const wt_indent_options *options, wt_error *err) WT_NODISCARD;
+wt_status curve_selection_add(curve_selection *shown, const flow_file *file,
+                              const wt_force_curve *curve, const wt_indent_fit *fit,
+                              const wt_contact_table *contact, const wt_indent_options *options,
+                              wt_error *err) WT_NODISCARD;
 /* Appends them to the table "curves", which is made if it is NULL. A curve that was named and not
  * met is WT_E_NOT_FOUND. */
-wt_status shown_curves_table(const shown_curves *shown, const char *group, wt_table **table,
-                             wt_error *err) WT_NODISCARD;
-void shown_curves_clear(shown_curves *shown);
+wt_status curve_selection_table(const curve_selection *shown, const char *group, wt_table **table,
+                                wt_error *err) WT_NODISCARD;
+void curve_selection_clear(curve_selection *shown);
 
 #endif

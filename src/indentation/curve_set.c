@@ -21,20 +21,20 @@
 
 enum { IN, OUT, WAYS };
 
-typedef struct kept_curve {
+typedef struct stored_curve {
     wt_indent_fit fit;
     double spring_constant;
     size_t n[WAYS];
     double *position[WAYS]; /* rising on the way in, falling on the way out [m] */
     double *time[WAYS];     /* [s]; those of the way out go on; NULL: not known */
     double *block;
-} kept_curve;
+} stored_curve;
 
 struct wt_curve_set {
     wt_tip tip;
     wt_indent_options options;
     double temperature;
-    kept_curve *curves;
+    stored_curve *curves;
     size_t n, samples;
     bool useless;
 };
@@ -138,7 +138,7 @@ static size_t keep_way(const wt_segment *segment, double direction, double *posi
 }
 
 /* The way out begins a step after the way in ends. */
-static void join_times(kept_curve *k)
+static void join_times(stored_curve *k)
 {
     const size_t n = k->n[IN];
     if (k->n[OUT] == 0)
@@ -166,7 +166,7 @@ wt_status curve_set_add(wt_curve_set *set, const wt_force_curve *curve, const wt
         clear_curves(set);
         return WT_OK;
     }
-    kept_curve *curves = array_grow(set->curves, set->n, sizeof *curves);
+    stored_curve *curves = array_grow(set->curves, set->n, sizeof *curves);
     double *block = malloc(2 * (n[IN] + n[OUT] + 1) * sizeof *block), *next = block;
     if (curves != NULL)
         set->curves = curves;
@@ -174,8 +174,8 @@ wt_status curve_set_add(wt_curve_set *set, const wt_force_curve *curve, const wt
         free(block);
         return wt_fail(err, WT_E_MEMORY, "out of memory for the curves");
     }
-    kept_curve *k = &curves[set->n++];
-    *k = (kept_curve){
+    stored_curve *k = &curves[set->n++];
+    *k = (stored_curve){
         .fit = *fit, .spring_constant = curve->cantilever.spring_constant, .block = block};
     bool timed[WAYS];
     for (int w = 0; w < WAYS; w++) {
@@ -212,7 +212,7 @@ curve_scratch *curve_scratch_new(const wt_curve_set *const sets[2])
         return NULL;
     for (int g = 0; g < 2; g++)
         for (size_t i = 0; i < curve_set_size(sets[g]); i++) {
-            const kept_curve *k = &sets[g]->curves[i];
+            const stored_curve *k = &sets[g]->curves[i];
             most = k->n[IN] + k->n[OUT] > most ? k->n[IN] + k->n[OUT] : most;
         }
     s->workspace = wt_indent_workspace_new();
@@ -239,7 +239,7 @@ void curve_scratch_free(curve_scratch *s)
 }
 
 /* The samples in contact, behind the moment of contact itself. `first`: of each way. */
-static size_t in_contact(const kept_curve *k, curve_scratch *s, size_t first[WAYS])
+static size_t in_contact(const stored_curve *k, curve_scratch *s, size_t first[WAYS])
 {
     const double contact = k->fit.contact_point.value, *x = k->position[IN];
     size_t n = 0, i = 0;
@@ -262,7 +262,7 @@ static size_t in_contact(const kept_curve *k, curve_scratch *s, size_t first[WAY
 }
 
 /* The series with the moduli that the curve is made with. */
-static wt_status begin_law(const wt_curve_set *set, const kept_curve *k, double level,
+static wt_status begin_law(const wt_curve_set *set, const stored_curve *k, double level,
                            const wt_prony *made, size_t n, curve_scratch *s, wt_error *err)
 {
     const double reduced = 1 - set->options.poisson_ratio * set->options.poisson_ratio;
@@ -287,7 +287,7 @@ static wt_status begin_law(const wt_curve_set *set, const kept_curve *k, double 
 
 /* The line of the baseline with what the contact adds, and noise whose long waves are as much
  * stronger as those of the curve. */
-static void add_noise(const kept_curve *k, const size_t first[WAYS], size_t n, uint64_t seed,
+static void add_noise(const stored_curve *k, const size_t first[WAYS], size_t n, uint64_t seed,
                       size_t place, curve_scratch *s)
 {
     const wt_indent_fit *fit = &k->fit;
@@ -312,7 +312,7 @@ wt_status curve_set_try(const wt_curve_set *set, size_t i, double level, const w
                         const wt_prony *fitted, const wt_contact_table *contact, uint64_t seed,
                         curve_scratch *s, curve_again *again, wt_error *err)
 {
-    const kept_curve *k = &set->curves[i];
+    const stored_curve *k = &set->curves[i];
     wt_indent_options options = set->options;
     wt_indent_fit fit;
     size_t first[WAYS];

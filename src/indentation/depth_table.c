@@ -17,7 +17,7 @@ typedef struct depth_words {
     char text[48];
 } depth_words;
 
-static depth_words si_words(double value, const char *unit)
+static depth_words format_si_value(double value, const char *unit)
 {
     depth_words w;
     wt_format_si(value, unit, 3, w.text, sizeof w.text);
@@ -36,8 +36,8 @@ static const char *depth_advice(const wt_curve_depth *d, bool other)
 
 static void say_change(const wt_curve_depth *d, char text[320])
 {
-    const depth_words shallow = si_words(d->depth[0], "m"),
-                      deep = si_words(d->depth[WT_DEPTHS - 1], "m");
+    const depth_words shallow = format_si_value(d->depth[0], "m"),
+                      deep = format_si_value(d->depth[WT_DEPTHS - 1], "m");
     const double margin = 100 * WT_DEPTH_MARGIN;
     const bool small = fabs(log(d->change.low)) < log1p(WT_DEPTH_MARGIN) &&
                        fabs(log(d->change.high)) < log1p(WT_DEPTH_MARGIN);
@@ -85,11 +85,13 @@ static void say_reading(const wt_curve_depth *d, char text[640])
 {
     char numbers[256] = "";
     if (!isnan(d->thickness.value))
-        clocale_print(
-            numbers, sizeof numbers, "; one of %s (%s to %s) with %s on %s would look like that",
-            si_words(d->thickness.value, "m").text, si_words(d->thickness.low, "m").text,
-            si_words(d->thickness.high, "m").text, si_words(d->layer_modulus.value, "Pa").text,
-            si_words(d->ground_modulus.value, "Pa").text);
+        clocale_print(numbers, sizeof numbers,
+                      "; one of %s (%s to %s) with %s on %s would look like that",
+                      format_si_value(d->thickness.value, "m").text,
+                      format_si_value(d->thickness.low, "m").text,
+                      format_si_value(d->thickness.high, "m").text,
+                      format_si_value(d->layer_modulus.value, "Pa").text,
+                      format_si_value(d->ground_modulus.value, "Pa").text);
     clocale_print(text, 640,
                   "if a layer thinner than the indentation makes it, the layer is %s than what is "
                   "below; then shallow indentations tell the layer, deep ones what is below, and "

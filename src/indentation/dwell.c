@@ -219,10 +219,10 @@ static wt_status read_file(void *user, flow_file *file, size_t i, wt_error *err)
 static wt_status read_files(dwell_task *task, const flow_files *files, wt_error *err)
 {
     size_t n_failed;
-    wt_status status = flow_files_take(files, task->work, read_file, task, &n_failed, err);
+    wt_status status = flow_files_process(files, task->work, read_file, task, &n_failed, err);
     if (status == WT_OK && task->n_dwells == 0) {
         status = wt_fail(err, WT_E_EMPTY, "no curve dwells behind its approach");
-        flow_tell_files(files, n_failed, err);
+        flow_error_add_files(files, n_failed, err);
     }
     return status;
 }
@@ -281,7 +281,7 @@ wt_status wt_dwell_make(const wt_indent_job *job, const wt_job *work, wt_dwell_t
     if (status == WT_OK)
         status = first != WT_OK ? first : second != WT_OK ? second : third;
     if (status == WT_OK) {
-        cost_say(work, (cost_summary){.items = (double)task.n_dwells});
+        cost_report(work, (cost_summary){.items = (double)task.n_dwells});
         *tables = made;
         made = (wt_dwell_tables){0};
     }

@@ -51,7 +51,7 @@ static void plot_force(figure_drawing *d, int section, int style, const char *ti
 {
     plot_item(d, section,
               "(($1-contact_point)*x_unit):($2*y_unit) every %zu with lines ls %d title '%s'",
-              drawing_every(d, section, LINE_POINTS), style, say(d->language, title));
+              drawing_every(d, section, LINE_POINTS), style, translate(d->language, title));
 }
 
 static void draw_force_displacement(figure_drawing *d)
@@ -84,7 +84,7 @@ static void draw_force_displacement(figure_drawing *d)
         plot_item(d, contact[i],
                   "(($1-contact_point)*x_unit):($3*y_unit):($2*x_unit) with xerrorbars ls 13 title "
                   "'%s'",
-                  say(d->language, "contact"));
+                  translate(d->language, "contact"));
         plot_end(d);
     }
     text_add(&d->script, "unset multiplot\n");
@@ -98,17 +98,19 @@ static void caption_force_displacement(figure_drawing *d)
         const double error =
             force_displacement_value(&keys, FORCE_DISPLACEMENT_KEY_CONTACT_POINT).standard_error;
         if (curve != NULL && error > 0)
-            text_say(&d->caption, " %s: %s, standard error of the contact point %s.",
-                     drawing_group_name(d, d->groups[i]), curve,
-                     VALUE(d->language, WT_Q_LENGTH, NULL, error));
+            text_append_translated(&d->caption, " %s: %s, standard error of the contact point %s.",
+                                   drawing_group_name(d, d->groups[i]), curve,
+                                   VALUE(d->language, WT_Q_LENGTH, NULL, error));
         else if (curve != NULL)
-            text_say(&d->caption, " %s: %s.", drawing_group_name(d, d->groups[i]), curve);
+            text_append_translated(&d->caption, " %s: %s.", drawing_group_name(d, d->groups[i]),
+                                   curve);
     }
-    text_words(&d->caption, " The vertical line is the fitted contact point; its horizontal bar is "
-                            "one standard error.");
+    text_append_phrase(&d->caption,
+                       " The vertical line is the fitted contact point; its horizontal bar is "
+                       "one standard error.");
     size_t every = drawing_thinning(d, LINE_POINTS);
     if (every > 1)
-        text_say(&d->caption, " One sample of %zu is drawn.", every);
+        text_append_translated(&d->caption, " One sample of %zu is drawn.", every);
 }
 
 /* ---- force against indentation --------------------------------------------------------------- */
@@ -118,10 +120,10 @@ static void caption_force_indentation(figure_drawing *d)
     value_span fit = SPAN_EMPTY;
     span_add_column(&fit, d->table, FORCE_INDENTATION_FITTED_FORCE, false);
     if (!span_empty(&fit))
-        text_words(&d->caption, " Lines: contact model with the fitted modulus.");
+        text_append_phrase(&d->caption, " Lines: contact model with the fitted modulus.");
     size_t every = drawing_thinning(d, MARKER_POINTS);
     if (every > 1)
-        text_say(&d->caption, " One sample of up to %zu is drawn.", every);
+        text_append_translated(&d->caption, " One sample of up to %zu is drawn.", every);
 }
 
 /* ---- modulus by group ------------------------------------------------------------------------ */
@@ -137,7 +139,7 @@ static void draw_modulus_groups(figure_drawing *d)
 
     for (size_t i = 0; i < n; i++) {
         const row_filter rows = {{d->figure->group}, {d->groups[i]}, false};
-        const table_view *curves = bound_indentation(d->tables, d->groups[i]);
+        const table_view *curves = figure_tables_indentation(d->tables, d->groups[i]);
         d->data[i] = curves == NULL
                          ? NO_SECTION
                          : drawing_section(d, curves, d->groups[i], &accepted, of_curve, 2, 1);
@@ -156,7 +158,7 @@ static void draw_modulus_groups(figure_drawing *d)
     drawing_axis(d, "y", &d->figure->y[0], NULL, d->y[0]);
     text_format(&d->script, "set xrange [0.5:%zu.6]\nset xtics (", n);
     for (size_t i = 0; i < n; i++) {
-        growing_text label = {0};
+        text_buffer label = {0};
         text_format(&label, "%s (n = %zu)", drawing_group_name(d, d->groups[i]),
                     drawing_rows(d, d->data[i]) + drawing_rows(d, open[i]));
         text_add(&d->script, i == 0 ? "" : ", ");
@@ -185,15 +187,16 @@ static void caption_modulus_groups(figure_drawing *d)
 {
     size_t every = drawing_thinning(d, CROWD_POINTS);
     if (every > 1)
-        text_say(&d->caption, " One curve of up to %zu is drawn.", every);
+        text_append_translated(&d->caption, " One curve of up to %zu is drawn.", every);
     const char *unit = comparison_words(&d->tables->comparison, COMPARISON_KEY_UNIT_OF_ANALYSIS);
     if (unit != NULL)
-        text_say(&d->caption, " Unit of analysis of the interval: %s.", say(d->language, unit));
+        text_append_translated(&d->caption, " Unit of analysis of the interval: %s.",
+                               translate(d->language, unit));
     for (size_t row = 0; row < d->table->n_rows; row++) {
         double all = modulus_groups_get(d->table, row, MODULUS_GROUPS_N),
                out = modulus_groups_get(d->table, row, MODULUS_GROUPS_N_REJECTED);
         if (isfinite(all) && isfinite(out))
-            text_say(
+            text_append_translated(
                 &d->caption, " %s: n = %.0f, rejected %.0f.",
                 drawing_group_name(d, modulus_groups_text(d->table, row, MODULUS_GROUPS_GROUP)),
                 all, out);
@@ -217,7 +220,7 @@ static void caption_modulus_rate(figure_drawing *d)
             first = false;
         }
     }
-    text_words(&d->caption, ".");
+    text_append_phrase(&d->caption, ".");
 }
 
 /* ---- descriptions ---------------------------------------------------------------------------- */

@@ -33,10 +33,10 @@ static void draw_sheet(figure_drawing *d, const curve_list *list)
         curve_panel(d, &list->curves[i]);
     }
     text_add(&d->script, "unset multiplot\n");
-    text_say(&d->caption, " %s %zu of %zu curves.", say(d->language, curve_panel_words), n,
-             list->n_rows);
+    text_append_translated(&d->caption, " %s %zu of %zu curves.",
+                           translate(d->language, curve_panel_words), n, list->n_rows);
     if (n < list->n)
-        text_words(&d->caption, " weartrack report --sheets draws the others.");
+        text_append_phrase(&d->caption, " weartrack report --sheets draws the others.");
 }
 
 static void draw_curves(figure_drawing *d)

@@ -97,7 +97,7 @@ void draw_modulus_map(figure_drawing *d)
 
     for (size_t i = 0; i < d->n_groups && d->status == WT_OK; i++) {
         map_panel panel = {.group = d->groups[i],
-                           .table = bound_indentation(d->tables, d->groups[i])};
+                           .table = figure_tables_indentation(d->tables, d->groups[i])};
         if (!is_map(&panel))
             continue;
         panel.accepted = drawing_section(d, panel.table, panel.group, &accepted, columns, 3, 3);

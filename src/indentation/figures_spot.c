@@ -70,7 +70,7 @@ static void draw_spot_map(figure_drawing *d)
             continue;
         axis_linear(d, "cb", i < 2 ? "Height" : "Change of the height",
                     &spot_map_schema.columns[shown[i]], colours[i < 2 ? 0 : i]);
-        draw_panel(d, sections[i], say(d->language, titles[i]));
+        draw_panel(d, sections[i], translate(d->language, titles[i]));
     }
     text_add(&d->script, "unset multiplot\n");
 }

@@ -113,15 +113,15 @@ static void set_calibration_keys(const indent_task *task, table_writer *t)
         k.standard_error = job->lever_error * k.value;
     if (task->by_sensitivity && task->s_low < task->s_high)
         indentation_set_print(t, INDENTATION_KEY_SENSITIVITIES, "%s m/V",
-                              ends_of(task->s_low, task->s_high, 4).text);
+                              format_range(task->s_low, task->s_high, 4).text);
     else if (task->by_sensitivity && !isnan(s.value))
         indentation_set(t, INDENTATION_KEY_SENSITIVITY, flow_as_stated(s));
-    common_errors_set_keys(&task->common, t);
+    calibration_errors_set_keys(&task->common, t);
     if (!isnan(k.value))
         indentation_set(t, INDENTATION_KEY_SPRING_CONSTANT, flow_as_stated(k));
     if (task->k_low < task->k_high)
         indentation_set_print(t, INDENTATION_KEY_SPRING_CONSTANTS, "%s N/m",
-                              ends_of(task->k_low, task->k_high, 4).text);
+                              format_range(task->k_low, task->k_high, 4).text);
 }
 
 static void set_keys(const indent_task *task, const flow_files *files, table_writer *t)
@@ -160,10 +160,10 @@ static wt_status find_spectrum(indent_task *task, wt_error *err)
     if (job->rubber == NULL)
         return WT_OK;
     if (job->rubber->kind != WT_RUBBER_SERIES && job->rubber->prony.n == 0) {
-        wt_parselog_add(task->work->log, WT_NOTE, NULL, NULL,
-                        "%s: the material has no relaxation spectrum (it is a table or a law), so "
-                        "each curve has the modulus of its own rate",
-                        job->group);
+        wt_log_add(task->work->log, WT_NOTE, NULL, NULL,
+                   "%s: the material has no relaxation spectrum (it is a table or a law), so "
+                   "each curve has the modulus of its own rate",
+                   job->group);
         return WT_OK;
     }
     const wt_status status =
@@ -172,8 +172,8 @@ static wt_status find_spectrum(indent_task *task, wt_error *err)
         return status;
     task->options.spectrum = &task->spectrum;
     if (statement[0] != '\0')
-        wt_parselog_add(task->work->log, WT_WARNING, NULL, NULL, "spectrum of the %s: %s",
-                        job->group, statement);
+        wt_log_add(task->work->log, WT_WARNING, NULL, NULL, "spectrum of the %s: %s", job->group,
+                   statement);
     return WT_OK;
 }
 
@@ -181,7 +181,7 @@ static wt_status prepare_task(indent_task *task, wt_error *err)
 {
     wt_status status = indent_job_check(task->job, err);
     if (status == WT_OK)
-        status = shown_curves_begin(task->job, &task->shown, err);
+        status = curve_selection_begin(task->job, &task->shown, err);
     if (status == WT_OK)
         status = param_check(wt_job_params(), task->work, err);
     if (status == WT_OK)
@@ -189,9 +189,9 @@ static wt_status prepare_task(indent_task *task, wt_error *err)
     if (status == WT_OK)
         status = indent_contact_table(&task->job->tip, &task->contact, err);
     if (status == WT_OK)
-        status = choices_read(task->job, task->work, &task->choices, err);
+        status = manual_overrides_read(task->job, task->work, &task->choices, err);
     if (status == WT_OK && (task->work->left_out & WT_EXTRA_COMMON) == 0)
-        status = common_errors_begin(task->job, &task->common, err);
+        status = calibration_errors_begin(task->job, &task->common, err);
     if (status != WT_OK)
         return status;
     char title[96];
@@ -213,7 +213,7 @@ static wt_status prepare_task(indent_task *task, wt_error *err)
     for (unsigned i = 0; i < task->n_workers; i++) {
         if ((task->scratch[i] = wt_indent_workspace_new()) == NULL)
             return wt_fail(err, WT_E_MEMORY, "out of memory");
-        common_errors_tell(&task->common, task->scratch[i]);
+        calibration_errors_apply(&task->common, task->scratch[i]);
     }
     return WT_OK;
 }
@@ -228,13 +228,13 @@ static void release_task(indent_task *task)
     free(task->items);
     free(task->moduli);
     free(task->tips);
-    indent_together_clear(&task->together);
-    common_errors_clear(&task->common);
+    indent_summary_clear(&task->together);
+    calibration_errors_clear(&task->common);
     indent_depths_clear(&task->depths);
     wt_prony_clear(&task->spectrum);
     wt_contact_table_free(task->contact);
-    choices_clear(&task->choices);
-    shown_curves_clear(&task->shown);
+    manual_overrides_clear(&task->choices);
+    curve_selection_clear(&task->shown);
     wt_table_free(task->rows.table);
     (void)pthread_cond_destroy(&task->written);
     (void)pthread_mutex_destroy(&task->lock);
@@ -251,7 +251,7 @@ static void say_cost(const indent_task *task)
         cost.tolerance_asked = fmax(cost.tolerance_asked, w->step_allowed);
         cost.error_estimated = fmax(cost.error_estimated, w->step_left);
     }
-    cost_say(task->work, cost);
+    cost_report(task->work, cost);
 }
 
 wt_status wt_indent_group(const wt_indent_job *job, const wt_job *work, wt_indent_tables *tables,
@@ -274,28 +274,29 @@ wt_status wt_indent_group(const wt_indent_job *job, const wt_job *work, wt_inden
     if (status == WT_OK)
         status = flow_files_list(job->sets, job->n_sets, work, &files, err);
     if (status == WT_OK)
-        status = choices_bind(&task.choices, &files, err);
+        status = manual_overrides_bind(&task.choices, &files, err);
     if (status == WT_OK)
         status = indent_read_files(&task, &files, err);
     if (status == WT_OK && task.n_curves == 0) {
         status = wt_fail(err, WT_E_EMPTY, "no force curve could be read for \"%s\"", job->group);
-        flow_tell_files(&files, task.n_failed, err);
+        flow_error_add_files(&files, task.n_failed, err);
     }
     task.rows.err = err; /* that of the last row was the error of its file */
     if (status == WT_OK)
-        status = common_errors_fit(&task.common, &task.options, task.n_workers, task.scratch, err);
+        status =
+            calibration_errors_fit(&task.common, &task.options, task.n_workers, task.scratch, err);
     if (status == WT_OK) {
         set_keys(&task, &files, &task.rows);
-        status = indent_say_together(&task.together, job, work, &task.rows, err);
+        status = indent_summary_report(&task.together, job, work, &task.rows, err);
     }
     if (status == WT_OK)
         status = indent_depths_table(&task.depths, job, task.contact, tables, err);
     if (status == WT_OK)
-        status = choices_table(&task.choices, work, &tables->choices, err);
+        status = manual_overrides_table(&task.choices, work, &tables->choices, err);
     if (status == WT_OK && task.shown.median && task.n_moduli > 0)
         status = add_representative(&task, tables, err);
     if (status == WT_OK)
-        status = shown_curves_table(&task.shown, job->group, &tables->curves, err);
+        status = curve_selection_table(&task.shown, job->group, &tables->curves, err);
     if (status == WT_OK) {
         status = table_end(&task.rows, &tables->indentation);
         task.rows.table = NULL;

@@ -17,7 +17,7 @@ typedef struct indent_shifts {
 } indent_shifts;
 
 /* The curves with a modulus. */
-typedef struct indent_together {
+typedef struct indent_summary {
     size_t n;
     indent_shifts bend, loss, loss_error, misfit; /* relative to the modulus */
     size_t n_misfit;                              /* that show one */
@@ -26,16 +26,16 @@ typedef struct indent_together {
     double (*misfits)[WT_CURVE_WAVES]; /* [n_misfits] of those that have one */
     size_t n_misfits;
     double (*contacts)[WT_CONTACT_ESTIMATORS]; /* [n] by other estimators; NULL: not asked for */
-} indent_together;
-wt_status indent_together_add(indent_together *to, const wt_indent_fit *fit,
-                              const wt_indent_options *options, wt_error *err);
-void indent_together_clear(indent_together *together);
+} indent_summary;
+wt_status indent_summary_add(indent_summary *to, const wt_indent_fit *fit,
+                             const wt_indent_options *options, wt_error *err);
+void indent_summary_clear(indent_summary *together);
 /* What curves of such a depth cannot show, with what would, in words. */
-void indent_not_shown(const wt_indent_job *job, double depth, char *text, size_t size);
+void indent_systematic_errors(const wt_indent_job *job, double depth, char *text, size_t size);
 /* Says what moves all moduli alike, so that their scatter does not show it, tests the mean residual
  * and says where other estimators see contact. */
-wt_status indent_say_together(const indent_together *together, const wt_indent_job *job,
-                              const wt_job *work, table_writer *rows, wt_error *err);
+wt_status indent_summary_report(const indent_summary *together, const wt_indent_job *job,
+                                const wt_job *work, table_writer *rows, wt_error *err);
 
 /* Whether it loses work, and nothing says what that does to its modulus. */
 bool indent_loss_is_unknown(const wt_indent_fit *fit);

@@ -24,7 +24,7 @@ wt_read_options indent_read_options(indent_task *task, const flow_file *file, bo
         options.sensitivity = job->sensitivity.value;
     task->file_contact = task->contact;
     task->file_tip = &job->tip;
-    choices_of_file(&task->choices, file, &options, &task->file_contact, &task->file_tip);
+    manual_overrides_of_file(&task->choices, file, &options, &task->file_contact, &task->file_tip);
     options.want &= WT_Q_BIT(WT_Q_HEIGHT) | WT_Q_BIT(WT_Q_MEASURED_HEIGHT) | WT_Q_BIT(WT_Q_FORCE) |
                     (time ? WT_Q_BIT(WT_Q_TIME) : 0);
     options.one_height = true;
@@ -98,7 +98,7 @@ static item *take_curve(indent_task *task)
     it->samples = 0;
     for (size_t i = 0; it->status == WT_OK && i < it->curve.n_segments; i++)
         it->samples += it->curve.segments[i].n_points * it->curve.segments[i].n_channels;
-    it->choice = choices_of_curve(&task->choices, task->file, it->curve.index);
+    it->choice = manual_overrides_of_curve(&task->choices, task->file, it->curve.index);
     it->state = ITEM_TAKEN;
     it->order = task->n_read++;
     task->n_taken++;
@@ -125,7 +125,7 @@ static wt_status keep_modulus(indent_task *task, const item *it, wt_error *err)
                                               .choice = it->choice,
                                               .order = task->n_moduli};
     task->n_moduli++;
-    return indent_together_add(&task->together, &it->fit, &task->options, err);
+    return indent_summary_add(&task->together, &it->fit, &task->options, err);
 }
 
 static bool is_described_alike(const wt_tip *a, const wt_tip *b)
@@ -179,7 +179,7 @@ static wt_status write_item(indent_task *task, item *it, wt_error *err)
 {
     wt_status status = WT_OK;
     if (it->status != WT_OK) {
-        if (!flow_goes_on(task->work, it->status))
+        if (!flow_may_continue(task->work, it->status))
             return wt_job_failed(task->work, task->file->name, it->status, &it->error, err);
         mark_unreadable(&it->fit, &it->error);
         status = note_failure(task, it->curve.index, &it->error, err);
@@ -193,8 +193,8 @@ static wt_status write_item(indent_task *task, item *it, wt_error *err)
     task->n_curves++;
     status = write_row(task, it, &options, alike, err);
     if (status == WT_OK)
-        status = shown_curves_add(&task->shown, task->file, &it->curve, &it->fit,
-                                  task->file_contact, &options, err);
+        status = curve_selection_add(&task->shown, task->file, &it->curve, &it->fit,
+                                     task->file_contact, &options, err);
     if (status != WT_OK)
         return status;
     if (task->rows.status != WT_OK || !wt_curve_usable(it->fit.verdict))
@@ -205,7 +205,8 @@ static wt_status write_item(indent_task *task, item *it, wt_error *err)
     const double error = it->fit.modulus.standard_error / it->fit.modulus.value;
     task->squares += error * error;
     if (status == WT_OK && as_fitted) /* a contact point by hand is not that of moved sources */
-        status = common_errors_keep(&task->common, &it->curve, task->file_contact, own_tip, err);
+        status =
+            calibration_errors_store(&task->common, &it->curve, task->file_contact, own_tip, err);
     if (status == WT_OK && task->job->keep != NULL)
         status = alike ? curve_set_add(task->job->keep, &it->curve, &it->fit, err)
                        : curve_set_give_up(task->job->keep);
@@ -248,15 +249,15 @@ static void fit_item(const indent_task *task, item *it, wt_indent_workspace *wor
 {
     const wt_indent_options options = indent_curve_options(task, &it->choice);
     const bool own_tip = task->file_contact != task->contact;
-    told_tips told;
+    cached_tips told;
     if (own_tip)
-        told = common_errors_untell(workspace);
+        told = calibration_errors_reset(workspace);
     it->status = wt_indent_force_curve(task->file_contact, &options, &it->curve, workspace,
                                        &it->fit, &it->error);
     if (own_tip)
-        common_errors_tell_again(&told, workspace);
+        calibration_errors_apply_cached(&told, workspace);
     if (it->status == WT_OK)
-        choices_judge(&it->choice, &it->fit);
+        manual_overrides_check(&it->choice, &it->fit);
 }
 
 static wt_status fit_curves(void *user, size_t i, unsigned worker)
@@ -285,7 +286,7 @@ static wt_status read_file(indent_task *task, wt_error *err)
 {
     wt_input *input = NULL;
     wt_error failure = WT_ERROR_INIT;
-    wt_status status = flow_open_beside(task->work, task->file, task->job->group, WT_KIND_FORCE,
+    wt_status status = flow_open_paired(task->work, task->file, task->job->group, WT_KIND_FORCE,
                                         &input, task->n_workers > 1 ? &task->beside : NULL, err);
     const wt_read_options options =
         indent_read_options(task, task->file, task->job->rates || task->options.spectrum != NULL);
@@ -332,7 +333,7 @@ wt_status indent_read_files(indent_task *task, const flow_files *files, wt_error
 {
     size_t n_failed; /* beside the curves that did */
     task->n_files = files->n;
-    const wt_status status = flow_files_take(files, task->work, take_file, task, &n_failed, err);
+    const wt_status status = flow_files_process(files, task->work, take_file, task, &n_failed, err);
     task->n_failed += n_failed;
     return status;
 }

@@ -17,8 +17,8 @@ static void add_shift(indent_shifts *all, double shift)
     all->n++;
 }
 
-wt_status indent_together_add(indent_together *to, const wt_indent_fit *fit,
-                              const wt_indent_options *options, wt_error *err)
+wt_status indent_summary_add(indent_summary *to, const wt_indent_fit *fit,
+                             const wt_indent_options *options, wt_error *err)
 {
     to->deepest = fmax(to->deepest, fit->max_indentation);
     add_shift(&to->bend, fit->bend_shift / fit->modulus.value);
@@ -45,21 +45,21 @@ wt_status indent_together_add(indent_together *to, const wt_indent_fit *fit,
     return WT_OK;
 }
 
-void indent_together_clear(indent_together *together)
+void indent_summary_clear(indent_summary *together)
 {
     free(together->misfits);
     free(together->contacts);
 }
 
 /* Mean of what most moduli of the group are shifted by; 0 if not most are. */
-static double mean_shift(const indent_together *together, const indent_shifts *all)
+static double mean_shift(const indent_summary *together, const indent_shifts *all)
 {
     return 2 * all->n > together->n ? all->sum / (double)all->n : 0;
 }
 
 /* Of those of most curves, as above; NaN where most lose work, and by how much that may put the
  * moduli off is known of too few. */
-static double loss_error(const indent_together *together)
+static double loss_error(const indent_summary *together)
 {
     const size_t known = together->loss_error.n, unknown = together->n_unknown;
     const bool lacks = unknown > 0 && 2 * (known + unknown) >= together->n;
@@ -69,23 +69,22 @@ static double loss_error(const indent_together *together)
 
 /* What moves all moduli alike, so that their scatter does not show it: a bend of most baselines,
  * which is that of the piezo, and loss whose spectrum is not known. */
-static void say_shifts(const indent_together *together, const wt_indent_job *job,
-                       const wt_job *work, table_writer *rows)
+static void say_shifts(const indent_summary *together, const wt_indent_job *job, const wt_job *work,
+                       table_writer *rows)
 {
     const double bend = mean_shift(together, &together->bend);
     indentation_set_value(rows, INDENTATION_KEY_BEND_ERROR, bend, 0, 0);
     if (fabs(bend) > 0)
-        wt_parselog_add(
-            work->log, WT_WARNING, NULL, NULL,
-            "%s: the baseline of %zu of %zu accepted curves is bent; a piezo that goes on "
-            "so in contact changes these moduli by %+.2g %% in the mean, which their "
-            "scatter does not show",
-            job->group, together->bend.n, together->n, 100 * bend);
+        wt_log_add(work->log, WT_WARNING, NULL, NULL,
+                   "%s: the baseline of %zu of %zu accepted curves is bent; a piezo that goes on "
+                   "so in contact changes these moduli by %+.2g %% in the mean, which their "
+                   "scatter does not show",
+                   job->group, together->bend.n, together->n, 100 * bend);
     const double error = loss_error(together);
     const double loss = mean_shift(together, &together->loss);
     indentation_set_value(rows, INDENTATION_KEY_LOSS_ERROR, error, 0, 0);
     if (error > 0)
-        wt_parselog_add(
+        wt_log_add(
             work->log, WT_NOTE, NULL, NULL,
             "%s: %zu of %zu accepted curves lose work on the way out; their moduli are |E*| at "
             "1/(loading time) of a rubber that loses as much, %.1g %% %s than those of a fit "
@@ -94,7 +93,7 @@ static void say_shifts(const indent_together *together, const wt_indent_job *job
             job->group, together->loss.n, together->n, 100 * fabs(loss), loss > 0 ? "less" : "more",
             100 * error);
     if (isnan(error))
-        wt_parselog_add(
+        wt_log_add(
             work->log, WT_NOTE, NULL, NULL,
             "%s: %zu of %zu accepted curves lose work on the way out, and nothing says what that "
             "does to their moduli; times of the samples or the DMA of the rubber would tell",
@@ -102,7 +101,7 @@ static void say_shifts(const indent_together *together, const wt_indent_job *job
 }
 
 /* Tests the mean residual of the accepted curves. */
-static void pool_curves(const indent_together *together, const wt_indent_job *job,
+static void pool_curves(const indent_summary *together, const wt_indent_job *job,
                         const wt_job *work, table_writer *rows)
 {
     const size_t n = together->n_misfits;
@@ -121,15 +120,15 @@ static void pool_curves(const indent_together *together, const wt_indent_job *jo
     indentation_set_print(rows, INDENTATION_KEY_POOLED_MISFIT, "%.3g", pool.misfit);
     indentation_set_print(rows, INDENTATION_KEY_POOLED_MISFIT_CHANCE, "%.3g", pool.chance);
     if (seen)
-        wt_parselog_add(work->log, WT_WARNING, NULL, NULL,
-                        "%s: the mean residual of %zu accepted curves is %.2g %% of the largest "
-                        "force, which scatter does not explain (chance %s): another tip, a "
-                        "layer, loss, adhesion or an uneven piezo; the moduli may be further off",
-                        job->group, n, 100 * pool.misfit, number_chance(pool.chance).text);
+        wt_log_add(work->log, WT_WARNING, NULL, NULL,
+                   "%s: the mean residual of %zu accepted curves is %.2g %% of the largest "
+                   "force, which scatter does not explain (chance %s): another tip, a "
+                   "layer, loss, adhesion or an uneven piezo; the moduli may be further off",
+                   job->group, n, 100 * pool.misfit, number_chance(pool.chance).text);
 }
 
 /* Of one estimator, where it found something; NaN nowhere. scratch: [n]. */
-static double median_of(const indent_together *together, int estimator, double *scratch)
+static double median_of(const indent_summary *together, int estimator, double *scratch)
 {
     size_t found = 0;
     for (size_t i = 0; i < together->n; i++)
@@ -140,7 +139,7 @@ static double median_of(const indent_together *together, int estimator, double *
     return numbers_median(scratch, found);
 }
 
-static wt_status say_contacts(const indent_together *together, const wt_indent_job *job,
+static wt_status say_contacts(const indent_summary *together, const wt_indent_job *job,
                               const wt_job *work, wt_error *err)
 {
     char text[512] = "";
@@ -160,10 +159,10 @@ static wt_status say_contacts(const indent_together *together, const wt_indent_j
                              distance, wt_contact_estimator_text((wt_contact_estimator)i));
     }
     free(scratch);
-    wt_parselog_add(work->log, WT_NOTE, NULL, NULL,
-                    "%s: contact by other estimators less that of the fit, medians of %zu "
-                    "accepted curves: %s",
-                    job->group, together->n, text);
+    wt_log_add(work->log, WT_NOTE, NULL, NULL,
+               "%s: contact by other estimators less that of the fit, medians of %zu "
+               "accepted curves: %s",
+               job->group, together->n, text);
     return WT_OK;
 }
 
@@ -171,26 +170,25 @@ static wt_status say_contacts(const indent_together *together, const wt_indent_j
  * and the force of an AFM is not enough: the unit of the radius is most likely another one. */
 static const double least_depth_of_radius = 1.0 / 5000;
 
-static void say_radius(const indent_together *together, const wt_indent_job *job,
-                       const wt_job *work)
+static void say_radius(const indent_summary *together, const wt_indent_job *job, const wt_job *work)
 {
     char radius[32];
     const bool round = job->tip.shape == WT_TIP_SPHERE || job->tip.shape == WT_TIP_PARABOLOID;
     if (!round || together->n == 0 || together->deepest >= least_depth_of_radius * job->tip.radius)
         return;
     wt_format_si(job->tip.radius, "m", 3, radius, sizeof radius);
-    wt_parselog_add(work->log, WT_WARNING, NULL, NULL,
-                    "%s: the radius of the tip, %s, is %.0f times the deepest indentation: is its "
-                    "unit right?",
-                    job->group, radius, job->tip.radius / together->deepest);
+    wt_log_add(work->log, WT_WARNING, NULL, NULL,
+               "%s: the radius of the tip, %s, is %.0f times the deepest indentation: is its "
+               "unit right?",
+               job->group, radius, job->tip.radius / together->deepest);
 }
 
-wt_status indent_say_together(const indent_together *together, const wt_indent_job *job,
-                              const wt_job *work, table_writer *rows, wt_error *err)
+wt_status indent_summary_report(const indent_summary *together, const wt_indent_job *job,
+                                const wt_job *work, table_writer *rows, wt_error *err)
 {
     char not_shown[512];
     say_radius(together, job, work);
-    indent_not_shown(job, together->deepest, not_shown, sizeof not_shown);
+    indent_systematic_errors(job, together->deepest, not_shown, sizeof not_shown);
     if (*not_shown != '\0')
         indentation_set_text(rows, INDENTATION_KEY_NOT_SHOWN, not_shown);
     say_shifts(together, job, work, rows);

@@ -54,9 +54,9 @@ static wt_status check_curves(const void *member, wt_error *err)
 {
     const char *at = member;
     const wt_indent_job *job = (const void *)(at - offsetof(wt_indent_job, curves));
-    shown_curves shown;
-    const wt_status status = shown_curves_begin(job, &shown, err);
-    shown_curves_clear(&shown);
+    curve_selection shown;
+    const wt_status status = curve_selection_begin(job, &shown, err);
+    curve_selection_clear(&shown);
     return status;
 }
 

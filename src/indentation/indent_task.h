@@ -38,10 +38,10 @@ typedef struct indent_task {
     flow_file *file;
     const char *spot; /* of the set, or the file */
     wt_contact_table *contact;
-    hand_choices choices;
+    manual_overrides choices;
     const wt_contact_table *file_contact; /* of the file, whose tip may be chosen for it */
     const wt_tip *file_tip;
-    shown_curves shown;
+    curve_selection shown;
     wt_indent_workspace **scratch; /* [n_workers] */
     unsigned n_workers;
     /* Each thread takes a curve, fits it, and writes what is done and next in order; all but the
@@ -67,8 +67,8 @@ typedef struct indent_task {
     /* accepted moduli with the curve they are of, for the representative curve */
     accepted *moduli;
     size_t n_moduli;
-    indent_together together;
-    common_errors common;
+    indent_summary together;
+    calibration_errors common;
     indent_depths depths;
     /* what the accepted curves had: spring constants [N/m], sensitivities [m/V], and tips, a
      * pointer to each that is described otherwise */

@@ -41,7 +41,7 @@ static const struct {
                          [CHOICE_TIP] = {"tip", false, true}};
 
 /* Whose choice it is, as the place of an error. */
-static wt_status at_choice(const hand_choices *choices, const hand_choice *c, wt_error *err)
+static wt_status at_choice(const manual_overrides *choices, const manual_override *c, wt_error *err)
 {
     wt_error_file(err, choices->path);
     if (isnan(c->curve))
@@ -54,7 +54,7 @@ static wt_status at_choice(const hand_choices *choices, const hand_choice *c, wt
 
 /* ---- reading --------------------------------------------------------------------------------- */
 
-static wt_status check_place(const hand_choice *c, wt_error *err)
+static wt_status check_place(const manual_override *c, wt_error *err)
 {
     if (isnan(c->curve) ? !kinds[c->kind].of_file : !kinds[c->kind].of_curve) {
         const wt_status status =
@@ -73,7 +73,7 @@ static wt_status check_place(const hand_choice *c, wt_error *err)
     return WT_OK;
 }
 
-static wt_status read_value(hand_choice *c, const wt_indent_job *job, const wt_job *work,
+static wt_status read_value(manual_override *c, const wt_indent_job *job, const wt_job *work,
                             wt_error *err)
 {
     uint64_t given = 0;
@@ -90,27 +90,27 @@ static wt_status read_value(hand_choice *c, const wt_indent_job *job, const wt_j
         return status;
     const bool has_error = c->values.tip.radius_error > 0 || c->values.tip.half_angle_error > 0;
     if (has_error)
-        wt_parselog_add(work->log, WT_WARNING, c->file, NULL,
-                        "errors of a tip that is chosen for a file are not in those of its moduli");
+        wt_log_add(work->log, WT_WARNING, c->file, NULL,
+                   "errors of a tip that is chosen for a file are not in those of its moduli");
     c->values.tip.radius_error = c->values.tip.half_angle_error = 0;
     return indent_contact_table(&c->values.tip, &c->contact, err);
 }
 
 static wt_status read_choice(const table_view *view, size_t row, const wt_indent_job *job,
-                             const wt_job *work, hand_choices *to, wt_error *err)
+                             const wt_job *work, manual_overrides *to, wt_error *err)
 {
     const char *word = choices_text(view, row, CHOICES_CHOICE);
-    hand_choice *grown = array_grow(to->choice, to->n, sizeof *grown);
+    manual_override *grown = array_grow(to->choice, to->n, sizeof *grown);
     if (grown == NULL)
         return wt_fail(err, WT_E_MEMORY, "out of memory");
     to->choice = grown;
-    hand_choice *c = &to->choice[to->n++];
-    *c = (hand_choice){.kind = CHOICE_EXCLUDE,
-                       .row = row,
-                       .file = choices_text(view, row, CHOICES_FILE),
-                       .value = choices_text(view, row, CHOICES_VALUE),
-                       .note = choices_text(view, row, CHOICES_NOTE),
-                       .curve = choices_get(view, row, CHOICES_CURVE)};
+    manual_override *c = &to->choice[to->n++];
+    *c = (manual_override){.kind = CHOICE_EXCLUDE,
+                           .row = row,
+                           .file = choices_text(view, row, CHOICES_FILE),
+                           .value = choices_text(view, row, CHOICES_VALUE),
+                           .note = choices_text(view, row, CHOICES_NOTE),
+                           .curve = choices_get(view, row, CHOICES_CURVE)};
     while (c->kind < CHOICE_KINDS && strcmp(kinds[c->kind].word, word) != 0)
         c->kind++;
     if (c->kind == CHOICE_KINDS) {
@@ -124,7 +124,7 @@ static wt_status read_choice(const table_view *view, size_t row, const wt_indent
     if (status == WT_OK)
         status = read_value(c, job, work, err);
     for (size_t i = 0; status == WT_OK && i + 1 < to->n; i++) {
-        const hand_choice *before = &to->choice[i];
+        const manual_override *before = &to->choice[i];
         const bool same_curve =
             before->curve == c->curve || (isnan(before->curve) && isnan(c->curve));
         if (before->kind == c->kind && same_curve && strcmp(before->file, c->file) == 0)
@@ -144,14 +144,14 @@ static bool is_recorded(const wt_job *work, const char *path)
     return false;
 }
 
-wt_status choices_read(const wt_indent_job *job, const wt_job *work, hand_choices *choices,
-                       wt_error *err)
+wt_status manual_overrides_read(const wt_indent_job *job, const wt_job *work,
+                                manual_overrides *choices, wt_error *err)
 {
     static const wt_tables_role role = {.of_curves = "choices",
                                         .of_others = "choices",
                                         .instead = "a table of choices, as report --browse writes "
                                                    "it: weartrack-indent(1)"};
-    *choices = (hand_choices){.path = job->choices, .group = job->group};
+    *choices = (manual_overrides){.path = job->choices, .group = job->group};
     if (job->choices == NULL)
         return WT_OK;
     table_view view;
@@ -172,14 +172,14 @@ wt_status choices_read(const wt_indent_job *job, const wt_job *work, hand_choice
             status = read_choice(&view, row, job, work, choices, err);
     }
     if (status == WT_OK && choices->n == 0 && view.n_rows > 0)
-        wt_parselog_add(work->log, WT_WARNING, job->choices, NULL,
-                        "no choice is for the group \"%s\"", job->group);
+        wt_log_add(work->log, WT_WARNING, job->choices, NULL, "no choice is for the group \"%s\"",
+                   job->group);
     return status;
 }
 
 /* The file of a choice; one that has that very name before others whose paths end alike. */
-static wt_status find_file(const hand_choices *choices, hand_choice *c, const flow_files *files,
-                           wt_error *err)
+static wt_status find_file(const manual_overrides *choices, manual_override *c,
+                           const flow_files *files, wt_error *err)
 {
     flow_naming best = FLOW_OTHER_FILE;
     const flow_file *other = NULL;
@@ -206,7 +206,7 @@ static wt_status find_file(const hand_choices *choices, hand_choice *c, const fl
     return at_choice(choices, c, err);
 }
 
-wt_status choices_bind(hand_choices *choices, const flow_files *files, wt_error *err)
+wt_status manual_overrides_bind(manual_overrides *choices, const flow_files *files, wt_error *err)
 {
     wt_status status = WT_OK;
     for (size_t i = 0; status == WT_OK && i < choices->n; i++)
@@ -216,11 +216,12 @@ wt_status choices_bind(hand_choices *choices, const flow_files *files, wt_error 
 
 /* ---- using ----------------------------------------------------------------------------------- */
 
-void choices_of_file(const hand_choices *choices, const flow_file *file, wt_read_options *read,
-                     const wt_contact_table **contact, const wt_tip **tip)
+void manual_overrides_of_file(const manual_overrides *choices, const flow_file *file,
+                              wt_read_options *read, const wt_contact_table **contact,
+                              const wt_tip **tip)
 {
     for (size_t i = 0; i < choices->n; i++) {
-        const hand_choice *c = &choices->choice[i];
+        const manual_override *c = &choices->choice[i];
         if (c->of != file)
             continue;
         if (c->kind == CHOICE_SPRING_CONSTANT)
@@ -234,11 +235,12 @@ void choices_of_file(const hand_choices *choices, const flow_file *file, wt_read
     }
 }
 
-curve_choice choices_of_curve(hand_choices *choices, const flow_file *file, size_t curve)
+curve_choice manual_overrides_of_curve(manual_overrides *choices, const flow_file *file,
+                                       size_t curve)
 {
     curve_choice of = {(double)NAN, NULL};
     for (size_t i = 0; i < choices->n; i++) {
-        hand_choice *c = &choices->choice[i];
+        manual_override *c = &choices->choice[i];
         if (c->of != file || (!isnan(c->curve) && (size_t)c->curve != curve))
             continue;
         c->n_curves++;
@@ -250,7 +252,7 @@ curve_choice choices_of_curve(hand_choices *choices, const flow_file *file, size
     return of;
 }
 
-void choices_judge(const curve_choice *choice, wt_indent_fit *fit)
+void manual_overrides_check(const curve_choice *choice, wt_indent_fit *fit)
 {
     enum { NOTE = 60 }; /* of it, so that the verdict of the fit has room */
     char said[2 * sizeof fit->reason], text[4 * sizeof fit->reason];
@@ -274,7 +276,7 @@ void choices_judge(const curve_choice *choice, wt_indent_fit *fit)
 /* ---- the table ------------------------------------------------------------------------------- */
 
 /* What a reader of the result should know: what was done by hand. */
-static void note_choices(const hand_choices *choices, const wt_job *work)
+static void note_choices(const manual_overrides *choices, const wt_job *work)
 {
     size_t n_curves[CHOICE_KINDS] = {0}, used = 0;
     char text[256] = "";
@@ -284,12 +286,12 @@ static void note_choices(const hand_choices *choices, const wt_job *work)
         if (n_curves[k] > 0)
             used += (size_t)snprintf(text + used, sizeof text - used, "%s%s of %zu",
                                      used > 0 ? ", " : "", kinds[k].word, n_curves[k]);
-    wt_parselog_add(work->log, WT_NOTE, choices->path, NULL,
-                    "%s: chosen by hand, in curves: %s (table choices)", choices->group, text);
+    wt_log_add(work->log, WT_NOTE, choices->path, NULL,
+               "%s: chosen by hand, in curves: %s (table choices)", choices->group, text);
 }
 
-wt_status choices_table(const hand_choices *choices, const wt_job *work, wt_table **table,
-                        wt_error *err)
+wt_status manual_overrides_table(const manual_overrides *choices, const wt_job *work,
+                                 wt_table **table, wt_error *err)
 {
     if (choices->n == 0)
         return WT_OK;
@@ -302,7 +304,7 @@ wt_status choices_table(const hand_choices *choices, const wt_job *work, wt_tabl
     }
     t = table_continue(*table, &choices_schema, choices->group, err);
     for (size_t i = 0; i < choices->n; i++) {
-        const hand_choice *c = &choices->choice[i];
+        const manual_override *c = &choices->choice[i];
         if (c->n_curves == 0) {
             (void)wt_fail(err, WT_E_NOT_FOUND,
                           isnan(c->curve) ? "no curve of the file could be read"
@@ -315,11 +317,11 @@ wt_status choices_table(const hand_choices *choices, const wt_job *work, wt_tabl
     return table_end(&t, NULL);
 }
 
-void choices_clear(hand_choices *choices)
+void manual_overrides_clear(manual_overrides *choices)
 {
     for (size_t i = 0; i < choices->n; i++)
         wt_contact_table_free(choices->choice[i].contact);
     free(choices->choice);
     wt_result_free(choices->tables);
-    *choices = (hand_choices){0};
+    *choices = (manual_overrides){0};
 }

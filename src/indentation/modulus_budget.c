@@ -51,7 +51,7 @@ static wt_status add_up(const wt_group_data *d, budget *b, wt_error *err)
         return status;
     double variance = 0;
     for (int i = 0; i < WT_COMMON_SOURCES; i++)
-        b->part[i] = (part){.words = common_source_words((wt_common_source)i),
+        b->part[i] = (part){.words = calibration_source_text((wt_shared_law_source)i),
                             .source_error = d->common_error[i],
                             .error = fabs(d->common_gain[i].value) * d->common_error[i],
                             .gain = d->common_gain[i],

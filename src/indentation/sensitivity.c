@@ -165,10 +165,10 @@ static wt_status read_file(void *user, flow_file *file, size_t unit, wt_error *e
 static wt_status read_files(sensitivity_task *task, const flow_files *files, wt_error *err)
 {
     size_t n_failed;
-    wt_status status = flow_files_take(files, task->work, read_file, task, &n_failed, err);
+    wt_status status = flow_files_process(files, task->work, read_file, task, &n_failed, err);
     if (status == WT_OK && task->n == 0) {
         status = wt_fail(err, WT_E_EMPTY, "no force curve could be read");
-        flow_tell_files(files, n_failed, err);
+        flow_error_add_files(files, n_failed, err);
     }
     return status;
 }
@@ -204,7 +204,7 @@ static void mark_outliers_of(item *items, size_t n, size_t way, double *values)
             values[m++] = travel_per_signal(&items[i], way);
     if (m < OUTLIER_LEAST)
         return;
-    const usual_values usual = flow_usual_values(values, m);
+    const typical_values usual = flow_usual_values(values, m);
     for (size_t i = 0; i < n; i++)
         if (has_way(&items[i], way) &&
             fabs(travel_per_signal(&items[i], way) - usual.middle) > usual.most)
@@ -562,7 +562,7 @@ static wt_status put_groups(const sensitivity_task *task, wt_table **table, wt_e
         if (groups[row].n > 0)
             put_group(&t, row, &groups[row], sphere_share(&task->job->options));
     set_keys(&t, task, answer, &groups[answer]);
-    cost_say(task->work, (cost_summary){.items = (double)task->n});
+    cost_report(task->work, (cost_summary){.items = (double)task->n});
     return table_end(&t, table);
 }
 

@@ -86,7 +86,7 @@ static bool find_range(const wt_height_map *f, spot *s)
 
 static wt_status find_median(const wt_height_map *f, spot *s, wt_error *err)
 {
-    const spot_places p = spot_places_lay(f, s->contact);
+    const spot_positions p = spot_positions_make(f, s->contact);
     double *rms = malloc((p.nx * p.ny + 1) * sizeof *rms);
     size_t n = 0;
     if (rms == NULL)
@@ -155,7 +155,7 @@ static void judge_roughness(const wt_spot_job *job, const wt_height_map *f, bool
         clocale_print(s->verdict, sizeof s->verdict,
                       "cannot say: %s of the depth, depending on the place, and the limit is "
                       "%.2g; a better known position would tell (--position-error)",
-                      ends_of(low, high, 2).text, limit);
+                      format_range(low, high, 2).text, limit);
 }
 
 static wt_status find_roughness(const wt_spot_job *job, const wt_image *image,
@@ -252,7 +252,7 @@ wt_status wt_spot_make(const wt_spot_job *job, const char *path, const wt_job *w
         status = put_spot(job, &image, &s, &left, &made.spot, err);
     if (status == WT_OK && job->map)
         status = spot_map_make(&field, &s, left.difference, &made.spot_map, err);
-    cost_say(work, (cost_summary){.items = 1});
+    cost_report(work, (cost_summary){.items = 1});
     if (status == WT_OK)
         *tables = made;
     else

@@ -26,11 +26,11 @@ typedef struct imprint {
 } imprint;
 
 /* Places side by side all over the image, each `radius` from the next and from the edges. */
-typedef struct spot_places {
+typedef struct spot_positions {
     size_t nx, ny;
     double radius;
-} spot_places;
-spot_places spot_places_lay(const wt_height_map *field, double radius);
+} spot_positions;
+spot_positions spot_positions_make(const wt_height_map *field, double radius);
 
 /* The image of heights of a file that the job names; the others are cleared. */
 wt_status spot_image_read(const wt_spot_job *job, const char *path, const char *role,

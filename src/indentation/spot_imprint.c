@@ -28,17 +28,17 @@ static wt_interval less_untouched(double value, const double *others, size_t n)
 
 /* The dents of untouched places; depth and volume have room for all of them. */
 static wt_status measure_others(const wt_height_map *difference, const spot *s,
-                                const spot_places *p, double *depth, double *volume, size_t *n,
+                                const spot_positions *p, double *depth, double *volume, size_t *n,
                                 wt_error *err)
 {
     wt_status status = WT_OK;
     for (size_t k = 0; k < p->nx * p->ny && status == WT_OK; k++) {
         const double x = p->radius * (2 * (double)(k % p->nx) + 1),
                      y = p->radius * (2 * (double)(k / p->nx) + 1);
-        spot_dent other;
+        spot_depression other;
         if (hypot(x - s->x, y - s->y) < 6 * s->contact + s->error)
             continue;
-        status = spot_dent_at(difference, x, y, s->contact, &other, err);
+        status = spot_depression_at(difference, x, y, s->contact, &other, err);
         if (isnan(other.depth) || isnan(other.volume))
             continue;
         depth[*n] = other.depth;
@@ -58,10 +58,10 @@ static wt_status find_deepest(const wt_height_map *difference, const spot *s, im
     for (int k = 0; k < (2 * steps + 1) * (2 * steps + 1) && status == WT_OK; k++) {
         const double x = s->x + within * (k % (2 * steps + 1) - steps) / fmax(steps, 1),
                      y = s->y + within * (k / (2 * steps + 1) - steps) / fmax(steps, 1);
-        spot_dent dent;
+        spot_depression dent;
         if (hypot(x - s->x, y - s->y) > within * (1 + 1e-9))
             continue;
-        status = spot_dent_at(difference, x, y, s->contact, &dent, err);
+        status = spot_depression_at(difference, x, y, s->contact, &dent, err);
         if (isnan(dent.depth) || dent.depth <= to->deepest)
             continue;
         to->deepest = dent.depth;
@@ -76,13 +76,13 @@ static wt_status measure_dent(const wt_height_map *difference, const spot *s, im
 {
     if (s->plane.n + s->plane.missing < SPOT_LEAST_PIXELS)
         return WT_OK; /* far more places than pixels */
-    const spot_places p = spot_places_lay(difference, 2 * s->contact);
-    spot_dent here;
+    const spot_positions p = spot_positions_make(difference, 2 * s->contact);
+    spot_depression here;
     double *depth = malloc(2 * (p.nx * p.ny + 1) * sizeof *depth);
     if (depth == NULL)
         return wt_fail(err, WT_E_MEMORY, "out of memory");
     double *volume = depth + p.nx * p.ny + 1;
-    wt_status status = spot_dent_at(difference, s->x, s->y, s->contact, &here, err);
+    wt_status status = spot_depression_at(difference, s->x, s->y, s->contact, &here, err);
     if (status == WT_OK)
         status = measure_others(difference, s, &p, depth, volume, &to->places, err);
     if (status == WT_OK && !isnan(here.depth) && !isnan(here.volume) &&

@@ -13,9 +13,9 @@ wt_status spot_image_read(const wt_spot_job *job, const char *path, const char *
     return flow_heights_read(&file, job->image, false, role, work, image, err);
 }
 
-spot_places spot_places_lay(const wt_height_map *f, double radius)
+spot_positions spot_positions_make(const wt_height_map *f, double radius)
 {
     const double width = (double)(f->nx - 1) * f->dx, height = (double)(f->ny - 1) * f->dy;
-    return (spot_places){(size_t)fmax(0, floor(width / (2 * radius))),
-                         (size_t)fmax(0, floor(height / (2 * radius))), radius};
+    return (spot_positions){(size_t)fmax(0, floor(width / (2 * radius))),
+                            (size_t)fmax(0, floor(height / (2 * radius))), radius};
 }

@@ -73,7 +73,7 @@ static void say_radius(const wt_tip *tip, double depth, char *text, size_t size)
                    100 * tenth, 100 * (1 - g / of_larger));
 }
 
-void indent_not_shown(const wt_indent_job *job, double depth, char *text, size_t size)
+void indent_systematic_errors(const wt_indent_job *job, double depth, char *text, size_t size)
 {
     const wt_tip *tip = &job->tip;
     *text = '\0';

@@ -143,7 +143,7 @@
       NUMBER, SHOWS(deep.loss_error), OPTIONAL)
 
 /* Where an error of theirs is stated: relative standard error of what all curves share, and what 1
- * of it does to ln E, with the standard error of that. In the order of wt_common_source. */
+ * of it does to ln E, with the standard error of that. In the order of wt_shared_law_source. */
 #define INDENTATION_COMMON_KEYS(X)                                                                 \
     X(INDENTATION_KEY_LEVER_ERROR, "spring_constant_error", NUMBER, OPTIONAL)                      \
     X(INDENTATION_KEY_SENSITIVITY_ERROR, "sensitivity_error", NUMBER, OPTIONAL)                    \

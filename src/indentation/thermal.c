@@ -83,7 +83,7 @@ PARAM_TABLE(wt_thermal_job_params, wt_thermal_job, rows, wt_thermal_job_defaults
 
 /* ---- one spectrum ---------------------------------------------------------------------------- */
 
-typedef struct lever {
+typedef struct cantilever_result {
     wt_noise_spectrum spectrum;
     wt_thermal fit;
     wt_estimate temperature;
@@ -92,24 +92,24 @@ typedef struct lever {
     wt_estimate sader;              /* by Sader's method; NaN: not asked for */
     char contradiction[512];        /* to another spring constant; "" = none */
     char note[768];
-} lever;
+} cantilever_result;
 
-static void add_note(lever *l, const char *note)
+static void add_note(cantilever_result *l, const char *note)
 {
     const size_t used = strlen(l->note);
     snprintf(l->note + used, sizeof l->note - used, "%s%s", used > 0 ? "; " : "", note);
 }
 
-static wt_status find_sensitivity(const wt_job *work, lever *l, const flow_file *file,
+static wt_status find_sensitivity(const wt_job *work, cantilever_result *l, const flow_file *file,
                                   wt_error *err)
 {
     const double given = file->set->read.sensitivity, own = l->spectrum.sensitivity;
     if (!l->spectrum.volts) {
         l->sensitivity = given > 0 && own > 0 ? given / own : 1;
         if (given > 0 && !(own > 0))
-            wt_parselog_add(work->log, WT_WARNING, file->name, NULL,
-                            "the spectrum is in metres and the file does not say by which "
-                            "sensitivity: that of --sensitivity is not used");
+            wt_log_add(work->log, WT_WARNING, file->name, NULL,
+                       "the spectrum is in metres and the file does not say by which "
+                       "sensitivity: that of --sensitivity is not used");
         return WT_OK;
     }
     l->sensitivity = !isnan(given) ? given : own;
@@ -122,7 +122,7 @@ static wt_status find_sensitivity(const wt_job *work, lever *l, const flow_file 
 }
 
 static void find_temperature(const wt_thermal_job *job, const wt_job *work, const flow_file *file,
-                             lever *l)
+                             cantilever_result *l)
 {
     l->temperature = job->temperature;
     if (!isnan(l->temperature.value))
@@ -131,16 +131,16 @@ static void find_temperature(const wt_thermal_job *job, const wt_job *work, cons
     if (l->temperature.value > 0)
         return;
     l->temperature.value = room_temperature;
-    wt_parselog_add(work->log, WT_WARNING, file->name, NULL,
-                    "the file %s: 25 degC is taken, and 3 K off are 1 %% of the spring constant; "
-                    "give --lever-temperature",
-                    isnan(l->spectrum.temperature) ? "does not say the temperature of the lever"
-                                                   : "says a temperature below absolute zero");
+    wt_log_add(work->log, WT_WARNING, file->name, NULL,
+               "the file %s: 25 degC is taken, and 3 K off are 1 %% of the spring constant; "
+               "give --lever-temperature",
+               isnan(l->spectrum.temperature) ? "does not say the temperature of the lever"
+                                              : "says a temperature below absolute zero");
 }
 
 /* What the fit does not take: the mean, which no noise is, is no loss; a density that is missing,
  * or 0, may be. */
-static void say_left_out(const wt_job *work, const flow_file *file, lever *l)
+static void say_left_out(const wt_job *work, const flow_file *file, cantilever_result *l)
 {
     const wt_noise_spectrum *s = &l->spectrum;
     size_t n = 0, first = 0;
@@ -154,11 +154,11 @@ static void say_left_out(const wt_job *work, const flow_file *file, lever *l)
         return;
     snprintf(text, sizeof text, "%zu of %zu points without a density above 0 left out", n, s->n);
     add_note(l, text);
-    wt_parselog_add(work->log, WT_WARNING, file->name, NULL, "%s, the first at %g Hz", text,
-                    s->frequency[first]);
+    wt_log_add(work->log, WT_WARNING, file->name, NULL, "%s, the first at %g Hz", text,
+               s->frequency[first]);
 }
 
-static void say_misfit(const wt_job *work, const flow_file *file, lever *l)
+static void say_misfit(const wt_job *work, const flow_file *file, cantilever_result *l)
 {
     const double said = l->spectrum.averages;
     if (!l->fit.found) {
@@ -167,10 +167,10 @@ static void say_misfit(const wt_job *work, const flow_file *file, lever *l)
     }
     if (l->fit.chance < least_chance) {
         add_note(l, "the spectrum departs from an oscillator on a white floor: no interval");
-        wt_parselog_add(work->log, WT_WARNING, file->name, NULL,
-                        "the spectrum departs from an oscillator on a white floor more than its "
-                        "scatter explains; another range of the fit (--fit-from, --fit-to) may "
-                        "help; no interval is told");
+        wt_log_add(work->log, WT_WARNING, file->name, NULL,
+                   "the spectrum departs from an oscillator on a white floor more than its "
+                   "scatter explains; another range of the fit (--fit-from, --fit-to) may "
+                   "help; no interval is told");
     }
     if (said > averages_agree * l->fit.averages)
         add_note(l, "scatters more than so many averages do");
@@ -178,7 +178,7 @@ static void say_misfit(const wt_job *work, const flow_file *file, lever *l)
         add_note(l, "amplitudes are taken for roots of averaged power");
 }
 
-static void find_spring_constant(const wt_thermal_job *job, lever *l)
+static void find_spring_constant(const wt_thermal_job *job, cantilever_result *l)
 {
     const double square = l->sensitivity * l->sensitivity * l->fit.mean_square.value;
     const double of_temperature = l->temperature.standard_error > 0
@@ -198,7 +198,7 @@ static wt_estimate estimate_of(wt_interval i, const char *unit)
 }
 
 /* Of the resonance and the quality factor of the fit. */
-static void find_sader(const wt_thermal_job *job, lever *l)
+static void find_sader(const wt_thermal_job *job, cantilever_result *l)
 {
     const wt_estimate f = estimate_of(l->fit.resonance, "Hz"), q = estimate_of(l->fit.quality, "1"),
                       a = job->sader_coefficient;
@@ -215,7 +215,7 @@ static void find_sader(const wt_thermal_job *job, lever *l)
     if (isnan(slender))
         return;
     l->sader = wt_sader_spring_constant(job->length, job->width, f, q,
-                                        wt_fluid_at(job->medium, l->temperature.value));
+                                        wt_medium_properties(job->medium, l->temperature.value));
     if (isnan(l->sader.value))
         add_note(l,
                  "no spring constant by Sader's method: water is not liquid at this temperature");
@@ -224,7 +224,7 @@ static void find_sader(const wt_thermal_job *job, lever *l)
 }
 
 /* What would make the spring constant of the noise `ratio` times another one. */
-static void say_contradiction(lever *l, const char *other, double ratio)
+static void say_contradiction(cantilever_result *l, const char *other, double ratio)
 {
     const bool small = ratio < 1;
     if (!(fmax(ratio, 1 / ratio) > contradiction) || l->contradiction[0] != '\0')
@@ -239,19 +239,19 @@ static void say_contradiction(lever *l, const char *other, double ratio)
                         : "two-sided densities (a factor 2) or a peak that is not the lever's");
 }
 
-static void compare_spring_constants(const wt_job *work, const flow_file *file, lever *l)
+static void compare_spring_constants(const wt_job *work, const flow_file *file,
+                                     cantilever_result *l)
 {
     say_contradiction(l, "by Sader's method", l->constant / l->sader.value);
     say_contradiction(l, "of the file", l->constant / l->spectrum.spring_constant);
     if (l->contradiction[0] == '\0')
         return;
     add_note(l, l->contradiction);
-    wt_parselog_add(work->log, WT_WARNING, file->name, NULL, "%s; none is advised",
-                    l->contradiction);
+    wt_log_add(work->log, WT_WARNING, file->name, NULL, "%s; none is advised", l->contradiction);
 }
 
 static wt_status measure_lever(const wt_thermal_job *job, const wt_job *work, flow_file *file,
-                               lever *l, wt_error *err)
+                               cantilever_result *l, wt_error *err)
 {
     wt_input *input = NULL;
     wt_status status = flow_open(work, file, "thermal", WT_KIND_NOISE, &input, err);
@@ -280,7 +280,7 @@ static wt_status measure_lever(const wt_thermal_job *job, const wt_job *work, fl
 
 /* ---- the table ------------------------------------------------------------------------------- */
 
-static bool has_interval(const lever *l)
+static bool has_interval(const cantilever_result *l)
 {
     return l->fit.found && !(l->fit.chance < least_chance);
 }
@@ -296,7 +296,7 @@ static void put_interval(table_writer *t, thermal_column first, wt_interval i, b
     thermal_put(t, first + 3, i.high);
 }
 
-static void put_lever(table_writer *t, const flow_file *file, const lever *l)
+static void put_lever(table_writer *t, const flow_file *file, const cantilever_result *l)
 {
     const wt_thermal *f = &l->fit;
     const bool known = has_interval(l);
@@ -332,7 +332,7 @@ static void put_lever(table_writer *t, const flow_file *file, const lever *l)
 }
 
 /* Of one spectrum its own; of several the mean, with the scatter between them from three on. */
-static wt_estimate all_together(const lever *levers, size_t n, double *scatter)
+static wt_estimate all_together(const cantilever_result *levers, size_t n, double *scatter)
 {
     wt_estimate k = {(double)NAN, (double)NAN, 0, "N/m"};
     double sum = 0, own = 0, squares = 0, common = 0, found = 0;
@@ -360,7 +360,8 @@ static wt_estimate all_together(const lever *levers, size_t n, double *scatter)
     return k;
 }
 
-static void set_keys(table_writer *t, const wt_thermal_job *job, const lever *levers, size_t n)
+static void set_keys(table_writer *t, const wt_thermal_job *job, const cantilever_result *levers,
+                     size_t n)
 {
     double scatter;
     const wt_estimate k = all_together(levers, n, &scatter);
@@ -393,18 +394,18 @@ static wt_status make_table(const wt_thermal_job *job, const wt_job *work, const
 {
     wt_status status = WT_OK;
     size_t n = 0, n_failed = 0;
-    lever *levers = calloc(files->n + 1, sizeof *levers);
+    cantilever_result *levers = calloc(files->n + 1, sizeof *levers);
     if (levers == NULL)
         return wt_fail(err, WT_E_MEMORY, "out of memory");
     table_writer t = table_begin(&thermal_schema, err);
     for (size_t i = 0; status == WT_OK && i < files->n; i++) {
         wt_error failure = WT_ERROR_INIT;
-        lever l = {.note = ""};
+        cantilever_result l = {.note = ""};
         status = measure_lever(job, work, &files->file[i], &l, &failure);
         if (status == WT_OK) {
             put_lever(&t, &files->file[i], &l);
             levers[n++] = l;
-        } else if (flow_leave_out(work, &files->file[i], &failure)) {
+        } else if (flow_skip_file(work, &files->file[i], &failure)) {
             status = WT_OK;
         } else {
             n_failed++;
@@ -414,11 +415,11 @@ static wt_status make_table(const wt_thermal_job *job, const wt_job *work, const
     }
     if (status == WT_OK && n == 0) {
         status = wt_fail(err, WT_E_EMPTY, "no spectrum of thermal noise could be read");
-        flow_tell_files(files, n_failed, err);
+        flow_error_add_files(files, n_failed, err);
     }
     set_keys(&t, job, levers, n);
     free(levers);
-    cost_say(work, (cost_summary){.items = (double)n});
+    cost_report(work, (cost_summary){.items = (double)n});
     const wt_status written = table_end(&t, table);
     if (status != WT_OK && written == WT_OK) {
         wt_table_free(*table);

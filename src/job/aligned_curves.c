@@ -198,9 +198,9 @@ wt_status from_contact(const contact_points *points, const flow_file *file,
     free(force);
     const double ratio = largest_force(to) / contact.max_force;
     if (status == WT_OK && !(ratio > 1 - alike && ratio < 1 + alike) && isfinite(ratio))
-        wt_parselog_add(work->log, WT_WARNING, file->name, NULL,
-                        "curve %zu: the largest force is %.3g times that of the result: give the "
-                        "spring constant and sensitivity that it was made with",
-                        curve->index, ratio);
+        wt_log_add(work->log, WT_WARNING, file->name, NULL,
+                   "curve %zu: the largest force is %.3g times that of the result: give the "
+                   "spring constant and sensitivity that it was made with",
+                   curve->index, ratio);
     return status;
 }

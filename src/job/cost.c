@@ -70,7 +70,7 @@ void cost_add_file(wt_cost *cost, size_t bytes)
     atomic_fetch_add_explicit(&cost->bytes, bytes, memory_order_relaxed);
 }
 
-void cost_say(const wt_job *work, cost_summary summary)
+void cost_report(const wt_job *work, cost_summary summary)
 {
     if (work->cost != NULL && work->cost->open && (work->left_out & WT_EXTRA_SUMMARY) == 0)
         work->cost->rows[work->cost->n_rows - 1].said = summary;
@@ -83,7 +83,7 @@ void wt_rubber_cost(const wt_rubber *rubber, const wt_job *work)
     const size_t items = rubber->kind == WT_RUBBER_TABLE   ? rubber->sweep.isotherms[0].n
                          : rubber->kind == WT_RUBBER_ZENER ? ZENER_CONSTANTS
                                                            : rubber->prony.n;
-    cost_say(work, (cost_summary){.items = (double)items});
+    cost_report(work, (cost_summary){.items = (double)items});
 }
 
 /* ---- stages ---------------------------------------------------------------------------------- */

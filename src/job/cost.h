@@ -11,7 +11,7 @@ typedef struct cost_summary {
     double tolerance_asked, error_estimated; /* relative, numerical */
     wt_estimate number;                      /* the main one, with its standard error */
 } cost_summary;
-void cost_say(const wt_job *work, cost_summary summary);
+void cost_report(const wt_job *work, cost_summary summary);
 
 /* Adds to the stage; from any thread. */
 void cost_add_nodes(wt_cost *cost, size_t nodes);

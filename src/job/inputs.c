@@ -52,19 +52,18 @@ static const char *path_below(const char *folder, const char *path)
 
 TABLE_ROW(notes, NOTES, const char *severity, *file; wt_log_entry entry;)
 
-wt_status wt_notes_table(const wt_parselog *log, const char *folder, wt_table **table,
-                         wt_error *err)
+wt_status wt_notes_table(const wt_log *log, const char *folder, wt_table **table, wt_error *err)
 {
     table_writer t = table_begin(&notes_schema, err);
-    for (size_t i = 0; i < wt_parselog_count(log); i++) {
-        wt_log_entry entry = wt_parselog_get(log, i);
+    for (size_t i = 0; i < wt_log_count(log); i++) {
+        wt_log_entry entry = wt_log_get(log, i);
         TABLE_ADD(notes, &t, wt_severity_name(entry.severity), path_below(folder, entry.file),
                   entry);
     }
     return table_end(&t, table);
 }
 
-bool flow_goes_on(const wt_job *work, wt_status status)
+bool flow_may_continue(const wt_job *work, wt_status status)
 {
     return work->failures != NULL && status != WT_E_MEMORY && status != WT_E_CANCELLED &&
            status != WT_E_INTERNAL;
@@ -95,7 +94,7 @@ wt_status wt_failures_answered(wt_table *failures, wt_answered answered, wt_erro
 wt_status wt_job_failed(const wt_job *work, const char *file, wt_status status, wt_error *failure,
                         wt_error *err)
 {
-    if (flow_goes_on(work, status)) {
+    if (flow_may_continue(work, status)) {
         failure->file[0] = '\0'; /* it has its own column */
         return flow_add_failure(work, file, failure, err);
     }
@@ -165,8 +164,8 @@ static wt_status list_pattern(const wt_file_set *set, const char *pattern, const
             break;
         }
         if (*found != paths[i]) {
-            wt_parselog_add(work->log, WT_WARNING, paths[i], NULL,
-                            "named more than once; it is taken once");
+            wt_log_add(work->log, WT_WARNING, paths[i], NULL,
+                       "named more than once; it is taken once");
             continue;
         }
         status = files_add(files, paths[i], pattern, set, err);
@@ -265,10 +264,10 @@ wt_status flow_record(const wt_job *work, wt_input *input, const flow_file *file
 wt_status flow_open(const wt_job *work, flow_file *file, const char *role, unsigned kinds,
                     wt_input **result, wt_error *err)
 {
-    return flow_open_beside(work, file, role, kinds, result, NULL, err);
+    return flow_open_paired(work, file, role, kinds, result, NULL, err);
 }
 
-wt_status flow_open_beside(const wt_job *work, flow_file *file, const char *role, unsigned kinds,
+wt_status flow_open_paired(const wt_job *work, flow_file *file, const char *role, unsigned kinds,
                            wt_input **result, wt_input **beside, wt_error *err)
 {
     if (work->formats == NULL)
@@ -288,7 +287,7 @@ wt_status flow_open_beside(const wt_job *work, flow_file *file, const char *role
     if (beside != NULL)
         *beside = NULL;
     if (status == WT_OK && work->provenance != NULL && beside != NULL)
-        status = wt_input_beside(input, beside, err);
+        status = wt_input_sibling(input, beside, err);
     if (status == WT_OK && (work->provenance != NULL || work->cost != NULL) &&
         (beside == NULL || *beside == NULL))
         status = flow_record(work, input, file, role, err);
@@ -309,25 +308,25 @@ wt_read_options flow_read_options(const flow_file *file)
     return options;
 }
 
-bool flow_leave_out(const wt_job *work, const flow_file *file, const wt_error *failure)
+bool flow_skip_file(const wt_job *work, const flow_file *file, const wt_error *failure)
 {
     const bool unknown = failure->status == WT_E_FORMAT && file->format == NULL;
     if (!file->of_folder || !(unknown || failure->status == WT_E_EMPTY))
         return false;
-    wt_parselog_add(work->log, WT_WARNING, file->name, NULL, "left out of its folder: %s%s%s",
-                    failure->message, failure->found[0] != '\0' ? "; found " : "", failure->found);
+    wt_log_add(work->log, WT_WARNING, file->name, NULL, "left out of its folder: %s%s%s",
+               failure->message, failure->found[0] != '\0' ? "; found " : "", failure->found);
     return true;
 }
 
-wt_status flow_files_take(const flow_files *files, const wt_job *work, flow_take *take, void *user,
-                          size_t *n_failed, wt_error *err)
+wt_status flow_files_process(const flow_files *files, const wt_job *work, flow_process *take,
+                             void *user, size_t *n_failed, wt_error *err)
 {
     wt_status status = WT_OK;
     *n_failed = 0;
     for (size_t i = 0; status == WT_OK && i < files->n; i++) {
         wt_error failure = WT_ERROR_INIT;
         status = take(user, &files->file[i], i, &failure);
-        if (status == WT_OK || flow_leave_out(work, &files->file[i], &failure)) {
+        if (status == WT_OK || flow_skip_file(work, &files->file[i], &failure)) {
             status = WT_OK;
             continue;
         }
@@ -337,7 +336,7 @@ wt_status flow_files_take(const flow_files *files, const wt_job *work, flow_take
     return status;
 }
 
-void flow_tell_files(const flow_files *files, size_t n_failed, wt_error *err)
+void flow_error_add_files(const flow_files *files, size_t n_failed, wt_error *err)
 {
     bool of_folder = false;
     for (size_t i = 0; i < files->n; i++)

@@ -48,7 +48,7 @@ wt_status flow_open(const wt_job *work, flow_file *file, const char *role, unsig
                     wt_input **input, wt_error *err) WT_NODISCARD;
 /* The same, but of a large file the provenance is left to flow_record with the input `beside`, on
  * another thread than that which reads the file; NULL where nothing is left. */
-wt_status flow_open_beside(const wt_job *work, flow_file *file, const char *role, unsigned kinds,
+wt_status flow_open_paired(const wt_job *work, flow_file *file, const char *role, unsigned kinds,
                            wt_input **input, wt_input **beside, wt_error *err) WT_NODISCARD;
 /* Adds a file that was opened to the provenance. */
 wt_status flow_record(const wt_job *work, wt_input *input, const flow_file *file, const char *role,
@@ -58,21 +58,21 @@ wt_status flow_record(const wt_job *work, wt_input *input, const flow_file *file
 wt_read_options flow_read_options(const flow_file *file);
 
 /* For an error of files none of which held what is needed: how many, and where to look. */
-void flow_tell_files(const flow_files *files, size_t n_failed, wt_error *err);
+void flow_error_add_files(const flow_files *files, size_t n_failed, wt_error *err);
 
 /* Whether a file that gave `failure` is one that merely lies in the folder that was named, without
  * measured data of the kind asked for: it is left out with a warning. Else it has failed. */
-bool flow_leave_out(const wt_job *work, const flow_file *file, const wt_error *failure);
+bool flow_skip_file(const wt_job *work, const flow_file *file, const wt_error *failure);
 
 /* Has `take` read the files in turn. What it refuses is left out of its folder or has failed, and
  * the others go on; *n_failed: how many failed. */
-typedef wt_status flow_take(void *user, flow_file *file, size_t i, wt_error *err);
-wt_status flow_files_take(const flow_files *files, const wt_job *work, flow_take *take, void *user,
-                          size_t *n_failed, wt_error *err) WT_NODISCARD;
+typedef wt_status flow_process(void *user, flow_file *file, size_t i, wt_error *err);
+wt_status flow_files_process(const flow_files *files, const wt_job *work, flow_process *take,
+                             void *user, size_t *n_failed, wt_error *err) WT_NODISCARD;
 
 /* Whether a failure of one file leaves the others alone: false for lack of memory, cancelling,
  * internal errors, and when the job keeps no failures. */
-bool flow_goes_on(const wt_job *work, wt_status status);
+bool flow_may_continue(const wt_job *work, wt_status status);
 /* Adds a row to the failures. */
 wt_status flow_add_failure(const wt_job *work, const char *what, const wt_error *failure,
                            wt_error *err) WT_NODISCARD;

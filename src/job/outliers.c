@@ -11,7 +11,7 @@ static const double far = 5;
 /* Standard deviations of a normal distribution over its median and its mean distance. */
 static const double of_median = 1.4826, of_mean = 1.253314137315500;
 
-usual_values flow_usual_values(double *values, size_t n)
+typical_values flow_usual_values(double *values, size_t n)
 {
     const double middle = numbers_median(values, n);
     double sum = 0;
@@ -20,6 +20,6 @@ usual_values flow_usual_values(double *values, size_t n)
         sum += values[i];
     }
     const double distance = numbers_median(values, n);
-    return (usual_values){middle,
-                          far * (distance > 0 ? of_median * distance : of_mean * sum / (double)n)};
+    return (typical_values){
+        middle, far * (distance > 0 ? of_median * distance : of_mean * sum / (double)n)};
 }

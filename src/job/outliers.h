@@ -5,13 +5,13 @@
 
 #include <stddef.h>
 
-typedef struct usual_values {
+typedef struct typical_values {
     double middle, most; /* those further from the middle than this are far */
-} usual_values;
+} typical_values;
 
 /* Of n > 0 values, which are changed: the median and five standard deviations, of which the median
  * distance from it tells, or, where more than half of the values are the median itself, the mean
  * distance (Iglewicz and Hoaglin 1993). */
-usual_values flow_usual_values(double *values, size_t n);
+typical_values flow_usual_values(double *values, size_t n);
 
 #endif

@@ -17,9 +17,10 @@ double flow_draw_normal(uint64_t seed, size_t replicate, flow_draw what)
 {
     if (replicate == WT_NO_REPLICATE)
         return 0;
-    uint64_t state = mix64(mix64(mix64(seed) ^ (uint64_t)replicate) ^ (uint64_t)what);
+    uint64_t state =
+        splitmix64(splitmix64(splitmix64(seed) ^ (uint64_t)replicate) ^ (uint64_t)what);
     double radius = sqrt(-2 * log(uniform_of(state)));
-    return radius * cos(2 * M_PI * uniform_of(mix64(state)));
+    return radius * cos(2 * M_PI * uniform_of(splitmix64(state)));
 }
 
 double flow_draw_value(wt_estimate e, uint64_t seed, size_t replicate, flow_draw what)

@@ -19,14 +19,15 @@ static double thinnest_stable(const table_view *v)
     return least;
 }
 
-void tell_balance(telling *t, const table_view *balances)
+void append_balance(text_builder *t, const table_view *balances)
 {
     const double least = thinnest_stable(balances);
-    tell(t, "where the layer acts back on the energy that makes it, from a bare surface %s%s",
-         isnan(least) ? "no balance is found"
-         : least > 0  ? "the balance is at "
-                      : "there is no layer",
-         least > 0 ? words_of(least, "m").text : "");
+    text_append(t,
+                "where the layer acts back on the energy that makes it, from a bare surface %s%s",
+                isnan(least) ? "no balance is found"
+                : least > 0  ? "the balance is at "
+                             : "there is no layer",
+                least > 0 ? format_with_unit(least, "m").text : "");
 }
 
 static bool cannot_say(const char *words)
@@ -34,32 +35,33 @@ static bool cannot_say(const char *words)
     return words != NULL && strncmp(words, "cannot say", strlen("cannot say")) == 0;
 }
 
-static void say_balances(const answer_story *story)
+static void say_balances(const answer_context *story)
 {
     const table_view *const v = &story->layer_balances;
     if (v->table == NULL)
         return;
     const char *const agreement = layer_balances_words(v, LAYER_BALANCES_KEY_AGREEMENT);
     char text[160];
-    telling t = {text, sizeof text, 0};
-    tell_balance(&t, v);
+    text_builder t = {text, sizeof text, 0};
+    append_balance(&t, v);
     text[0] = (char)toupper((unsigned char)text[0]);
-    answer_say(story, how_thick, "thickness", "%s: %s.", text,
-               layer_balances_words(v, LAYER_BALANCES_KEY_WORDS));
+    answer_add_sentence(story, how_thick, "thickness", "%s: %s.", text,
+                        layer_balances_words(v, LAYER_BALANCES_KEY_WORDS));
     if (cannot_say(agreement))
-        answer_say(story, how_thick, "thickness",
-                   "Whether that many balances are there, the inputs %s.", agreement);
+        answer_add_sentence(story, how_thick, "thickness",
+                            "Whether that many balances are there, the inputs %s.", agreement);
 }
 
-static void say_existence(const answer_story *story)
+static void say_existence(const answer_context *story)
 {
     const table_view *const v = &story->existence;
     if (v->table == NULL)
         return;
     const char *const known = existence_words(v, EXISTENCE_KEY_KNOWN);
-    answer_say(story, how_thick, "thickness", "At %s a layer exists %s.",
-               words_of(existence_value(v, EXISTENCE_KEY_PRESSURE).value, "Pa").text,
-               existence_words(v, EXISTENCE_KEY_WORDS));
+    answer_add_sentence(
+        story, how_thick, "thickness", "At %s a layer exists %s.",
+        format_with_unit(existence_value(v, EXISTENCE_KEY_PRESSURE).value, "Pa").text,
+        existence_words(v, EXISTENCE_KEY_WORDS));
     const wt_estimate from = existence_value(v, EXISTENCE_KEY_FROM_VELOCITY),
                       to = existence_value(v, EXISTENCE_KEY_TO_VELOCITY);
     const double begins[] = {existence_value(v, EXISTENCE_KEY_FROM_VELOCITY_LOW).value,
@@ -67,16 +69,16 @@ static void say_existence(const answer_story *story)
                  ends[] = {existence_value(v, EXISTENCE_KEY_TO_VELOCITY_LOW).value,
                            existence_value(v, EXISTENCE_KEY_TO_VELOCITY_HIGH).value};
     if (isfinite(begins[0]))
-        answer_say(story, how_thick, "thickness", "It begins at %s.",
-                   words_between(from, begins[0], begins[1]).text);
+        answer_add_sentence(story, how_thick, "thickness", "It begins at %s.",
+                            format_estimate_interval(from, begins[0], begins[1]).text);
     if (isfinite(ends[0]))
-        answer_say(story, how_thick, "thickness", "It ends at %s.",
-                   words_between(to, ends[0], ends[1]).text);
+        answer_add_sentence(story, how_thick, "thickness", "It ends at %s.",
+                            format_estimate_interval(to, ends[0], ends[1]).text);
     if (cannot_say(known))
-        answer_say(story, how_thick, "thickness", "Of its edges the inputs %s.", known);
+        answer_add_sentence(story, how_thick, "thickness", "Of its edges the inputs %s.", known);
 }
 
-void answer_track_layer(const answer_story *story)
+void answer_track_layer(const answer_context *story)
 {
     const table_view *const v = &story->track_layer;
     if (v->table == NULL)
@@ -84,15 +86,16 @@ void answer_track_layer(const answer_story *story)
     const char *const allowed = track_layer_words(v, TRACK_LAYER_KEY_ALLOWED),
                       *const agree = track_layer_words(v, TRACK_LAYER_KEY_AGREE),
                       *const settled_by = track_layer_words(v, TRACK_LAYER_KEY_SETTLED_BY);
-    answer_say(story, how_thick, "thickness",
-               "What thickness do the curves alone allow? %c%s.%s%s%s%s%s%s",
-               toupper((unsigned char)allowed[0]), allowed + 1,
-               agree != NULL ? " Does the theory agree? " : "", agree != NULL ? agree : "",
-               agree != NULL ? "." : "", settled_by != NULL ? " What would settle it: " : "",
-               settled_by != NULL ? settled_by : "", settled_by != NULL ? "." : "");
+    answer_add_sentence(story, how_thick, "thickness",
+                        "What thickness do the curves alone allow? %c%s.%s%s%s%s%s%s",
+                        toupper((unsigned char)allowed[0]), allowed + 1,
+                        agree != NULL ? " Does the theory agree? " : "", agree != NULL ? agree : "",
+                        agree != NULL ? "." : "",
+                        settled_by != NULL ? " What would settle it: " : "",
+                        settled_by != NULL ? settled_by : "", settled_by != NULL ? "." : "");
 }
 
-static void say_bands(const answer_story *story)
+static void say_bands(const answer_context *story)
 {
     const table_view *const v = &story->layer_bands;
     const char *const events =
@@ -100,31 +103,32 @@ static void say_bands(const answer_story *story)
     if (events == NULL)
         return;
     const wt_estimate first = layer_bands_value(v, LAYER_BANDS_KEY_FIRST);
-    answer_say(story, how_thick, "thickness", "By the transport of damage: %s.", events);
+    answer_add_sentence(story, how_thick, "thickness", "By the transport of damage: %s.", events);
     if (first.standard_error > 0 &&
         isfinite(layer_bands_value(v, LAYER_BANDS_KEY_FIRST_HIGH).value))
-        answer_say(story, how_thick, "thickness", "Rubber is first modified after %s.",
-                   words_between(first, layer_bands_value(v, LAYER_BANDS_KEY_FIRST_LOW).value,
-                                 layer_bands_value(v, LAYER_BANDS_KEY_FIRST_HIGH).value)
-                       .text);
+        answer_add_sentence(
+            story, how_thick, "thickness", "Rubber is first modified after %s.",
+            format_estimate_interval(first, layer_bands_value(v, LAYER_BANDS_KEY_FIRST_LOW).value,
+                                     layer_bands_value(v, LAYER_BANDS_KEY_FIRST_HIGH).value)
+                .text);
     const char *const known = layer_bands_words(v, LAYER_BANDS_KEY_KNOWN);
     if (cannot_say(known))
-        answer_say(story, how_thick, "thickness", "Of that the inputs %s.", known);
+        answer_add_sentence(story, how_thick, "thickness", "Of that the inputs %s.", known);
 }
 
-void answer_layer_models(const answer_story *story)
+void answer_layer_models(const answer_context *story)
 {
     say_bands(story);
     say_balances(story);
     say_existence(story);
 }
 
-static number_words words_of_end(wt_estimate e)
+static number_text words_of_end(wt_estimate e)
 {
-    return e.standard_error > 0 ? words_of_estimate(e) : words_of_value(e);
+    return e.standard_error > 0 ? format_estimate(e) : format_value(e);
 }
 
-void answer_running_in(const answer_story *story)
+void answer_running_in(const answer_context *story)
 {
     const table_view *const v = &story->running_in;
     if (v->table == NULL)
@@ -133,19 +137,21 @@ void answer_running_in(const answer_story *story)
                       end = running_in_value(v, RUNNING_IN_KEY_BALANCE),
                       settled = running_in_value(v, RUNNING_IN_KEY_SETTLED);
     char text[192] = "";
-    telling t = {text, sizeof text, 0};
+    text_builder t = {text, sizeof text, 0};
     const double low = running_in_value(v, RUNNING_IN_KEY_SETTLED_LOW).value,
                  high = running_in_value(v, RUNNING_IN_KEY_SETTLED_HIGH).value;
     if (!isnan(settled.value) && isnan(high)) /* no replicates, or some settle beyond the times */
-        tell(&t, "; 5 %% of the change are left after %s in contact", words_of_value(settled).text);
+        text_append(&t, "; 5 %% of the change are left after %s in contact",
+                    format_value(settled).text);
     else if (!isnan(settled.value))
-        tell(&t, "; 5 %% of the change are left after %s in contact",
-             words_between(settled, low, high).text);
+        text_append(&t, "; 5 %% of the change are left after %s in contact",
+                    format_estimate_interval(settled, low, high).text);
     if (!isnan(end.value))
-        answer_say(story, what_friction, "friction",
-                   "While the layer grows, friction goes from %s to %s%s.", words_of_end(bare).text,
-                   words_of_end(end).text, text);
+        answer_add_sentence(story, what_friction, "friction",
+                            "While the layer grows, friction goes from %s to %s%s.",
+                            words_of_end(bare).text, words_of_end(end).text, text);
     const char *const known = running_in_words(v, RUNNING_IN_KEY_KNOWN);
     if (cannot_say(known))
-        answer_say(story, what_friction, "friction", "Of when that is the inputs %s.", known);
+        answer_add_sentence(story, what_friction, "friction", "Of when that is the inputs %s.",
+                            known);
 }

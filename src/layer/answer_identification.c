@@ -9,102 +9,106 @@
 #include <string.h>
 
 /* As both tables have them. */
-typedef struct told_pair {
+typedef struct reported_pair {
     double energy, energy_low, energy_high, wear, wear_low, wear_high, correlation, loose_error;
     const char *loose;
-} told_pair;
+} reported_pair;
 
 /* Value, error and ends of either follow one another, as do the correlation and what is known
  * least.
  */
-static told_pair pair_at(const table_view *v, size_t row, unsigned energy, unsigned correlation)
+static reported_pair pair_at(const table_view *v, size_t row, unsigned energy, unsigned correlation)
 {
     enum { VALUE, ERROR, LOW, HIGH, NEXT };
     const table_schema *const of = v->schema;
     const unsigned wear = energy + NEXT;
-    return (told_pair){.energy = view_number(v, of, row, energy + VALUE),
-                       .energy_low = view_number(v, of, row, energy + LOW),
-                       .energy_high = view_number(v, of, row, energy + HIGH),
-                       .wear = view_number(v, of, row, wear + VALUE),
-                       .wear_low = view_number(v, of, row, wear + LOW),
-                       .wear_high = view_number(v, of, row, wear + HIGH),
-                       .correlation = view_number(v, of, row, correlation),
-                       .loose = view_text(v, of, row, correlation + 1),
-                       .loose_error = view_number(v, of, row, correlation + 2)};
+    return (reported_pair){.energy = view_number(v, of, row, energy + VALUE),
+                           .energy_low = view_number(v, of, row, energy + LOW),
+                           .energy_high = view_number(v, of, row, energy + HIGH),
+                           .wear = view_number(v, of, row, wear + VALUE),
+                           .wear_low = view_number(v, of, row, wear + LOW),
+                           .wear_high = view_number(v, of, row, wear + HIGH),
+                           .correlation = view_number(v, of, row, correlation),
+                           .loose = view_text(v, of, row, correlation + 1),
+                           .loose_error = view_number(v, of, row, correlation + 2)};
 }
 
 /* Numbers of which each is known hang together: what they leave open is one combination of them. */
-static void tell_pair(telling *t, const told_pair *p)
+static void tell_pair(text_builder *t, const reported_pair *p)
 {
-    tell(t, "U_c = %s, k = %s",
-         words_between((wt_estimate){.value = p->energy, .unit = "J/m^3"}, p->energy_low,
-                       p->energy_high)
-             .text,
-         words_between((wt_estimate){.value = p->wear, .unit = "m^2/N"}, p->wear_low, p->wear_high)
-             .text);
+    text_append(t, "U_c = %s, k = %s",
+                format_estimate_interval((wt_estimate){.value = p->energy, .unit = "J/m^3"},
+                                         p->energy_low, p->energy_high)
+                    .text,
+                format_estimate_interval((wt_estimate){.value = p->wear, .unit = "m^2/N"},
+                                         p->wear_low, p->wear_high)
+                    .text);
     if (!isnan(p->correlation))
-        tell(t, ", correlation %.2f", p->correlation);
+        text_append(t, ", correlation %.2f", p->correlation);
     if (isfinite(p->loose_error) && p->loose_error > 0)
-        tell(t, "; known least is %s, to a factor of %.3g", p->loose,
-             exp(NORMAL_95 * p->loose_error));
+        text_append(t, "; known least is %s, to a factor of %.3g", p->loose,
+                    exp(NORMAL_95 * p->loose_error));
 }
 
 /* The rows behind the first are the ways that need no range of the literature. */
-void tell_identification(telling *t, const table_view *v)
+void append_identification(text_builder *t, const table_view *v)
 {
     if (v->n_rows == 1)
-        tell(t,
-             "the thickness alone tells k U_c = %s and neither of them: U_c / k is not determined "
-             "before a wear rate or a running-in time is known",
-             words_of_known(identification_value(v, IDENTIFICATION_KEY_PRODUCT)).text);
+        text_append(
+            t,
+            "the thickness alone tells k U_c = %s and neither of them: U_c / k is not determined "
+            "before a wear rate or a running-in time is known",
+            format_known_estimate(identification_value(v, IDENTIFICATION_KEY_PRODUCT)).text);
     for (size_t i = 1; i < v->n_rows; i++) {
-        const told_pair p = pair_at(v, i, IDENTIFICATION_ENERGY, IDENTIFICATION_CORRELATION);
-        tell(t, "%sby %s ", i > 1 ? "; " : "", identification_text(v, i, IDENTIFICATION_BY));
+        const reported_pair p = pair_at(v, i, IDENTIFICATION_ENERGY, IDENTIFICATION_CORRELATION);
+        text_append(t, "%sby %s ", i > 1 ? "; " : "", identification_text(v, i, IDENTIFICATION_BY));
         if (isnan(p.energy_low))
-            tell(t, "U_c = %s, k = %s (%s)", words_of(p.energy, "J/m^3").text,
-                 words_of(p.wear, "m^2/N").text, identification_text(v, i, IDENTIFICATION_NOTE));
+            text_append(t, "U_c = %s, k = %s (%s)", format_with_unit(p.energy, "J/m^3").text,
+                        format_with_unit(p.wear, "m^2/N").text,
+                        identification_text(v, i, IDENTIFICATION_NOTE));
         else
             tell_pair(t, &p);
     }
     const char *const lacks = identification_words(v, IDENTIFICATION_KEY_LACKS);
     if (lacks != NULL)
-        tell(t, "; no error of %s is known, and none is in that", lacks);
+        text_append(t, "; no error of %s is known, and none is in that", lacks);
 }
 
 /* What all cases are known by in one way; those of one sample or condition are in the table. */
-void tell_shared_pairs(telling *t, const table_view *v)
+void append_shared_pairs(text_builder *t, const table_view *v)
 {
     const char *const settled_by = shared_pairs_words(v, SHARED_PAIRS_KEY_SETTLED_BY);
     bool open = false, told = false;
     for (size_t i = 0; i < v->n_rows; i++) {
         const char *const one = shared_pairs_text(v, i, SHARED_PAIRS_ONE_PAIR);
-        const told_pair p = pair_at(v, i, SHARED_PAIRS_ENERGY, SHARED_PAIRS_CORRELATION);
+        const reported_pair p = pair_at(v, i, SHARED_PAIRS_ENERGY, SHARED_PAIRS_CORRELATION);
         if (strcmp(shared_pairs_text(v, i, SHARED_PAIRS_OVER), "all cases") != 0)
             continue;
-        tell(t, "%sone U_c and k of %.0f cases by %s: %s", told ? "; " : "",
-             shared_pairs_get(v, i, SHARED_PAIRS_N), shared_pairs_text(v, i, SHARED_PAIRS_BY), one);
+        text_append(t, "%sone U_c and k of %.0f cases by %s: %s", told ? "; " : "",
+                    shared_pairs_get(v, i, SHARED_PAIRS_N),
+                    shared_pairs_text(v, i, SHARED_PAIRS_BY), one);
         told = true;
         open = open || strcmp(one, "cannot say") == 0;
         if (strcmp(one, "one") != 0)
-            tell(t, " (U_c: %s; k: %s)", shared_pairs_text(v, i, SHARED_PAIRS_ONE_ENERGY),
-                 shared_pairs_text(v, i, SHARED_PAIRS_ONE_WEAR));
+            text_append(t, " (U_c: %s; k: %s)", shared_pairs_text(v, i, SHARED_PAIRS_ONE_ENERGY),
+                        shared_pairs_text(v, i, SHARED_PAIRS_ONE_WEAR));
         if (strcmp(one, "differs") == 0) /* a mean of what is not one is none */
             continue;
-        tell(t, strcmp(one, "one") == 0 ? ", " : "; as one ");
+        text_append(t, strcmp(one, "one") == 0 ? ", " : "; as one ");
         tell_pair(t, &p);
     }
     if (open && settled_by != NULL)
-        tell(t, "; what would settle it: %s", settled_by);
+        text_append(t, "; what would settle it: %s", settled_by);
 }
 
-void answer_identification(const answer_story *story)
+void answer_identification(const answer_context *story)
 {
     const table_view *const v = &story->identification;
     char text[1000];
-    telling t = {text, sizeof text, 0};
+    text_builder t = {text, sizeof text, 0};
     if (v->table == NULL)
         return;
-    tell_identification(&t, v);
-    answer_say(story, "How thick is it?", "thickness", "What makes it so thick? %c%s.",
-               toupper((unsigned char)text[0]), text + 1);
+    append_identification(&t, v);
+    answer_add_sentence(story, "How thick is it?", "thickness", "What makes it so thick? %c%s.",
+                        toupper((unsigned char)text[0]), text + 1);
 }

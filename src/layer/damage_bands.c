@@ -76,7 +76,7 @@ static void say_load(bands_task *task, size_t i)
 }
 
 /* The wear rate of a load has the relative error of that of the job, and is drawn with it. */
-static double wear_of(const layer_scene *scene, double own)
+static double wear_of(const layer_context *scene, double own)
 {
     wt_estimate wear = scene->job->specific_wear_rate;
     wear.standard_error *= wear.value > 0 ? own / wear.value : 0;
@@ -84,7 +84,7 @@ static double wear_of(const layer_scene *scene, double own)
     return flow_draw_positive(wear, scene->work->seed, scene->replicate, FLOW_DRAW_WEAR);
 }
 
-static wt_status loads_make(const bands_task *task, const layer_scene *scene, loads *l,
+static wt_status loads_make(const bands_task *task, const layer_context *scene, loads *l,
                             wt_error *err)
 {
     *l = (loads){.energy = calloc(task->n + 1, sizeof *l->energy),
@@ -93,8 +93,8 @@ static wt_status loads_make(const bands_task *task, const layer_scene *scene, lo
         return wt_fail(err, WT_E_MEMORY, "out of memory");
     for (size_t i = 0; i < task->n; i++) {
         const layer_load *load = &task->load[i];
-        const layer_spot spot = {load->pressure, load->velocity, load->temperature,
-                                 layer_here().layer};
+        const operating_point spot = {load->pressure, load->velocity, load->temperature,
+                                      operating_point_default().layer};
         wt_layer_stage *stage = &l->stage[i];
         const wt_status status = layer_at(scene, spot, &l->energy[i], &stage->parameters, err);
         if (status != WT_OK)
@@ -266,12 +266,12 @@ static wt_status one_replicate(const void *user, size_t k, double *out, wt_error
 {
     const bands_task *task = user;
     wt_layer_job job;
-    layer_scene scene;
+    layer_context scene;
     loads l = {0};
     wt_layer_event first = {.time = (double)NAN};
     const size_t rows = k < LAYER_ROW_REPLICATES ? task->n_times : 0;
     wt_layer_section *section = malloc((task->n_times + 1) * sizeof *section);
-    wt_status status = section != NULL ? layer_draws_scene(&task->draws, k, &job, &scene, err)
+    wt_status status = section != NULL ? layer_draws_context(&task->draws, k, &job, &scene, err)
                                        : wt_fail(err, WT_E_MEMORY, "out of memory");
     if (status == WT_OK)
         status = loads_make(task, &scene, &l, err);
@@ -348,7 +348,7 @@ static wt_status make_table(bands_task *task, wt_table **table, wt_error *err)
     const wt_interval first = layer_interval(&task->draws, LN_FIRST, task->first);
     wt_estimate thickness = last_depth(task->section, task->n_times);
     thickness.standard_error = e[THICKNESS];
-    layer_draws_say(&task->draws, task->errors, sizeof task->errors);
+    layer_draws_describe(&task->draws, task->errors, sizeof task->errors);
     layer_say_known(&task->draws, LN_FIRST, task->first, "nothing is ever modified",
                     "something is modified", task->known, sizeof task->known);
     table_writer t = table_begin(&layer_bands_schema, err);
@@ -395,8 +395,9 @@ wt_status wt_layer_bands_make(const wt_sliding *sliding, const wt_layer_job *job
     }
     if (status == WT_OK)
         status = make_table(&task, table, err);
-    cost_say(work, (cost_summary){.items = (double)(task.n_times * (1 + task.draws.replicates.n)),
-                                  .tolerance_asked = work->tolerance});
+    cost_report(work,
+                (cost_summary){.items = (double)(task.n_times * (1 + task.draws.replicates.n)),
+                               .tolerance_asked = work->tolerance});
     layer_draws_clear(&task.draws);
     loads_clear(&task.centre);
     free(task.load);

@@ -50,9 +50,9 @@ wt_status wt_energy_density_table(const wt_sliding *sliding, const wt_layer_job 
     table_writer t = table_begin(&energy_density_schema, err);
     add_depths(&energy.source, &t);
     energy_density_set_value(&t, ENERGY_DENSITY_KEY_VELOCITY, velocity, 0, 0);
-    cost_say(work, (cost_summary){.items = DEPTHS,
-                                  .tolerance_asked = work->tolerance,
-                                  .error_estimated = energy.source.numerical_error});
+    cost_report(work, (cost_summary){.items = DEPTHS,
+                                     .tolerance_asked = work->tolerance,
+                                     .error_estimated = energy.source.numerical_error});
     layer_energy_clear(&energy);
     return table_end(&t, table);
 }

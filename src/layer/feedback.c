@@ -25,10 +25,10 @@ TABLE_ROW(layer_balances, LAYER_BALANCES, const char *kind, *stable;
 TABLE_KEYS(layer_balances, LAYER_BALANCES, wt_estimate one_way, ratio, modulus_ratio;
            double low, high; const char *words, *agreement, *errors, *moduli;)
 
-wt_status acts_back_energy(double thickness, void *user, wt_energy_source *source,
-                           wt_layer_parameters *parameters, wt_error *err)
+wt_status feedback_energy(double thickness, void *user, wt_energy_source *source,
+                          wt_layer_parameters *parameters, wt_error *err)
 {
-    const layer_scene *scene = user;
+    const layer_context *scene = user;
     layer_energy energy = {.source = {.n = 0}};
     const wt_status status =
         layer_at(scene, layer_under(scene, thickness), &energy, parameters, err);
@@ -36,18 +36,18 @@ wt_status acts_back_energy(double thickness, void *user, wt_energy_source *sourc
     return status;
 }
 
-wt_status acts_back_find(layer_scene *scene, wt_layer_loop *loop, wt_error *err)
+wt_status feedback_find(layer_context *scene, wt_layer_loop *loop, wt_error *err)
 {
     wt_energy_source source = {0};
     wt_layer_parameters p;
     double low = 0, high = 0;
-    wt_status status = acts_back_energy(0, scene, &source, &p, err);
+    wt_status status = feedback_energy(0, scene, &source, &p, err);
     for (size_t i = 0; status == WT_OK && i < source.n; i++) {
         low = i == 0 ? source.wavenumber[0] : fmin(low, source.wavenumber[i]);
         high = fmax(high, source.wavenumber[i]);
     }
     if (status == WT_OK)
-        status = wt_layer_loop_find(acts_back_energy, scene, thinnest / high, thickest / low,
+        status = wt_layer_loop_find(feedback_energy, scene, thinnest / high, thickest / low,
                                     scene->replicate == WT_NO_REPLICATE ? GRID : REPLICATE_GRID,
                                     loop, err);
     wt_energy_source_clear(&source);
@@ -63,7 +63,7 @@ typedef struct place {
 } place;
 
 typedef struct balances {
-    layer_scene *scene;
+    layer_context *scene;
     wt_layer_loop loop;
     wt_layer_balance one_way;
     place root[WT_LAYER_ROOTS], fold[WT_LAYER_ROOTS];
@@ -91,7 +91,7 @@ static wt_status add_root_error(const balances *b, place *at, wt_error *err)
     wt_energy_source source = {0};
     wt_layer_parameters p;
     wt_layer_balance here;
-    wt_status status = acts_back_energy(at->value[AT_THICKNESS], b->scene, &source, &p, err);
+    wt_status status = feedback_energy(at->value[AT_THICKNESS], b->scene, &source, &p, err);
     if (status == WT_OK)
         status = wt_layer_balance_compute(&source, &p, &here, err);
     if (status == WT_OK)
@@ -134,9 +134,9 @@ static wt_status find_balances(balances *b, wt_error *err)
 {
     wt_energy_source source = {0};
     wt_layer_parameters p;
-    wt_status status = acts_back_find(b->scene, &b->loop, err);
+    wt_status status = feedback_find(b->scene, &b->loop, err);
     if (status == WT_OK)
-        status = acts_back_energy(0, b->scene, &source, &p, err);
+        status = feedback_energy(0, b->scene, &source, &p, err);
     if (status == WT_OK)
         status = wt_layer_balance_compute(&source, &p, &b->one_way, err);
     wt_energy_source_clear(&source);
@@ -196,9 +196,9 @@ static wt_status one_replicate(const void *user, size_t i, double *out, wt_error
     const balances_task *task = user;
     const wt_layer_loop *centre = &task->centre.loop;
     wt_layer_job job;
-    layer_scene scene;
+    layer_context scene;
     balances b = {.scene = &scene};
-    wt_status status = layer_draws_scene(&task->draws, i, &job, &scene, err);
+    wt_status status = layer_draws_context(&task->draws, i, &job, &scene, err);
     if (status == WT_OK) {
         job.specific_wear_rate = (wt_estimate){
             flow_draw_positive(job.specific_wear_rate, scene.work->seed, i, FLOW_DRAW_WEAR), 0, 0,
@@ -262,10 +262,10 @@ static void say_agreement(balances_task *task)
                  "of them %zu to %zu; smaller errors of what is drawn would settle it",
                  same, solved, fewest, most);
     if (solved > 0 && !known)
-        wt_parselog_add(task->draws.values.work->log, WT_WARNING, NULL, NULL,
-                        "within the stated errors the number of balances of the layer, or their "
-                        "stability, may be another: so it is in %zu of %zu replicates",
-                        solved - same, solved);
+        wt_log_add(task->draws.values.work->log, WT_WARNING, NULL, NULL,
+                   "within the stated errors the number of balances of the layer, or their "
+                   "stability, may be another: so it is in %zu of %zu replicates",
+                   solved - same, solved);
 }
 
 /* Of n balances or folds that only so many replicates have. */
@@ -289,7 +289,7 @@ static void say_errors(balances_task *task)
 {
     const wt_layer_loop *const loop = &task->centre.loop;
     const size_t folds = N_NUMBERS + N_AT * loop->n_roots;
-    layer_draws_say(&task->draws, task->errors, sizeof task->errors);
+    layer_draws_describe(&task->draws, task->errors, sizeof task->errors);
     forget_errors(task, task->same_balances, N_NUMBERS, loop->n_roots, true, "balances");
     forget_errors(task, task->same_folds, folds, loop->n_folds, false, "folds");
 }
@@ -352,8 +352,8 @@ static wt_status make_table(balances_task *task, wt_table **table, wt_error *err
 }
 
 wt_status wt_layer_balances_make(const wt_sliding *sliding, const wt_layer_job *job,
-                                 const wt_layer_known *known, const wt_job *work, wt_table **table,
-                                 wt_error *err)
+                                 const wt_layer_observation *known, const wt_job *work,
+                                 wt_table **table, wt_error *err)
 {
     if (job == NULL || known == NULL || work == NULL || table == NULL)
         return wt_fail(err, WT_E_ARG, "no balances of a layer to make");
@@ -371,9 +371,9 @@ wt_status wt_layer_balances_make(const wt_sliding *sliding, const wt_layer_job *
     }
     if (status == WT_OK)
         status = make_table(&task, table, err);
-    cost_say(work,
-             (cost_summary){.items = GRID + (double)(REPLICATE_GRID * task.draws.replicates.n),
-                            .tolerance_asked = work->tolerance});
+    cost_report(work,
+                (cost_summary){.items = GRID + (double)(REPLICATE_GRID * task.draws.replicates.n),
+                               .tolerance_asked = work->tolerance});
     layer_draws_clear(&task.draws);
     return status;
 }

@@ -5,10 +5,10 @@
 
 #include "layer/monte_carlo.h"
 
-/* A wt_layer_energy_fn; `user` is a layer_scene. */
-wt_status acts_back_energy(double thickness, void *user, wt_energy_source *source,
-                           wt_layer_parameters *parameters, wt_error *err) WT_NODISCARD;
+/* A wt_layer_energy_fn; `user` is a layer_context. */
+wt_status feedback_energy(double thickness, void *user, wt_energy_source *source,
+                          wt_layer_parameters *parameters, wt_error *err) WT_NODISCARD;
 /* All balances from the shortest wave to the longest. */
-wt_status acts_back_find(layer_scene *scene, wt_layer_loop *loop, wt_error *err) WT_NODISCARD;
+wt_status feedback_find(layer_context *scene, wt_layer_loop *loop, wt_error *err) WT_NODISCARD;
 
 #endif

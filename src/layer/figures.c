@@ -37,7 +37,7 @@ static void mark_time(figure_drawing *d, double time, const char *label, double 
                 LITERAL(time), LITERAL(time));
     if (label != NULL)
         text_format(&d->script, "set label '%s' at %s*x_unit, graph %s offset 0.6,0 left front\n",
-                    say(d->language, label), LITERAL(time), LITERAL(place));
+                    translate(d->language, label), LITERAL(time), LITERAL(place));
 }
 
 static void draw_thickness(figure_drawing *d)
@@ -51,7 +51,8 @@ static void draw_thickness(figure_drawing *d)
         text_format(&d->script, "balance = %s  # m\n", LITERAL(balance));
     drawing_bands(d, 0);
     if (isfinite(balance))
-        plot_other(d, "balance*y_unit with lines ls 15 title '%s'", say(d->language, "balance"));
+        plot_other(d, "balance*y_unit with lines ls 15 title '%s'",
+                   translate(d->language, "balance"));
     drawing_curves(d, 0);
     plot_end(d);
 }
@@ -90,11 +91,14 @@ static void caption_layer(figure_drawing *d)
     const wt_estimate incubation = layer_value(d->table, LAYER_KEY_INCUBATION_TIME),
                       relaxation = layer_value(d->table, LAYER_KEY_RELAXATION_TIME);
     if (isfinite(positive_value(d, LAYER_KEY_BALANCE_THICKNESS)))
-        text_say(&d->caption, " Balance thickness %s.", ESTIMATE(d->language, &balance));
+        text_append_translated(&d->caption, " Balance thickness %s.",
+                               ESTIMATE(d->language, &balance));
     if (isfinite(shown_incubation(d)))
-        text_say(&d->caption, " Incubation time %s.", ESTIMATE(d->language, &incubation));
+        text_append_translated(&d->caption, " Incubation time %s.",
+                               ESTIMATE(d->language, &incubation));
     if (isfinite(positive_value(d, LAYER_KEY_RELAXATION_TIME)))
-        text_say(&d->caption, " Relaxation time %s.", ESTIMATE(d->language, &relaxation));
+        text_append_translated(&d->caption, " Relaxation time %s.",
+                               ESTIMATE(d->language, &relaxation));
 }
 
 /* Edges with their errors, where replicates have as many bands; those without are points alone. */
@@ -115,23 +119,25 @@ static void draw_bands(figure_drawing *d)
 static void caption_bands(figure_drawing *d)
 {
     const char *events = layer_bands_words(d->table, LAYER_BANDS_KEY_EVENTS);
-    text_say(&d->caption, " Loads: %s.", layer_bands_words(d->table, LAYER_BANDS_KEY_LOADS));
+    text_append_translated(&d->caption, " Loads: %s.",
+                           layer_bands_words(d->table, LAYER_BANDS_KEY_LOADS));
     if (events != NULL)
-        text_say(&d->caption, " What happens: %s.", events);
+        text_append_translated(&d->caption, " What happens: %s.", events);
     const wt_estimate first = layer_bands_value(d->table, LAYER_BANDS_KEY_FIRST);
     if (isfinite(first.value))
-        text_say(&d->caption, " Rubber is first modified after %s.", ESTIMATE(d->language, &first));
+        text_append_translated(&d->caption, " Rubber is first modified after %s.",
+                               ESTIMATE(d->language, &first));
 }
 
 static void caption_running_in(figure_drawing *d)
 {
     const wt_estimate settled = running_in_value(d->table, RUNNING_IN_KEY_SETTLED);
-    text_say(&d->caption, " Shear stress of the layer: %s; %s.",
-             running_in_words(d->table, RUNNING_IN_KEY_SHEAR),
-             running_in_words(d->table, RUNNING_IN_KEY_BACK));
+    text_append_translated(&d->caption, " Shear stress of the layer: %s; %s.",
+                           running_in_words(d->table, RUNNING_IN_KEY_SHEAR),
+                           running_in_words(d->table, RUNNING_IN_KEY_BACK));
     if (isfinite(settled.value))
-        text_say(&d->caption, " After %s 5 %% of the change are left.",
-                 ESTIMATE(d->language, &settled));
+        text_append_translated(&d->caption, " After %s 5 %% of the change are left.",
+                               ESTIMATE(d->language, &settled));
 }
 
 /* ---- thickness by the curves ----------------------------------------------------------------- */
@@ -167,7 +173,7 @@ static void draw_track_layer(figure_drawing *d)
                              "ls %d"
                            : "($1*x_unit):($2*y_unit) with lines ls %d",
                   drawing_group_style(d, i));
-        plot_title(d, say(d->language, d->groups[i])); // their names are ours
+        plot_title(d, translate(d->language, d->groups[i])); // their names are ours
     }
     plot_end(d);
 }
@@ -175,10 +181,10 @@ static void draw_track_layer(figure_drawing *d)
 static void caption_track_layer(figure_drawing *d)
 {
     const char *const agree = track_layer_words(d->table, TRACK_LAYER_KEY_AGREE);
-    text_say(&d->caption, " By the curves: %s.",
-             track_layer_words(d->table, TRACK_LAYER_KEY_ALLOWED));
+    text_append_translated(&d->caption, " By the curves: %s.",
+                           track_layer_words(d->table, TRACK_LAYER_KEY_ALLOWED));
     if (agree != NULL)
-        text_say(&d->caption, " Do both agree? %s.", agree);
+        text_append_translated(&d->caption, " Do both agree? %s.", agree);
 }
 
 /* ---- descriptions ---------------------------------------------------------------------------- */

@@ -20,16 +20,16 @@ static void caption_existence(figure_drawing *d)
     const wt_estimate from = existence_value(d->table, EXISTENCE_KEY_FROM_VELOCITY),
                       to = existence_value(d->table, EXISTENCE_KEY_TO_VELOCITY);
     const char *const known = existence_words(d->table, EXISTENCE_KEY_KNOWN);
-    text_say(&d->caption, " At %s there is a layer %s.",
-             VALUE(d->language, WT_Q_PRESSURE, NULL,
-                   existence_value(d->table, EXISTENCE_KEY_PRESSURE).value),
-             existence_words(d->table, EXISTENCE_KEY_WORDS));
+    text_append_translated(&d->caption, " At %s there is a layer %s.",
+                           VALUE(d->language, WT_Q_PRESSURE, NULL,
+                                 existence_value(d->table, EXISTENCE_KEY_PRESSURE).value),
+                           existence_words(d->table, EXISTENCE_KEY_WORDS));
     if (isfinite(from.value))
-        text_say(&d->caption, " It begins at %s.", ESTIMATE(d->language, &from));
+        text_append_translated(&d->caption, " It begins at %s.", ESTIMATE(d->language, &from));
     if (isfinite(to.value))
-        text_say(&d->caption, " It ends at %s.", ESTIMATE(d->language, &to));
+        text_append_translated(&d->caption, " It ends at %s.", ESTIMATE(d->language, &to));
     if (known != NULL && strncmp(known, "cannot say", strlen("cannot say")) == 0)
-        text_say(&d->caption, " Of the edges one %s.", known);
+        text_append_translated(&d->caption, " Of the edges one %s.", known);
 }
 
 /* ln R, by so many standard errors of it more. */
@@ -144,7 +144,7 @@ static void draw_map(figure_drawing *d, existence_column shown, const char *labe
     plot_item(d, section,
               "($1*x_unit):($4 > 1 ? NaN : $2*y_unit) with points pt 2 ps 0.6 lc rgb 'black' title "
               "'%s'",
-              say(d->language, "no layer"));
+              translate(d->language, "no layer"));
     if (edge >= 0)
         plot_item(d, edge, "($1*x_unit):($2*y_unit) with lines lw 2 lc rgb 'black' title 'R = 1'");
     const int ends[] = {low, high};

@@ -306,7 +306,7 @@ static void say_agreement(const identify_task *task, const identified *found, ta
         char range[64] = "";
         if (known)
             clocale_print(range, sizeof range, " (95 %%: %s)",
-                          ends_of(apart.low, apart.high, 3).text);
+                          format_range(apart.low, apart.high, 3).text);
         clocale_print(text + used, sizeof text - used,
                       "%s%s the running-in asks for %.3g times the wear rate that was measured%s, "
                       "%s",
@@ -454,8 +454,8 @@ wt_status wt_identify_make(const wt_sliding *sliding, const wt_identify_job *job
     if (status == WT_OK)
         status = make_table(&task, &found, table, err);
     if (status == WT_OK)
-        cost_say(work, (cost_summary){.items = (double)wt_table_n_rows(*table),
-                                      .tolerance_asked = work->tolerance});
+        cost_report(work, (cost_summary){.items = (double)wt_table_n_rows(*table),
+                                         .tolerance_asked = work->tolerance});
     replicates_clear(&task.replicates);
     return status;
 }

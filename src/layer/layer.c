@@ -170,10 +170,10 @@ static wt_status draw_replicates(layer_task *task, wt_error *err)
         without += thickness <= 0;
     }
     if (without > 0 && without < solved)
-        wt_parselog_add(task->work->log, WT_WARNING, NULL, NULL,
-                        "within the stated errors the layer may be there or not: %zu of %zu "
-                        "replicates have none",
-                        without, solved);
+        wt_log_add(task->work->log, WT_WARNING, NULL, NULL,
+                   "within the stated errors the layer may be there or not: %zu of %zu "
+                   "replicates have none",
+                   without, solved);
     return status;
 }
 
@@ -233,7 +233,7 @@ static void set_keys(const layer_task *task, const layer_run *run, table_writer 
         keys.observed.value = (double)NAN;
     keys.hysteresis_power = keys.shear_power = keys.unloaded_rate = keys.shelf_life = keys.severe =
         (wt_estimate){(double)NAN, (double)NAN, (double)NAN, NULL};
-    layer_say(job, &run->energy, &run->parameters, &keys.said);
+    layer_describe(job, &run->energy, &run->parameters, &keys.said);
     if (job->energy != WT_LAYER_HYSTERESIS) {
         keys.hysteresis_power.value = run->energy.hysteresis_power;
         keys.shear_power.value = run->energy.shear_power;
@@ -246,7 +246,7 @@ static void set_keys(const layer_task *task, const layer_run *run, table_writer 
         keys.severe.value = run->balance.wear_rate /
                             (job->duty * run->parameters.pressure * run->parameters.velocity);
     if (task->sliding->softness != NULL)
-        softness_describe(task->sliding->softness, keys.softening, sizeof keys.softening);
+        strain_softening_describe(task->sliding->softness, keys.softening, sizeof keys.softening);
     anisotropy_describe(&task->sliding->anisotropy, keys.anisotropy, sizeof keys.anisotropy);
     if (run->energy.source.numerical_error > task->work->tolerance)
         clocale_print(keys.numerical, sizeof keys.numerical, TOLERANCE_STATEMENT,
@@ -305,10 +305,10 @@ wt_status wt_layer_make(const wt_sliding *sliding, const wt_layer_job *job, cons
         t.thickness.standard_error = task.replicates.error[NUMBER_BALANCE_THICKNESS];
         t.balance.thickness = t.thickness;
         const double thickness = t.thickness.value > 0 ? t.thickness.value : (double)NAN;
-        cost_say(work, (cost_summary){.items = (double)(task.n * (1 + task.replicates.n)),
-                                      .tolerance_asked = work->tolerance,
-                                      .error_estimated = t.thickness.numerical_error / thickness,
-                                      .number = t.thickness});
+        cost_report(work, (cost_summary){.items = (double)(task.n * (1 + task.replicates.n)),
+                                         .tolerance_asked = work->tolerance,
+                                         .error_estimated = t.thickness.numerical_error / thickness,
+                                         .number = t.thickness});
         *tables = t;
         t = (wt_layer_tables){0};
     }

@@ -32,28 +32,28 @@ wt_status layer_times_choose(const wt_layer_job *job, const wt_layer_balance *ba
 /* ---- by which values, at which loads and under which layer ----------------------------------- */
 
 /* The values themselves, or what a replicate draws of those that are stated with an error. */
-typedef struct layer_scene {
+typedef struct layer_context {
     const wt_sliding *sliding;
     const wt_layer_job *job; /* its critical energy calibrated */
     const wt_job *work;
-    size_t replicate;     /* WT_NO_REPLICATE: the values themselves */
-    wt_drawn *drawn;      /* materials of the replicates; NULL: none is kept */
-    double modulus_ratio; /* of the layer; NaN: not known */
-    wt_ratio_slope slope; /* of that */
-} layer_scene;
+    size_t replicate;         /* WT_NO_REPLICATE: the values themselves */
+    wt_material_cache *drawn; /* materials of the replicates; NULL: none is kept */
+    double modulus_ratio;     /* of the layer; NaN: not known */
+    wt_ratio_slope slope;     /* of that */
+} layer_context;
 
 /* Where a layer is looked at. What is given has the relative error of that of the sliding, a
  * temperature the same error, and is drawn with it: one instrument measured both. */
-typedef struct layer_spot {
+typedef struct operating_point {
     double pressure, velocity, temperature; /* NaN: those of the sliding */
     wt_layer_state layer;                   /* what lies on the bulk already */
-} layer_spot;
-layer_spot layer_here(void);
+} operating_point;
+operating_point operating_point_default(void);
 /* Under a layer of the scene's modulus; 0: on the bulk. */
-layer_spot layer_under(const layer_scene *scene, double thickness);
+operating_point layer_under(const layer_context *scene, double thickness);
 
 /* Energy, friction and the parameters of the layer there. */
-wt_status layer_at(const layer_scene *scene, layer_spot spot, layer_energy *energy,
+wt_status layer_at(const layer_context *scene, operating_point spot, layer_energy *energy,
                    wt_layer_parameters *parameters, wt_error *err) WT_NODISCARD;
 /* Friction there, by the shear stress of a layer if there is one; of hysteresis alone if no shear
  * stress is known. Errors are numerical. */
@@ -63,10 +63,10 @@ typedef struct layer_friction {
     double bulk_stress, pressure; /* of which the others are made */
     double ratio;                 /* of the moduli, where the layer is sheared; likewise */
 } layer_friction;
-wt_status layer_friction_at(const layer_scene *scene, layer_spot spot, layer_friction *friction,
-                            wt_error *err) WT_NODISCARD;
+wt_status layer_friction_at(const layer_context *scene, operating_point spot,
+                            layer_friction *friction, wt_error *err) WT_NODISCARD;
 /* Both in one contact; what is NULL is not looked for. */
-wt_status layer_look(const layer_scene *scene, layer_spot spot, layer_energy *energy,
+wt_status layer_look(const layer_context *scene, operating_point spot, layer_energy *energy,
                      wt_layer_parameters *parameters, layer_friction *friction,
                      wt_error *err) WT_NODISCARD;
 /* Shear stress and total of a hysteresis, contact area and bulk's shear stress on a layer. */
@@ -74,9 +74,9 @@ void layer_friction_join(const wt_layer_job *job, wt_layer_state layer, layer_fr
 /* Total friction, or hysteresis where no shear stress is known. */
 double layer_friction_known(const layer_friction *friction);
 /* A number whose errors are not known. */
-wt_estimate layer_alone(double value);
+wt_estimate estimate_without_error(double value);
 /* The job of a scene with its critical energy calibrated, if it has an observed thickness. */
-wt_status layer_job_calibrated(const layer_scene *scene, wt_layer_job *calibrated,
+wt_status layer_job_calibrated(const layer_context *scene, wt_layer_job *calibrated,
                                wt_error *err) WT_NODISCARD;
 
 #endif

@@ -8,7 +8,7 @@
 /* Layers of thicknesses in a smaller ratio are of one thickness: nodes must not fall together. */
 static const double least_ratio = 1 + 1e-6;
 
-static wt_status take_nodes(friction_of_layer *f, double thinnest, double thickest, size_t n,
+static wt_status take_nodes(layer_friction_model *f, double thinnest, double thickest, size_t n,
                             wt_error *err)
 {
     const double low = log(thinnest), high = log(thickest);
@@ -29,10 +29,10 @@ static wt_status take_nodes(friction_of_layer *f, double thinnest, double thicke
     return WT_OK;
 }
 
-wt_status friction_of_layer_make(const layer_scene *scene, double thinnest, double thickest,
-                                 size_t n, friction_of_layer *friction, wt_error *err)
+wt_status layer_friction_model_make(const layer_context *scene, double thinnest, double thickest,
+                                    size_t n, layer_friction_model *friction, wt_error *err)
 {
-    *friction = (friction_of_layer){.scene = scene};
+    *friction = (layer_friction_model){.scene = scene};
     if (n < CURVE_LEAST_POINTS || !(thickest > least_ratio * thinnest))
         return WT_OK;
     double *all = malloc((OF_CURVES + 1) * n * sizeof *all);
@@ -48,15 +48,15 @@ wt_status friction_of_layer_make(const layer_scene *scene, double thinnest, doub
             status = wt_fail(err, WT_E_MEMORY, "out of memory");
     }
     if (status != WT_OK)
-        friction_of_layer_clear(friction);
+        layer_friction_model_clear(friction);
     return status;
 }
 
-wt_status friction_of_layer_at(const friction_of_layer *of, double thickness, layer_friction *f,
-                               wt_error *err)
+wt_status layer_friction_model_at(const layer_friction_model *of, double thickness,
+                                  layer_friction *f, wt_error *err)
 {
     const double unknown = (double)NAN;
-    const layer_spot spot = layer_under(of->scene, thickness);
+    const operating_point spot = layer_under(of->scene, thickness);
     *f = (layer_friction){unknown, unknown, unknown, unknown, unknown,
                           unknown, unknown, unknown, unknown, unknown};
     if (!isfinite(thickness))
@@ -75,10 +75,10 @@ wt_status friction_of_layer_at(const friction_of_layer *of, double thickness, la
     return WT_OK;
 }
 
-void friction_of_layer_clear(friction_of_layer *friction)
+void layer_friction_model_clear(layer_friction_model *friction)
 {
     for (size_t k = 0; k < OF_CURVES; k++)
         curve_free(friction->curve[k]);
     free(friction->log_thickness);
-    *friction = (friction_of_layer){.n = 0};
+    *friction = (layer_friction_model){.n = 0};
 }

@@ -18,10 +18,10 @@ enum { HALVES = 40 };
 
 /* One run through the times of the task. */
 typedef struct running {
-    layer_scene *scene;
+    layer_context *scene;
     const double *time; /* [n] borrowed */
     size_t n;
-    friction_of_layer friction_of;
+    layer_friction_model friction_of;
     wt_energy_source source; /* of bare rubber, and its parameters; none with acting back */
     wt_layer_parameters parameters;
     wt_layer_point *points;   /* [n] */
@@ -51,14 +51,14 @@ TABLE_KEYS(running_in, RUNNING_IN, double velocity; wt_estimate modulus_ratio;
 static wt_status grow_back(running *r, wt_error *err)
 {
     wt_layer_loop loop;
-    wt_status status = acts_back_find(r->scene, &loop, err);
+    wt_status status = feedback_find(r->scene, &loop, err);
     if (status != WT_OK)
         return status;
-    r->thickness = layer_alone(loop.ratio > 1 ? (double)NAN : 0);
+    r->thickness = estimate_without_error(loop.ratio > 1 ? (double)NAN : 0);
     for (size_t i = loop.n_roots; i-- > 0;)
         if (loop.root[i].stable)
             r->thickness.value = loop.root[i].thickness;
-    return wt_layer_loop_history(acts_back_energy, r->scene, &loop, r->time, r->n, r->points, err);
+    return wt_layer_loop_history(feedback_energy, r->scene, &loop, r->time, r->n, r->points, err);
 }
 
 static wt_status grow(running *r, wt_error *err)
@@ -71,7 +71,7 @@ static wt_status grow(running *r, wt_error *err)
         return wt_fail(err, WT_E_MEMORY, "out of memory");
     if (r->scene->job->acts_back)
         return grow_back(r, err);
-    status = acts_back_energy(0, r->scene, &r->source, &r->parameters, err);
+    status = feedback_energy(0, r->scene, &r->source, &r->parameters, err);
     if (status == WT_OK)
         status = wt_layer_balance_compute(&r->source, &r->parameters, &balance, err);
     if (status == WT_OK) {
@@ -110,7 +110,7 @@ static wt_status settle_between(running *r, size_t i, double limit, wt_error *er
         layer_friction f;
         wt_status status = thickness_at(r, i, middle, &thickness, err);
         if (status == WT_OK)
-            status = friction_of_layer_at(&r->friction_of, thickness, &f, err);
+            status = layer_friction_model_at(&r->friction_of, thickness, &f, err);
         if (status != WT_OK)
             return status;
         if (fabs(layer_friction_known(&f) - end) > limit)
@@ -147,20 +147,21 @@ static wt_status run_through(running *r, size_t nodes, wt_error *err)
         thickest = isfinite(d) ? fmax(thickest, d) : thickest;
     }
     if (status == WT_OK)
-        status = friction_of_layer_make(r->scene, thinnest, thickest, nodes, &r->friction_of, err);
+        status =
+            layer_friction_model_make(r->scene, thinnest, thickest, nodes, &r->friction_of, err);
     if (status == WT_OK)
-        status = friction_of_layer_at(&r->friction_of, 0, &r->bare, err);
+        status = layer_friction_model_at(&r->friction_of, 0, &r->bare, err);
     if (status == WT_OK)
-        status = friction_of_layer_at(&r->friction_of, r->thickness.value, &r->balance, err);
+        status = layer_friction_model_at(&r->friction_of, r->thickness.value, &r->balance, err);
     for (size_t i = 0; status == WT_OK && i < r->n; i++)
-        status = friction_of_layer_at(&r->friction_of, r->points[i].thickness.value,
-                                      &r->friction[i], err);
+        status = layer_friction_model_at(&r->friction_of, r->points[i].thickness.value,
+                                         &r->friction[i], err);
     return status == WT_OK ? find_settled(r, err) : status;
 }
 
 static void running_clear(running *r)
 {
-    friction_of_layer_clear(&r->friction_of);
+    layer_friction_model_clear(&r->friction_of);
     wt_energy_source_clear(&r->source);
     free(r->points);
     free(r->friction);
@@ -195,9 +196,9 @@ static wt_status one_replicate(const void *user, size_t i, double *out, wt_error
 {
     const running_task *task = user;
     wt_layer_job job;
-    layer_scene scene;
+    layer_context scene;
     running r = {.scene = &scene, .time = task->time, .n = task->n};
-    wt_status status = layer_draws_scene(&task->draws, i, &job, &scene, err);
+    wt_status status = layer_draws_context(&task->draws, i, &job, &scene, err);
     if (status == WT_OK)
         status = run_through(&r, NODES, err);
     if (status == WT_OK)
@@ -256,7 +257,7 @@ static const char *say_back(const wt_layer_job *job)
 static wt_status make_table(running_task *task, wt_table **table, wt_error *err)
 {
     const running *r = &task->centre;
-    const layer_scene *values = &task->draws.values;
+    const layer_context *values = &task->draws.values;
     const double *const e = task->draws.replicates.error;
     const wt_interval settled = layer_interval(&task->draws, LN_SETTLED, r->settled);
     layer_say_known(&task->draws, LN_SETTLED, r->settled, "friction does not settle at these times",
@@ -264,7 +265,7 @@ static wt_status make_table(running_task *task, wt_table **table, wt_error *err)
     table_writer t = table_begin(&running_in_schema, err);
     add_rows(task, &t);
     say_shear(task);
-    layer_draws_say(&task->draws, task->errors, sizeof task->errors);
+    layer_draws_describe(&task->draws, task->errors, sizeof task->errors);
     TABLE_SET(running_in, &t, flow_layer_velocity(values->sliding, values->job),
               layer_draws_ratio(&task->draws),
               with_errors(layer_friction_known(&r->bare), e[BARE], known_error(&r->bare)),
@@ -285,7 +286,7 @@ static wt_status take_times(running_task *task, wt_error *err)
     wt_energy_source source = {0};
     wt_layer_parameters p;
     wt_layer_balance balance;
-    wt_status status = acts_back_energy(0, &task->draws.values, &source, &p, err);
+    wt_status status = feedback_energy(0, &task->draws.values, &source, &p, err);
     if (status == WT_OK)
         status = wt_layer_balance_compute(&source, &p, &balance, err);
     if (status == WT_OK)
@@ -297,8 +298,8 @@ static wt_status take_times(running_task *task, wt_error *err)
 }
 
 wt_status wt_running_in_make(const wt_sliding *sliding, const wt_layer_job *job,
-                             const wt_layer_known *known, const wt_job *work, wt_table **table,
-                             wt_error *err)
+                             const wt_layer_observation *known, const wt_job *work,
+                             wt_table **table, wt_error *err)
 {
     if (job == NULL || known == NULL || work == NULL || table == NULL)
         return wt_fail(err, WT_E_ARG, "no running-in of a layer to make");
@@ -323,8 +324,8 @@ wt_status wt_running_in_make(const wt_sliding *sliding, const wt_layer_job *job,
                                  &task, err);
     if (status == WT_OK)
         status = make_table(&task, table, err);
-    cost_say(work, (cost_summary){.items = (double)(task.n * (1 + task.draws.replicates.n)),
-                                  .tolerance_asked = work->tolerance});
+    cost_report(work, (cost_summary){.items = (double)(task.n * (1 + task.draws.replicates.n)),
+                                     .tolerance_asked = work->tolerance});
     layer_draws_clear(&task.draws);
     running_clear(&task.centre);
     free(task.time);

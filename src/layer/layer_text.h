@@ -10,9 +10,9 @@ typedef struct layer_saying {
     char energy[256], closure[320], severity[256];
 } layer_saying;
 
-void layer_say(const wt_layer_job *job, const layer_energy *energy,
-               const wt_layer_parameters *parameters, layer_saying *words);
+void layer_describe(const wt_layer_job *job, const layer_energy *energy,
+                    const wt_layer_parameters *parameters, layer_saying *words);
 /* Where the rubber would not keep on the shelf. */
-void layer_warn(const wt_layer_job *job, const wt_layer_parameters *parameters, wt_parselog *log);
+void layer_warn(const wt_layer_job *job, const wt_layer_parameters *parameters, wt_log *log);
 
 #endif

@@ -30,7 +30,7 @@ double layer_replicates_add(replicates *r, const wt_sliding *sliding, const wt_l
 }
 
 static wt_status check(const wt_sliding *sliding, const wt_layer_job *job,
-                       const wt_layer_known *known, const wt_job *work, wt_error *err)
+                       const wt_layer_observation *known, const wt_job *work, wt_error *err)
 {
     wt_status status = flow_sliding_check(sliding, work, err);
     if (status == WT_OK)
@@ -44,7 +44,7 @@ static wt_status check(const wt_sliding *sliding, const wt_layer_job *job,
 }
 
 wt_status layer_draws_open(layer_draws *d, const wt_sliding *sliding, const wt_layer_job *job,
-                           const wt_layer_known *known, const wt_job *work, const char *what,
+                           const wt_layer_observation *known, const wt_job *work, const char *what,
                            bool friction, wt_error *err)
 {
     *d = (layer_draws){.known = known};
@@ -62,12 +62,12 @@ wt_status layer_draws_open(layer_draws *d, const wt_sliding *sliding, const wt_l
     if (known != NULL && known->bulk_shear)
         d->stated.shear.exponent = 0;
     d->values =
-        (layer_scene){.sliding = sliding,
-                      .job = &d->stated,
-                      .work = work,
-                      .replicate = WT_NO_REPLICATE,
-                      .modulus_ratio = known != NULL ? known->modulus_ratio.value : (double)NAN,
-                      .slope = sliding_layer_slope(known, work->seed, WT_NO_REPLICATE)};
+        (layer_context){.sliding = sliding,
+                        .job = &d->stated,
+                        .work = work,
+                        .replicate = WT_NO_REPLICATE,
+                        .modulus_ratio = known != NULL ? known->modulus_ratio.value : (double)NAN,
+                        .slope = sliding_layer_slope(known, work->seed, WT_NO_REPLICATE)};
     status = layer_job_calibrated(&d->values, &d->calibrated, err);
     d->values.job = &d->calibrated;
     d->replicates = replicates_of(sliding, work, what);
@@ -80,8 +80,8 @@ wt_status layer_draws_open(layer_draws *d, const wt_sliding *sliding, const wt_l
     return status;
 }
 
-wt_status layer_draws_scene(const layer_draws *d, size_t replicate, wt_layer_job *job,
-                            layer_scene *scene, wt_error *err)
+wt_status layer_draws_context(const layer_draws *d, size_t replicate, wt_layer_job *job,
+                              layer_context *scene, wt_error *err)
 {
     *scene = d->values;
     scene->job = &d->stated;
@@ -97,7 +97,7 @@ wt_status layer_draws_scene(const layer_draws *d, size_t replicate, wt_layer_job
     return status;
 }
 
-void layer_draws_say(const layer_draws *d, char *text, size_t size)
+void layer_draws_describe(const layer_draws *d, char *text, size_t size)
 {
     const char *const lacks = d->replicates.lacks;
     snprintf(text, size, "%s%s%s", replicates_include(&d->replicates),
@@ -135,7 +135,7 @@ wt_interval layer_interval(const layer_draws *d, size_t k, double value)
     const bool whole = (double)(r->n - known) <= beyond * (double)r->n;
     /* without memory for the ends there is no interval: what is left would be another one */
     if (!whole || (isfinite(value) && r->n >= REPLICATES_FOR_ENDS &&
-                   replicate_ends(r, k, beyond, &interval) != WT_OK))
+                   replicate_interval(r, k, beyond, &interval) != WT_OK))
         interval.low = interval.high = interval.standard_error = (double)NAN;
     return interval;
 }

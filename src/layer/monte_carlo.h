@@ -12,9 +12,9 @@ double layer_replicates_add(replicates *r, const wt_sliding *sliding, const wt_l
 
 /* Points into itself: not to be copied. */
 typedef struct layer_draws {
-    layer_scene values;
+    layer_context values;
     wt_layer_job stated, calibrated;
-    const wt_layer_known *known; /* of the layer; NULL: none */
+    const wt_layer_observation *known; /* of the layer; NULL: none */
     replicates replicates;
     char moduli[512]; /* of the layer, in words; "": one ratio, or nothing is known */
 } layer_draws;
@@ -22,13 +22,13 @@ typedef struct layer_draws {
 /* With the shear stress of the layer as `known` has it (NULL: nothing is known of its modulus).
  * friction: shear stress and modulus of the layer are drawn, too. */
 wt_status layer_draws_open(layer_draws *draws, const wt_sliding *sliding, const wt_layer_job *job,
-                           const wt_layer_known *known, const wt_job *work, const char *what,
+                           const wt_layer_observation *known, const wt_job *work, const char *what,
                            bool friction, wt_error *err) WT_NODISCARD;
 /* The scene of a replicate, whose job the caller keeps. */
-wt_status layer_draws_scene(const layer_draws *draws, size_t replicate, wt_layer_job *job,
-                            layer_scene *scene, wt_error *err) WT_NODISCARD;
+wt_status layer_draws_context(const layer_draws *draws, size_t replicate, wt_layer_job *job,
+                              layer_context *scene, wt_error *err) WT_NODISCARD;
 /* "pressure, roughness; no error is known of: temperature". */
-void layer_draws_say(const layer_draws *draws, char *text, size_t size);
+void layer_draws_describe(const layer_draws *draws, char *text, size_t size);
 /* The ratio of a layer without a material of its own. */
 wt_estimate layer_draws_ratio(const layer_draws *draws);
 void layer_draws_clear(layer_draws *draws);
@@ -38,8 +38,8 @@ void layer_draws_clear(layer_draws *draws);
 enum { LAYER_ROW_REPLICATES = 64 };
 
 /* A number above 0 with its interval of 95 %, of which the replicates have the logarithm as their
- * number k: the ends are those of the replicates (replicate_ends), for what is asked for need not
- * be straight in what is drawn; of a few, as if the logarithm were normal. Where too many
+ * number k: the ends are those of the replicates (replicate_interval), for what is asked for need
+ * not be straight in what is drawn; of a few, as if the logarithm were normal. Where too many
  * replicates are without a number there is none. */
 wt_interval layer_interval(const layer_draws *draws, size_t k, double value);
 /* "yes: ...", or "cannot say: in 12 % of the replicates OTHER": `without` where the value is a

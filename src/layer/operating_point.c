@@ -5,30 +5,30 @@
 
 #include <math.h>
 
-layer_spot layer_here(void)
+operating_point operating_point_default(void)
 {
-    return (layer_spot){.pressure = (double)NAN,
-                        .velocity = (double)NAN,
-                        .temperature = (double)NAN,
-                        .layer = {.modulus_ratio = 1}};
+    return (operating_point){.pressure = (double)NAN,
+                             .velocity = (double)NAN,
+                             .temperature = (double)NAN,
+                             .layer = {.modulus_ratio = 1}};
 }
 
-layer_spot layer_under(const layer_scene *scene, double thickness)
+operating_point layer_under(const layer_context *scene, double thickness)
 {
-    layer_spot spot = layer_here();
+    operating_point spot = operating_point_default();
     if (thickness > 0)
         spot.layer = (wt_layer_state){
             .thickness = thickness, .modulus_ratio = scene->modulus_ratio, .slope = scene->slope};
     return spot;
 }
 
-wt_estimate layer_alone(double value)
+wt_estimate estimate_without_error(double value)
 {
     return (wt_estimate){value, (double)NAN, (double)NAN, NULL};
 }
 
 /* The sliding with the values of a spot; *velocity is kept by the caller. */
-static wt_sliding sliding_at(const layer_scene *scene, layer_spot spot, double *velocity)
+static wt_sliding sliding_at(const layer_context *scene, operating_point spot, double *velocity)
 {
     wt_sliding s = *scene->sliding;
     *velocity =
@@ -45,7 +45,7 @@ static wt_sliding sliding_at(const layer_scene *scene, layer_spot spot, double *
     return s;
 }
 
-static wt_status contact_at(const layer_scene *scene, const wt_sliding *s, layer_spot spot,
+static wt_status contact_at(const layer_context *scene, const wt_sliding *s, operating_point spot,
                             sliding_contact *c, wt_error *err)
 {
     wt_job own = *scene->work;
@@ -69,9 +69,9 @@ double layer_friction_known(const layer_friction *f)
     return isnan(f->total) ? f->hysteresis : f->total;
 }
 
-static wt_status find_friction(const layer_scene *scene, const wt_sliding *s,
-                               const sliding_contact *c, layer_spot spot, layer_friction *friction,
-                               wt_error *err)
+static wt_status find_friction(const layer_context *scene, const wt_sliding *s,
+                               const sliding_contact *c, operating_point spot,
+                               layer_friction *friction, wt_error *err)
 {
     wt_friction_point p;
     const wt_status status =
@@ -90,7 +90,7 @@ static wt_status find_friction(const layer_scene *scene, const wt_sliding *s,
     return WT_OK;
 }
 
-wt_status layer_look(const layer_scene *scene, layer_spot spot, layer_energy *energy,
+wt_status layer_look(const layer_context *scene, operating_point spot, layer_energy *energy,
                      wt_layer_parameters *parameters, layer_friction *friction, wt_error *err)
 {
     double velocity;
@@ -109,26 +109,26 @@ wt_status layer_look(const layer_scene *scene, layer_spot spot, layer_energy *en
     return status;
 }
 
-wt_status layer_at(const layer_scene *scene, layer_spot spot, layer_energy *energy,
+wt_status layer_at(const layer_context *scene, operating_point spot, layer_energy *energy,
                    wt_layer_parameters *parameters, wt_error *err)
 {
     return layer_look(scene, spot, energy, parameters, NULL, err);
 }
 
-wt_status layer_friction_at(const layer_scene *scene, layer_spot spot, layer_friction *friction,
-                            wt_error *err)
+wt_status layer_friction_at(const layer_context *scene, operating_point spot,
+                            layer_friction *friction, wt_error *err)
 {
     return layer_look(scene, spot, NULL, NULL, friction, err);
 }
 
-wt_status layer_job_calibrated(const layer_scene *scene, wt_layer_job *calibrated, wt_error *err)
+wt_status layer_job_calibrated(const layer_context *scene, wt_layer_job *calibrated, wt_error *err)
 {
     *calibrated = *scene->job;
     if (isnan(scene->job->observed_thickness.value))
         return WT_OK;
     layer_energy energy = {.source = {.n = 0}};
     wt_layer_parameters p;
-    const wt_status status = layer_at(scene, layer_here(), &energy, &p, err);
+    const wt_status status = layer_at(scene, operating_point_default(), &energy, &p, err);
     if (status != WT_OK)
         return status;
     calibrated->critical_energy = (wt_estimate){

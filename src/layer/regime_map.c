@@ -32,8 +32,8 @@ typedef struct existence_at {
 } existence_at;
 
 /* Power, R and thickness there, and the friction on bare rubber; friction NULL: not asked for. */
-static wt_status balance_at(const layer_scene *scene, layer_spot spot, wt_layer_balance *balance,
-                            layer_friction *friction, wt_error *err)
+static wt_status balance_at(const layer_context *scene, operating_point spot,
+                            wt_layer_balance *balance, layer_friction *friction, wt_error *err)
 {
     layer_energy energy = {.source = {.n = 0}};
     wt_layer_parameters p;
@@ -52,8 +52,8 @@ static double known_error(const layer_friction *f)
     return isnan(f->total) ? f->hysteresis_error : f->total_error;
 }
 
-static wt_status add_layer(const layer_scene *scene, layer_spot spot, bool total, existence_at *at,
-                           wt_error *err)
+static wt_status add_layer(const layer_context *scene, operating_point spot, bool total,
+                           existence_at *at, wt_error *err)
 {
     layer_friction with;
     const double thickness = at->value[AT_THICKNESS], bare = at->value[AT_FRICTION];
@@ -71,7 +71,8 @@ static wt_status add_layer(const layer_scene *scene, layer_spot spot, bool total
     return WT_OK;
 }
 
-static wt_status look_at(const layer_scene *scene, layer_spot spot, existence_at *at, wt_error *err)
+static wt_status look_at(const layer_context *scene, operating_point spot, existence_at *at,
+                         wt_error *err)
 {
     wt_layer_balance b;
     layer_friction f;
@@ -92,7 +93,7 @@ static wt_status look_at(const layer_scene *scene, layer_spot spot, existence_at
 
 enum { FROM, TO, ENDS };
 typedef struct edges {
-    const layer_scene *scene;
+    const layer_context *scene;
     wt_status status; /* of a root */
     wt_error *err;
     double velocity[ENDS], power[ENDS]; /* first and last, NaN: beyond the list */
@@ -103,7 +104,7 @@ typedef struct edges {
 static double log_ratio_at(double log_velocity, void *user)
 {
     edges *e = user;
-    layer_spot spot = layer_here();
+    operating_point spot = operating_point_default();
     wt_layer_balance b = {.ratio = (double)NAN};
     spot.velocity = exp(log_velocity);
     if (e->status == WT_OK)
@@ -119,7 +120,7 @@ static void add_edge(edges *e, double low, double high, bool begins)
     const wt_status status = root_find(log_ratio_at, e, log(low), log(high),
                                        replicate ? replicate_close : edge_close, &at, e->err);
     e->status = e->status == WT_OK ? status : e->status;
-    layer_spot spot = layer_here();
+    operating_point spot = operating_point_default();
     wt_layer_balance b;
     spot.velocity = exp(at);
     if (e->status == WT_OK)
@@ -140,7 +141,7 @@ static void add_edge(edges *e, double low, double high, bool begins)
 }
 
 /* At the nominal pressure. */
-static edges find_edges(const layer_scene *scene, wt_error *err)
+static edges find_edges(const layer_context *scene, wt_error *err)
 {
     const double unset = (double)NAN;
     edges e = {.scene = scene, .err = err, .velocity = {unset, unset}, .power = {unset, unset}};
@@ -172,16 +173,16 @@ typedef struct existence_task {
     char known[400], errors[560];
 } existence_task;
 
-static layer_spot spot_of(const existence_task *task, size_t row)
+static operating_point spot_of(const existence_task *task, size_t row)
 {
-    layer_spot spot = layer_here();
+    operating_point spot = operating_point_default();
     const wt_sliding *s = &task->sliding;
     spot.velocity = s->velocity[row % s->n_velocity];
     spot.pressure = s->n_pressures > 0 ? s->pressures[row / s->n_velocity] : s->pressure.value;
     return spot;
 }
 
-static wt_status look_at_rows(const existence_task *task, const layer_scene *scene,
+static wt_status look_at_rows(const existence_task *task, const layer_context *scene,
                               existence_at *at, wt_error *err)
 {
     wt_status status = WT_OK;
@@ -203,11 +204,11 @@ static wt_status one_replicate(const void *user, size_t i, double *out, wt_error
 {
     const existence_task *task = user;
     wt_layer_job job;
-    layer_scene scene;
+    layer_context scene;
     edges found = {.status = WT_OK};
     const size_t rows = i < LAYER_ROW_REPLICATES ? task->n : 0;
     existence_at *at = malloc((task->n + 1) * sizeof *at);
-    wt_status status = at != NULL ? layer_draws_scene(&task->draws, i, &job, &scene, err)
+    wt_status status = at != NULL ? layer_draws_context(&task->draws, i, &job, &scene, err)
                                   : wt_fail(err, WT_E_MEMORY, "out of memory");
     if (status == WT_OK) {
         found = find_edges(&scene, err);
@@ -271,7 +272,7 @@ static void add_rows(const existence_task *task, table_writer *t)
     const replicates *r = &task->draws.replicates;
     for (size_t i = 0; i < task->n; i++) {
         const existence_at *at = &task->at[i];
-        const layer_spot spot = spot_of(task, i);
+        const operating_point spot = spot_of(task, i);
         const size_t first = N_NUMBERS + N_AT * i;
         const double *const e = r->error + first;
         if (i % task->sliding.n_velocity == 0)
@@ -305,7 +306,7 @@ static wt_status make_table(existence_task *task, wt_table **table, wt_error *er
         snprintf(task->known, sizeof task->known, "%s",
                  r->n > 0 ? "yes: nearly all replicates have the same edges"
                           : "not tested: no replicates are drawn");
-    layer_draws_say(&task->draws, task->errors, sizeof task->errors);
+    layer_draws_describe(&task->draws, task->errors, sizeof task->errors);
     table_writer t = table_begin(&existence_schema, err);
     add_rows(task, &t);
     existence_keys keys = {.pressure = task->sliding.pressure.value,
@@ -325,7 +326,7 @@ static wt_status make_table(existence_task *task, wt_table **table, wt_error *er
                                  &keys.to_power};
     const wt_interval *const of[] = {&velocity[FROM], &velocity[TO], &power[FROM], &power[TO]};
     for (size_t k = 0; k < 2 * ENDS; k++) {
-        *ends[k] = layer_alone(of[k]->value);
+        *ends[k] = estimate_without_error(of[k]->value);
         ends[k]->standard_error = of[k]->standard_error;
     }
     existence_set_keys(&t, &keys);
@@ -350,7 +351,7 @@ static wt_status order_velocities(existence_task *task, const wt_sliding *slidin
 }
 
 wt_status wt_existence_make(const wt_sliding *sliding, const wt_layer_job *job,
-                            const wt_layer_known *known, const wt_job *work, wt_table **table,
+                            const wt_layer_observation *known, const wt_job *work, wt_table **table,
                             wt_error *err)
 {
     if (sliding == NULL || job == NULL || work == NULL || table == NULL)
@@ -371,8 +372,8 @@ wt_status wt_existence_make(const wt_sliding *sliding, const wt_layer_job *job,
                                  &task, err);
     if (status == WT_OK)
         status = make_table(&task, table, err);
-    cost_say(work, (cost_summary){.items = (double)(task.blocks * (1 + task.draws.replicates.n)),
-                                  .tolerance_asked = work->tolerance});
+    cost_report(work, (cost_summary){.items = (double)(task.blocks * (1 + task.draws.replicates.n)),
+                                     .tolerance_asked = work->tolerance});
     layer_draws_clear(&task.draws);
     free(task.velocity);
     free(task.at);

@@ -86,7 +86,7 @@ static wt_status find_moves(const replicates *r, size_t k, double *move)
     return status;
 }
 
-wt_status replicate_ends(const replicates *r, size_t k, double beyond, wt_interval *interval)
+wt_status replicate_interval(const replicates *r, size_t k, double beyond, wt_interval *interval)
 {
     double *const sorted = malloc((r->n + 1) * sizeof *sorted);
     double *const move = malloc((r->n + 1) * sizeof *move);

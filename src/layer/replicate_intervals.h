@@ -14,7 +14,7 @@ enum { REPLICATES_FOR_ENDS = 80 };
  * the same side in all that a user computes. What is drawn is standard normal, though: each
  * replicate is moved along the line, bent as the replicates are, from where it was drawn to where
  * one of its rank is to be expected. Nothing is changed without memory. */
-wt_status replicate_ends(const replicates *r, size_t k, double beyond,
-                         wt_interval *interval) WT_NODISCARD;
+wt_status replicate_interval(const replicates *r, size_t k, double beyond,
+                             wt_interval *interval) WT_NODISCARD;
 
 #endif

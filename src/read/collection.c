@@ -137,7 +137,7 @@ static wt_status next_entry(collection_source *s, wt_error *err)
     close_entry(s);
     if (status == WT_E_FORMAT || status == WT_E_UNSUPPORTED || status == WT_E_EMPTY) {
         wt_error_format(&why, words, sizeof words);
-        wt_parselog_add(s->base.log, WT_WARNING, s->base.name, place, "left out: %s", words);
+        wt_log_add(s->base.log, WT_WARNING, s->base.name, place, "left out: %s", words);
         return WT_OK;
     }
     if (err != NULL)
@@ -197,7 +197,7 @@ void collection_use(wt_force_source *source, const wt_formats *formats, collecti
 /* ---- the descriptor -------------------------------------------------------------------------- */
 
 static wt_status describe(const file_reader *self, wt_input *input, const wt_read_options *options,
-                          wt_parselog *log, table_writer *facts)
+                          wt_log *log, table_writer *facts)
 {
     collection c;
     (void)self;

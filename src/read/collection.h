@@ -19,7 +19,7 @@ wt_status collection_each(wt_input *input, collection_look *look, void *user,
                           wt_error *err) WT_NODISCARD;
 
 typedef wt_status collection_open(const wt_formats *formats, wt_input *entry,
-                                  const wt_read_options *options, wt_parselog *log,
+                                  const wt_read_options *options, wt_log *log,
                                   wt_force_source **source, wt_error *err);
 /* How the curves of an entry are opened; before the first curve. */
 void collection_use(wt_force_source *source, const wt_formats *formats, collection_open *open);

@@ -7,7 +7,7 @@
 #include "read/metadata.h"
 
 wt_status wt_describe(const wt_formats *formats, wt_input *input, const wt_read_options *options,
-                      wt_parselog *log, wt_table **facts, wt_error *err)
+                      wt_log *log, wt_table **facts, wt_error *err)
 {
     reading r;
     size_t length = 0;

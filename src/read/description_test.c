@@ -44,7 +44,7 @@ static void report_tables(table_writer *report, const text_file *file)
 
 /* Reads the sample as each kind that its columns promise. */
 static wt_status try_kinds(const file_reader *reader, const text_file *file, wt_input *sample,
-                           const wt_read_options *options, wt_parselog *log, wt_error *err)
+                           const wt_read_options *options, wt_log *log, wt_error *err)
 {
     wt_status status = WT_OK;
     if (text_has(file, WT_KIND_SWEEP)) {
@@ -83,7 +83,7 @@ static wt_status try_kinds(const file_reader *reader, const text_file *file, wt_
 
 /* As reading does, of what is packed in the sample. */
 static wt_status try_sample(const wt_formats *alone, wt_input *sample, wt_read_options options,
-                            wt_parselog *log, table_writer *report, wt_error *err)
+                            wt_log *log, table_writer *report, wt_error *err)
 {
     text_file file;
     const file_reader *reader = NULL;
@@ -96,8 +96,8 @@ static wt_status try_sample(const wt_formats *alone, wt_input *sample, wt_read_o
     if (status != WT_OK)
         return status;
     if (reader->detect(reader, &peek).answer != ANSWER_YES)
-        wt_parselog_add(log, WT_WARNING, peek.name, NULL,
-                        "the detect element does not recognise this file");
+        wt_log_add(log, WT_WARNING, peek.name, NULL,
+                   "the detect element does not recognise this file");
     text_peek_free(peek.text);
     status = text_scan(reader, content, reader->info.kinds, &options, log, &file, err);
     if (status != WT_OK)
@@ -112,7 +112,7 @@ static wt_status try_sample(const wt_formats *alone, wt_input *sample, wt_read_o
 }
 
 wt_status wt_description_check(const char *xml_path, wt_input *sample,
-                               const wt_read_options *options, wt_parselog *log, wt_table **report,
+                               const wt_read_options *options, wt_log *log, wt_table **report,
                                wt_error *err)
 {
     description_xsd *xsd = NULL;

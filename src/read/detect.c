@@ -150,7 +150,7 @@ static wt_status ask_readers(const wt_formats *formats, wt_input *input, questio
         if (is_asked(formats_reader(formats, i), q, kinds))
             open[n_open++] = formats_reader(formats, i);
     size_t want = FIRST_PEEK;
-    shortage_forget();
+    resource_error_clear();
     while (n_open > 0) {
         file_peek peek = {.name = wt_input_name(input), .input = input};
         size_t need = 0, still_open = 0;
@@ -178,7 +178,7 @@ static wt_status ask_readers(const wt_formats *formats, wt_input *input, questio
         want = need > twice ? need : twice;
     }
     free(open);
-    return shortage_end(status, err);
+    return resource_error_finish(status, err);
 }
 
 static const char *kind_words(unsigned kinds)

@@ -8,8 +8,8 @@
 #include <string.h>
 
 static wt_status open_content(const wt_formats *formats, wt_input *input,
-                              const wt_read_options *options, wt_parselog *log,
-                              wt_force_source **source, const file_reader **reader, wt_error *err)
+                              const wt_read_options *options, wt_log *log, wt_force_source **source,
+                              const file_reader **reader, wt_error *err)
 {
     reading r;
     const wt_status status = read_start(formats, input, options, WT_KIND_FORCE, &r, err);
@@ -22,8 +22,8 @@ static wt_status open_content(const wt_formats *formats, wt_input *input,
 /* A file of an archive; the options are those of the archive, whose format is not that of the file.
  * An archive in it is none. */
 static wt_status open_entry(const wt_formats *formats, wt_input *entry,
-                            const wt_read_options *options, wt_parselog *log,
-                            wt_force_source **source, wt_error *err)
+                            const wt_read_options *options, wt_log *log, wt_force_source **source,
+                            wt_error *err)
 {
     const file_reader *reader = NULL;
     wt_read_options own = *options;
@@ -40,7 +40,7 @@ static wt_status open_entry(const wt_formats *formats, wt_input *entry,
 }
 
 wt_status wt_force_open(const wt_formats *formats, wt_input *input, const wt_read_options *options,
-                        wt_parselog *log, wt_force_source **source, wt_error *err)
+                        wt_log *log, wt_force_source **source, wt_error *err)
 {
     const file_reader *reader = NULL;
     wt_status status = open_content(formats, input, options, log, source, &reader, err);

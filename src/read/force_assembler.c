@@ -15,7 +15,7 @@
 #include <stdlib.h>
 
 wt_status force_open(const force_stream *stream, const struct file_reader *self, wt_input *input,
-                     const wt_read_options *options, wt_parselog *log, wt_force_source **source,
+                     const wt_read_options *options, wt_log *log, wt_force_source **source,
                      wt_error *err)
 {
     wt_force_source *s = calloc(1, stream->size);
@@ -36,8 +36,8 @@ wt_status force_open(const force_stream *stream, const struct file_reader *self,
 wt_status wt_force_next(wt_force_source *source, wt_force_curve *curve, wt_error *err)
 {
     wt_force_curve_reset(curve);
-    shortage_forget();
-    wt_status status = shortage_end(source->stream->next(source, curve, err), err);
+    resource_error_clear();
+    wt_status status = resource_error_finish(source->stream->next(source, curve, err), err);
     if (status != WT_OK && status != WT_END) {
         const size_t index = curve->index;
         wt_force_curve_reset(curve);
@@ -79,7 +79,7 @@ double force_positive(double value)
     return value > 0 && isfinite(value) ? value : (double)NAN;
 }
 
-const force_signal *force_find_signal(const force_facts *facts, wt_quantity quantity)
+const force_signal *force_find_signal(const force_metadata *facts, wt_quantity quantity)
 {
     for (size_t i = 0; i < facts->n_signals; i++)
         if (facts->signals[i].quantity == quantity)
@@ -87,13 +87,13 @@ const force_signal *force_find_signal(const force_facts *facts, wt_quantity quan
     return NULL;
 }
 
-void force_add_signal(force_facts *facts, force_signal signal)
+void force_add_signal(force_metadata *facts, force_signal signal)
 {
     if (force_find_signal(facts, signal.quantity) == NULL)
         facts->signals[facts->n_signals++] = signal;
 }
 
-void force_offer(force_facts *facts, wt_quantity quantity)
+void force_offer(force_metadata *facts, wt_quantity quantity)
 {
     for (size_t i = 0; i < facts->n_offers; i++)
         if (facts->offers[i] == quantity)
@@ -118,8 +118,8 @@ static size_t chain_place(wt_quantity quantity)
 /* The signal itself, else the nearest of the chain. But what the user gives replaces a link, so
  * that what comes behind it is made anew from what comes before; unless that is another channel,
  * which need not be of one measurement. */
-static const force_signal *origin_signal(const force_facts *facts, const wt_read_options *options,
-                                         wt_quantity wanted)
+static const force_signal *origin_signal(const force_metadata *facts,
+                                         const wt_read_options *options, wt_quantity wanted)
 {
     const double given[] = {options->sensitivity, options->spring_constant};
     const force_signal *own = force_find_signal(facts, wanted), *found = NULL;
@@ -184,20 +184,20 @@ typedef struct force_plan {
     size_t n;
 } force_plan;
 
-static wt_status cannot_make(const wt_force_source *source, const force_facts *facts,
+static wt_status cannot_make(const wt_force_source *source, const force_metadata *facts,
                              wt_quantity wanted, const force_signal *signal,
                              const wt_cantilever *used, wt_error *err)
 {
     if (wanted == WT_Q_DEFLECTION_VOLTAGE) {
-        wt_parselog_add(source->log, WT_NOTE, source->name, facts->place,
-                        "no %s: the file's own calibration is not known", wt_quantity_id(wanted));
+        wt_log_add(source->log, WT_NOTE, source->name, facts->place,
+                   "no %s: the file's own calibration is not known", wt_quantity_id(wanted));
         return WT_OK;
     }
     wt_error missing = WT_ERROR_INIT;
     wt_status status = fail_uncalibrated(signal, used, facts->place, &missing);
     if (source->options.want == WT_Q_ALL) {
-        wt_parselog_add(source->log, WT_WARNING, source->name, facts->place, "no %s: %s; %s",
-                        wt_quantity_id(wanted), missing.message, missing.advice);
+        wt_log_add(source->log, WT_WARNING, source->name, facts->place, "no %s: %s; %s",
+                   wt_quantity_id(wanted), missing.message, missing.advice);
         return WT_OK;
     }
     if (err != NULL)
@@ -206,7 +206,7 @@ static wt_status cannot_make(const wt_force_source *source, const force_facts *f
 }
 
 /* A given value that finds nothing to replace must not pass in silence. */
-static void note_kept(const wt_force_source *source, const force_facts *facts,
+static void note_kept(const wt_force_source *source, const force_metadata *facts,
                       const force_signal *signal)
 {
     const wt_read_options *o = &source->options;
@@ -215,31 +215,31 @@ static void note_kept(const wt_force_source *source, const force_facts *facts,
     if (signal->quantity == WT_Q_DEFLECTION_VOLTAGE)
         return;
     if (!isnan(o->sensitivity) && !(facts->cantilever.sensitivity > 0))
-        wt_parselog_add(source->log, WT_WARNING, source->name, NULL,
-                        "the file does not say its sensitivity, so the given one cannot replace "
-                        "it in a column of %s",
-                        column);
+        wt_log_add(source->log, WT_WARNING, source->name, NULL,
+                   "the file does not say its sensitivity, so the given one cannot replace "
+                   "it in a column of %s",
+                   column);
     if (force && !isnan(o->spring_constant) && !(facts->cantilever.spring_constant > 0))
-        wt_parselog_add(source->log, WT_WARNING, source->name, NULL,
-                        "the file does not say its spring constant, so the given one cannot "
-                        "replace it in a column of %s",
-                        column);
+        wt_log_add(source->log, WT_WARNING, source->name, NULL,
+                   "the file does not say its spring constant, so the given one cannot "
+                   "replace it in a column of %s",
+                   column);
 }
 
 /* Adds the column of a quantity, if there is anything that it can be made of. */
-static wt_status plan_column(const wt_force_source *source, const force_facts *facts,
+static wt_status plan_column(const wt_force_source *source, const force_metadata *facts,
                              wt_quantity wanted, force_plan *plan, wt_error *err)
 {
     const force_signal *signal = origin_signal(facts, &source->options, wanted);
     if (signal == NULL && (wanted != WT_Q_TIME || !isfinite(facts->start + facts->duration))) {
         if (wanted == WT_Q_TIME)
-            wt_parselog_add(source->log, WT_WARNING, source->name, facts->place,
-                            "no duration: the time is left out");
+            wt_log_add(source->log, WT_WARNING, source->name, facts->place,
+                       "no duration: the time is left out");
         return WT_OK;
     }
     if (signal != NULL && signal->problem != NULL) {
-        wt_parselog_add(source->log, WT_WARNING, source->name, facts->place,
-                        "channel %s left out: %s", signal->name, signal->problem);
+        wt_log_add(source->log, WT_WARNING, source->name, facts->place, "channel %s left out: %s",
+                   signal->name, signal->problem);
         return WT_OK;
     }
     force_linear scaling = signal != NULL ? signal->to_si : (force_linear){1, 0};
@@ -283,7 +283,7 @@ static void sort_columns(force_plan *plan)
 }
 
 /* Whether a given sensitivity replaces that of the file, or makes a column. */
-static bool takes_sensitivity(const force_facts *facts, const force_plan *plan)
+static bool takes_sensitivity(const force_metadata *facts, const force_plan *plan)
 {
     bool takes = facts->cantilever.sensitivity > 0;
     for (size_t i = 0; i < plan->n; i++)
@@ -292,7 +292,7 @@ static bool takes_sensitivity(const force_facts *facts, const force_plan *plan)
     return takes;
 }
 
-static bool is_wanted(const wt_read_options *options, const force_facts *facts,
+static bool is_wanted(const wt_read_options *options, const force_metadata *facts,
                       wt_quantity quantity)
 {
     if ((options->want & WT_Q_BIT(quantity)) == 0)
@@ -306,19 +306,19 @@ static bool is_wanted(const wt_read_options *options, const force_facts *facts,
 
 /* Of every format: what is no finite number, as it was stored or by its scaling, is missing. The
  * words are without a count, so that the log has one line for a map. */
-static wt_status fill_channel(wt_force_source *source, const force_facts *facts,
+static wt_status fill_channel(wt_force_source *source, const force_metadata *facts,
                               const force_column *column, size_t n, double *values, wt_error *err)
 {
     const wt_status status =
         source->stream->decode(source, column->signal, column->scaling, n, values, err);
     if (status == WT_OK && samples_mend(values, n) > 0)
-        wt_parselog_add(source->log, WT_WARNING, source->name, facts->place,
-                        "samples of %s are missing: not measured, or no finite number",
-                        column->signal->name);
+        wt_log_add(source->log, WT_WARNING, source->name, facts->place,
+                   "samples of %s are missing: not measured, or no finite number",
+                   column->signal->name);
     return status;
 }
 
-wt_status force_add_segment(wt_force_source *source, const force_facts *facts,
+wt_status force_add_segment(wt_force_source *source, const force_metadata *facts,
                             wt_force_curve *curve, wt_error *err)
 {
     const wt_cantilever used = cantilever_used(&facts->cantilever, &source->options);
@@ -383,8 +383,8 @@ bool force_place(long columns, long rows, bool back_and_forth, size_t number, wt
 /* ---- for info ----------------------------------------------------------------------------- */
 
 /* The signal that the quantity is made of, NULL if it cannot be made. */
-static const force_signal *signal_made_of(const force_facts *facts, const wt_read_options *options,
-                                          wt_quantity quantity)
+static const force_signal *signal_made_of(const force_metadata *facts,
+                                          const wt_read_options *options, wt_quantity quantity)
 {
     const wt_cantilever used = cantilever_used(&facts->cantilever, options);
     const force_signal *signal = origin_signal(facts, options, quantity);
@@ -394,7 +394,7 @@ static const force_signal *signal_made_of(const force_facts *facts, const wt_rea
                                                                                            : signal;
 }
 
-wt_quantity force_read_as(const force_facts *facts, const wt_read_options *options,
+wt_quantity force_read_as(const force_metadata *facts, const wt_read_options *options,
                           const void *channel)
 {
     for (size_t i = 0; i < facts->n_offers; i++) {
@@ -405,7 +405,7 @@ wt_quantity force_read_as(const force_facts *facts, const wt_read_options *optio
     return WT_Q_NONE;
 }
 
-void force_describe_calibration(const force_facts *facts, const wt_read_options *options,
+void force_describe_calibration(const force_metadata *facts, const wt_read_options *options,
                                 const char *spring_constant_source, const char *sensitivity_source,
                                 table_writer *list)
 {

@@ -26,7 +26,7 @@ typedef struct force_signal {
 } force_signal;
 
 /* What a reader says of a segment. */
-typedef struct force_facts {
+typedef struct force_metadata {
     wt_segment_kind kind;
     size_t index;      /* number in the file */
     size_t n_points;   /* samples of every channel */
@@ -43,7 +43,7 @@ typedef struct force_facts {
     size_t n_offers;
     force_signal signals[WT_Q_COUNT];
     size_t n_signals;
-} force_facts;
+} force_metadata;
 
 struct file_reader;
 
@@ -69,7 +69,7 @@ struct wt_force_source {
     const force_stream *stream;
     const char *name;        /* of the input */
     wt_read_options options; /* what was asked for */
-    wt_parselog *log;
+    wt_log *log;
     size_t n_curves;              /* SIZE_MAX if not known before reading */
     long grid_columns, grid_rows; /* 0 if there is no grid */
     bool constant_checked, heights_checked, given_checked; /* force_contradiction.h */
@@ -78,7 +78,7 @@ struct wt_force_source {
 /* The curves of a file, by the stream of its reader `self`; the source borrows the input until it
  * is closed. */
 wt_status force_open(const force_stream *stream, const struct file_reader *self, wt_input *input,
-                     const wt_read_options *options, wt_parselog *log, wt_force_source **source,
+                     const wt_read_options *options, wt_log *log, wt_force_source **source,
                      wt_error *err);
 /* Leaves out curves before that of an index that was read before, as far as the format lets it. */
 void force_seek(wt_force_source *source, size_t index);
@@ -87,13 +87,13 @@ bool force_wants_segment(const wt_force_source *source, wt_segment_kind kind);
 /* A calibration, a velocity or a time as a header says it; NaN if that is nothing. */
 double force_positive(double value);
 /* Each quantity once: what comes first counts. */
-void force_add_signal(force_facts *facts, force_signal signal);
-void force_offer(force_facts *facts, wt_quantity quantity);
+void force_add_signal(force_metadata *facts, force_signal signal);
+void force_offer(force_metadata *facts, wt_quantity quantity);
 /* NULL if there is none. */
-const force_signal *force_find_signal(const force_facts *facts, wt_quantity quantity);
+const force_signal *force_find_signal(const force_metadata *facts, wt_quantity quantity);
 /* Adds a segment, if it has samples, with what was asked for. What cannot be made is WT_E_MISSING
  * if it was asked for by name, a warning if simply everything was. */
-wt_status force_add_segment(wt_force_source *source, const force_facts *facts,
+wt_status force_add_segment(wt_force_source *source, const force_metadata *facts,
                             wt_force_curve *curve, wt_error *err);
 
 /* Place of curve number `number` of a grid that is measured line by line, every other one on the
@@ -104,11 +104,11 @@ bool force_place(long columns, long rows, bool back_and_forth, size_t number,
 /* ---- for info ----------------------------------------------------------------------------- */
 
 /* The first quantity offered that is made of this channel, or WT_Q_NONE. */
-wt_quantity force_read_as(const force_facts *facts, const wt_read_options *options,
+wt_quantity force_read_as(const force_metadata *facts, const wt_read_options *options,
                           const void *channel);
 /* Rows of the calibration that is used, where the file's own values come from, and what is missing
  * for a force. */
-void force_describe_calibration(const force_facts *facts, const wt_read_options *options,
+void force_describe_calibration(const force_metadata *facts, const wt_read_options *options,
                                 const char *spring_constant_source, const char *sensitivity_source,
                                 table_writer *list);
 

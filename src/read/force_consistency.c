@@ -42,7 +42,7 @@ static bool is_usable(const force_signal *signal)
     return signal != NULL && signal->problem == NULL;
 }
 
-wt_status contradiction_constant(wt_force_source *source, const force_facts *facts,
+wt_status contradiction_constant(wt_force_source *source, const force_metadata *facts,
                                  const force_signal *force, const force_signal *bend, wt_error *err)
 {
     const double own = facts->cantilever.spring_constant;
@@ -64,10 +64,10 @@ wt_status contradiction_constant(wt_force_source *source, const force_facts *fac
         return status;
     source->constant_checked = true;
     if (fabs(seen / k - 1) > constants_agree + 1 - share)
-        wt_parselog_add(source->log, WT_WARNING, source->name, facts->place,
-                        "force and deflection of the file mean a spring constant of %.4g N/m, %s "
-                        "%.4g N/m",
-                        seen, own > 0 ? "the file says" : "given is", k);
+        wt_log_add(source->log, WT_WARNING, source->name, facts->place,
+                   "force and deflection of the file mean a spring constant of %.4g N/m, %s "
+                   "%.4g N/m",
+                   seen, own > 0 ? "the file says" : "given is", k);
     return status;
 }
 
@@ -77,13 +77,12 @@ static void say_given(const wt_force_source *source, const char *what, const cha
     if (!(own > 0) || isnan(given) || fabs(given / own - 1) <= constants_agree)
         return;
     const bool far = fmax(given / own, own / given) > far_off;
-    wt_parselog_add(source->log, far ? WT_WARNING : WT_NOTE, source->name, NULL,
-                    "the %s given, %.4g %s, takes the place of that of the file, %.4g %s%s", what,
-                    scale * given, unit, scale * own, unit,
-                    far ? ": is its unit the right one?" : "");
+    wt_log_add(source->log, far ? WT_WARNING : WT_NOTE, source->name, NULL,
+               "the %s given, %.4g %s, takes the place of that of the file, %.4g %s%s", what,
+               scale * given, unit, scale * own, unit, far ? ": is its unit the right one?" : "");
 }
 
-void contradiction_given(wt_force_source *source, const force_facts *facts)
+void contradiction_given(wt_force_source *source, const force_metadata *facts)
 {
     if (source->given_checked)
         return;
@@ -104,7 +103,7 @@ static double value_range(const double *values, size_t n)
     return high - low;
 }
 
-void contradiction_heights(wt_force_source *source, const force_facts *facts,
+void contradiction_heights(wt_force_source *source, const force_metadata *facts,
                            const wt_segment *segment)
 {
     if (source->heights_checked || segment->kind != WT_SEGMENT_APPROACH ||
@@ -120,8 +119,8 @@ void contradiction_heights(wt_force_source *source, const force_facts *facts,
         return;
     source->heights_checked = true;
     if (fabs(piezo - sensor) > heights_agree * sensor)
-        wt_parselog_add(source->log, WT_NOTE, source->name, facts->place,
-                        "the height of the piezo changes by %.4g um, that of its sensor by %.4g "
-                        "um; the sensor is used",
-                        1e6 * piezo, 1e6 * sensor);
+        wt_log_add(source->log, WT_NOTE, source->name, facts->place,
+                   "the height of the piezo changes by %.4g um, that of its sensor by %.4g "
+                   "um; the sensor is used",
+                   1e6 * piezo, 1e6 * sensor);
 }

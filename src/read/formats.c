@@ -42,7 +42,7 @@ const file_reader *formats_find_reader(const wt_formats *formats, const char *id
     return NULL;
 }
 
-wt_status formats_add_text(wt_formats *f, text_description *d, wt_parselog *log, const char *path,
+wt_status formats_add_text(wt_formats *f, text_description *d, wt_log *log, const char *path,
                            wt_error *err)
 {
     wt_status status = WT_OK;
@@ -56,8 +56,8 @@ wt_status formats_add_text(wt_formats *f, text_description *d, wt_parselog *log,
             wt_error_advice(err, "choose another id");
         }
     if (status == WT_OK && same != NULL) {
-        wt_parselog_add(log, WT_NOTE, path, NULL, "replaces the description \"%s\" of version %s",
-                        d->id, same->description->version);
+        wt_log_add(log, WT_NOTE, path, NULL, "replaces the description \"%s\" of version %s", d->id,
+                   same->description->version);
         description_free(same->description);
         f->readers[same - f->readers] = reader;
     } else if (status == WT_OK) {
@@ -98,7 +98,7 @@ static wt_status add_built_in(wt_formats *f, wt_error *err)
     return status;
 }
 
-static wt_status add_folder(wt_formats *f, const char *folder, wt_parselog *log, wt_error *err)
+static wt_status add_folder(wt_formats *f, const char *folder, wt_log *log, wt_error *err)
 {
     description_xsd *schema = NULL;
     char **paths = NULL;
@@ -132,7 +132,7 @@ static wt_status add_binary(wt_formats *f, bool running, wt_error *err)
     return status;
 }
 
-wt_status wt_formats_new(const char *folder, wt_formats **formats, wt_parselog *log, wt_error *err)
+wt_status wt_formats_new(const char *folder, wt_formats **formats, wt_log *log, wt_error *err)
 {
     wt_formats *f = calloc(1, sizeof *f);
     if (f == NULL)

@@ -10,8 +10,8 @@
 /* The i-th reader of a set, in the order of wt_formats_get; borrowed. */
 const file_reader *formats_reader(const wt_formats *formats, size_t i);
 /* Takes the description, also on failure; one of the same id is replaced, with a note. */
-wt_status formats_add_text(wt_formats *formats, struct text_description *description,
-                           wt_parselog *log, const char *path, wt_error *err);
+wt_status formats_add_text(wt_formats *formats, struct text_description *description, wt_log *log,
+                           const char *path, wt_error *err);
 /* A set of this one alone, taken also on failure. */
 wt_status formats_of(struct text_description *description, const char *path, wt_formats **formats,
                      wt_error *err);

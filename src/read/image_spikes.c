@@ -77,7 +77,7 @@ static double largest_of(const wt_image *image)
     return largest;
 }
 
-void images_warn_of_spikes(const wt_image *image, const char *file, wt_parselog *log)
+void images_warn_of_spikes(const wt_image *image, const char *file, wt_log *log)
 {
     const size_t n = image->n_columns * image->n_rows;
     const double scale = largest_of(image);
@@ -101,10 +101,9 @@ void images_warn_of_spikes(const wt_image *image, const char *file, wt_parselog 
         return;
     char by[32];
     wt_format_si(largest, "m", 3, by, sizeof by);
-    wt_parselog_add(
-        log, WT_WARNING, file, image->name,
-        "%zu of %zu heights stand out alone, the farthest, in column %zu and row %zu from "
-        "below, by %s, and make most of the slopes: spikes, or a damaged file; take them "
-        "out before",
-        n_spikes, n, at % image->n_columns, at / image->n_columns, by);
+    wt_log_add(log, WT_WARNING, file, image->name,
+               "%zu of %zu heights stand out alone, the farthest, in column %zu and row %zu from "
+               "below, by %s, and make most of the slopes: spikes, or a damaged file; take them "
+               "out before",
+               n_spikes, n, at % image->n_columns, at / image->n_columns, by);
 }

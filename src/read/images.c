@@ -58,13 +58,13 @@ void images_set_name(wt_image *head, const char *name)
     utf8_tidy(head->name);
 }
 
-static void note_missing(wt_image *image, const char *file, wt_parselog *log)
+static void note_missing(wt_image *image, const char *file, wt_log *log)
 {
     const size_t n = image->n_columns * image->n_rows;
     const size_t missing = samples_mend(image->values, n);
     if (missing > 0)
-        wt_parselog_add(log, WT_WARNING, file, image->name,
-                        "%zu of %zu pixels are not finite numbers and left out", missing, n);
+        wt_log_add(log, WT_WARNING, file, image->name,
+                   "%zu of %zu pixels are not finite numbers and left out", missing, n);
     /* One line has no height, and one column no width. */
     if (isinf(image->width) || (!(image->width > 0) && image->n_columns > 1))
         image->width = (double)NAN;
@@ -79,21 +79,21 @@ static void note_missing(wt_image *image, const char *file, wt_parselog *log)
 /* Unlike sizes that are one in other words. */
 static const double other_size = 1e-3;
 
-static void give_pixels(wt_image *image, double pixel, const char *file, wt_parselog *log)
+static void give_pixels(wt_image *image, double pixel, const char *file, wt_log *log)
 {
     const bool area = strcmp(image->x_unit, "m") == 0 || image->n_rows > 1;
     const double width = pixel * (double)(image->n_columns - 1);
     if (isnan(pixel) || !area)
         return;
     if (fabs(image->width - width) > other_size * width)
-        wt_parselog_add(log, WT_WARNING, file, image->name,
-                        "the file gives pixels of another size; that of --pixel-size is taken");
+        wt_log_add(log, WT_WARNING, file, image->name,
+                   "the file gives pixels of another size; that of --pixel-size is taken");
     image->width = width;
     image->height = pixel * (double)(image->n_rows - 1);
     snprintf(image->x_unit, sizeof image->x_unit, "m");
 }
 
-static wt_status give_unit(wt_image *image, const char *unit, const char *file, wt_parselog *log,
+static wt_status give_unit(wt_image *image, const char *unit, const char *file, wt_log *log,
                            wt_error *err)
 {
     double factor = 1, offset = 0;
@@ -103,9 +103,9 @@ static wt_status give_unit(wt_image *image, const char *unit, const char *file, 
     if (status != WT_OK)
         return status;
     if (strcmp(image->unit, "1") != 0)
-        wt_parselog_add(log, WT_WARNING, file, image->name,
-                        "the file gives its values in %s; they are taken as heights in %s",
-                        image->unit, unit);
+        wt_log_add(log, WT_WARNING, file, image->name,
+                   "the file gives its values in %s; they are taken as heights in %s", image->unit,
+                   unit);
     for (size_t i = 0; i < image->n_columns * image->n_rows; i++)
         image->values[i] *= factor;
     snprintf(image->unit, sizeof image->unit, "m");
@@ -113,15 +113,15 @@ static wt_status give_unit(wt_image *image, const char *unit, const char *file, 
 }
 
 wt_status images_given(wt_image *images, size_t n, const wt_read_options *options, const char *file,
-                       wt_parselog *log, wt_error *err)
+                       wt_log *log, wt_error *err)
 {
     wt_status status = WT_OK;
     for (size_t i = 0; status == WT_OK && i < n; i++) {
         give_pixels(&images[i], options->pixel_size, file, log);
         status = give_unit(&images[i], options->height_unit, file, log, err);
         if (isnan(images[i].width) || isnan(images[i].height))
-            wt_parselog_add(log, WT_WARNING, file, images[i].name,
-                            "the size of the image is not known; --pixel-size gives it");
+            wt_log_add(log, WT_WARNING, file, images[i].name,
+                       "the size of the image is not known; --pixel-size gives it");
         if (status == WT_OK && strcmp(images[i].unit, "m") == 0)
             images_warn_of_spikes(&images[i], file, log);
     }
@@ -137,7 +137,7 @@ void images_free(wt_image **images, size_t *n)
     *n = 0;
 }
 
-wt_status images_end(image_list *list, wt_status status, const char *file, wt_parselog *log,
+wt_status images_end(image_list *list, wt_status status, const char *file, wt_log *log,
                      wt_image **images, size_t *n, wt_error *err)
 {
     for (size_t i = 0; status == WT_OK && i < list->n; i++)
@@ -155,7 +155,7 @@ wt_status images_end(image_list *list, wt_status status, const char *file, wt_pa
 }
 
 wt_status images_facts(const file_reader *reader, wt_input *input, const wt_read_options *options,
-                       wt_parselog *log, table_writer *facts, wt_status curves,
+                       wt_log *log, table_writer *facts, wt_status curves,
                        const wt_error *no_curves)
 {
     wt_image *images = NULL;
@@ -191,7 +191,7 @@ wt_status images_facts(const file_reader *reader, wt_input *input, const wt_read
 }
 
 wt_status images_describe(const file_reader *reader, wt_input *input,
-                          const wt_read_options *options, wt_parselog *log, table_writer *facts)
+                          const wt_read_options *options, wt_log *log, table_writer *facts)
 {
     return images_facts(reader, input, options, log, facts, WT_E_EMPTY, NULL);
 }

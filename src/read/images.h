@@ -30,22 +30,22 @@ void images_set_name(wt_image *head, const char *name);
 void images_free(wt_image **images, size_t *n);
 /* Hands the list on if `status` is good, else clears it. WT_E_EMPTY if there is no image. Pixels
  * that are missing go to the log; a size that is none is NaN. */
-wt_status images_end(image_list *list, wt_status status, const char *file, wt_parselog *log,
+wt_status images_end(image_list *list, wt_status status, const char *file, wt_log *log,
                      wt_image **images, size_t *n, wt_error *err);
 /* What the user says of images whose file does not: the size of their pixels, the unit of heights.
  * A size that nobody knows is warned of, and heights that are spikes. */
 wt_status images_given(wt_image *images, size_t n, const wt_read_options *options, const char *file,
-                       wt_parselog *log, wt_error *err);
+                       wt_log *log, wt_error *err);
 /* Warns of single heights that make most of the slopes of an image of heights. */
-void images_warn_of_spikes(const wt_image *image, const char *file, wt_parselog *log);
+void images_warn_of_spikes(const wt_image *image, const char *file, wt_log *log);
 /* Adds what `info` shows of the images of a file, behind what it shows of its curves, which ended
  * with `curves` and `no_curves`: no curves are no failure beside an image. */
 struct file_reader;
 wt_status images_facts(const struct file_reader *reader, wt_input *input,
-                       const wt_read_options *options, wt_parselog *log, table_writer *facts,
+                       const wt_read_options *options, wt_log *log, table_writer *facts,
                        wt_status curves, const wt_error *no_curves);
 /* The same of a reader of images alone. */
 wt_status images_describe(const struct file_reader *reader, wt_input *input,
-                          const wt_read_options *options, wt_parselog *log, table_writer *facts);
+                          const wt_read_options *options, wt_log *log, table_writer *facts);
 
 #endif

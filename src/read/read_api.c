@@ -9,7 +9,7 @@
 #include <string.h>
 
 wt_status wt_sweep_read(const wt_formats *formats, wt_input *input, const wt_read_options *options,
-                        wt_parselog *log, wt_sweep *sweep, wt_error *err)
+                        wt_log *log, wt_sweep *sweep, wt_error *err)
 {
     reading r;
     wt_status status = read_start(formats, input, options, WT_KIND_SWEEP, &r, err);
@@ -19,7 +19,7 @@ wt_status wt_sweep_read(const wt_formats *formats, wt_input *input, const wt_rea
 }
 
 /* Densities of another convention become those of this program. */
-static wt_status take_convention(const reading *r, const char *name, wt_parselog *log,
+static wt_status take_convention(const reading *r, const char *name, wt_log *log,
                                  wt_power_spectrum *spectrum, wt_error *err)
 {
     if (r->options.spectrum_convention == WT_CONVENTION_WEARTRACK)
@@ -33,15 +33,15 @@ static wt_status take_convention(const reading *r, const char *name, wt_parselog
     const double factor = area ? 4 * M_PI * M_PI : 2 * M_PI;
     for (size_t i = 0; i < spectrum->n; i++)
         spectrum->density[i] /= factor;
-    wt_parselog_add(log, WT_NOTE, name, NULL,
-                    "densities of contact.engineering are divided by %s = %.5g: here the mean "
-                    "square height is %s",
-                    area ? "(2 pi)^2" : "2 pi", factor, area ? "2 pi int q C dq" : "2 int C1 dq");
+    wt_log_add(log, WT_NOTE, name, NULL,
+               "densities of contact.engineering are divided by %s = %.5g: here the mean "
+               "square height is %s",
+               area ? "(2 pi)^2" : "2 pi", factor, area ? "2 pi int q C dq" : "2 int C1 dq");
     return WT_OK;
 }
 
 wt_status wt_power_spectrum_read(const wt_formats *formats, wt_input *input,
-                                 const wt_read_options *options, wt_parselog *log,
+                                 const wt_read_options *options, wt_log *log,
                                  wt_power_spectrum *spectrum, wt_error *err)
 {
     reading r;
@@ -60,7 +60,7 @@ wt_status wt_power_spectrum_read(const wt_formats *formats, wt_input *input,
 }
 
 wt_status wt_noise_read(const wt_formats *formats, wt_input *input, const wt_read_options *options,
-                        wt_parselog *log, wt_noise_spectrum *spectrum, wt_error *err)
+                        wt_log *log, wt_noise_spectrum *spectrum, wt_error *err)
 {
     reading r;
     wt_noise_spectrum made = {.n = 0};
@@ -76,7 +76,7 @@ wt_status wt_noise_read(const wt_formats *formats, wt_input *input, const wt_rea
 }
 
 wt_status wt_record_read(const wt_formats *formats, wt_input *input, const wt_read_options *options,
-                         wt_parselog *log, wt_record *record, wt_error *err)
+                         wt_log *log, wt_record *record, wt_error *err)
 {
     reading r;
     wt_record made = {.n = 0};
@@ -92,7 +92,7 @@ wt_status wt_record_read(const wt_formats *formats, wt_input *input, const wt_re
 }
 
 wt_status wt_images_read(const wt_formats *formats, wt_input *input, const wt_read_options *options,
-                         wt_parselog *log, wt_image **images, size_t *n, wt_error *err)
+                         wt_log *log, wt_image **images, size_t *n, wt_error *err)
 {
     reading r;
     wt_status status = read_start(formats, input, options, WT_KIND_IMAGE, &r, err);

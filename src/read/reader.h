@@ -40,7 +40,7 @@ typedef struct file_reader {
     const char *runs;    /* id of the description that a binary reader runs, or NULL */
     struct text_description *description; /* that it runs, or NULL */
     /* The text that the description reads, to be closed; NULL: the input itself. */
-    wt_status (*as_text)(const struct file_reader *self, wt_input *input, wt_parselog *log,
+    wt_status (*as_text)(const struct file_reader *self, wt_input *input, wt_log *log,
                          wt_input **text, wt_error *err);
     const struct hdf5_curves *hdf5; /* that hdf5_as_text reads (hierarchy/curves_hdf5.h), or NULL */
     /* `self` is the reader itself. */
@@ -48,24 +48,24 @@ typedef struct file_reader {
     /* Kinds that it cannot deliver are NULL. */
     const struct force_stream *force; /* force_source.h */
     wt_status (*read_sweep)(const struct file_reader *self, wt_input *input,
-                            const wt_read_options *options, wt_parselog *log, wt_sweep *sweep,
+                            const wt_read_options *options, wt_log *log, wt_sweep *sweep,
                             wt_error *err);
     wt_status (*read_images)(const struct file_reader *self, wt_input *input,
-                             const wt_read_options *options, wt_parselog *log, wt_image **images,
+                             const wt_read_options *options, wt_log *log, wt_image **images,
                              size_t *n_images, wt_error *err);
     wt_status (*read_spectrum)(const struct file_reader *self, wt_input *input,
-                               const wt_read_options *options, wt_parselog *log,
+                               const wt_read_options *options, wt_log *log,
                                wt_power_spectrum *spectrum, wt_error *err);
     wt_status (*read_noise)(const struct file_reader *self, wt_input *input,
-                            const wt_read_options *options, wt_parselog *log,
+                            const wt_read_options *options, wt_log *log,
                             wt_noise_spectrum *spectrum, wt_error *err);
     wt_status (*read_record)(const struct file_reader *self, wt_input *input,
-                             const wt_read_options *options, wt_parselog *log, wt_record *record,
+                             const wt_read_options *options, wt_log *log, wt_record *record,
                              wt_error *err);
     /* Adds what `info` shows: segments, channels, calibration, what is missing or odd. Fails with
      * what hinders reading. */
     wt_status (*describe)(const struct file_reader *self, wt_input *input,
-                          const wt_read_options *options, wt_parselog *log, table_writer *facts);
+                          const wt_read_options *options, wt_log *log, table_writer *facts);
 } file_reader;
 
 /* A reader that knows its files by their words is asked only where no signature answered. */

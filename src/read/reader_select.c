@@ -99,7 +99,7 @@ PARAM_TABLE(wt_read_params, wt_read_options, rows, wt_read_defaults, NO_PARTS)
 wt_status read_start(const wt_formats *formats, wt_input *input, const wt_read_options *given,
                      unsigned kind, reading *begun, wt_error *err)
 {
-    shortage_forget();
+    resource_error_clear();
     *begun = (reading){.options = given != NULL ? *given : wt_read_defaults()};
     wt_status status = param_check(wt_read_params(), &begun->options, err);
     if (status != WT_OK)
@@ -109,7 +109,7 @@ wt_status read_start(const wt_formats *formats, wt_input *input, const wt_read_o
 
 wt_status read_end(wt_input *input, wt_status status, wt_error *err)
 {
-    status = shortage_end(status, err);
+    status = resource_error_finish(status, err);
     if (status != WT_OK)
         wt_error_file(err, wt_input_name(input));
     return status;

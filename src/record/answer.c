@@ -20,29 +20,29 @@ static double extreme_friction(const table_view *v, double sign, size_t *n)
     return most;
 }
 
-void tell_record(telling *t, const table_view *v)
+void append_record(text_builder *t, const table_view *v)
 {
     const wt_estimate mu = record_value(v, RECORD_KEY_FRICTION);
     size_t n;
     const double least = extreme_friction(v, -1, &n), most = extreme_friction(v, 1, &n);
     if (n == 0)
-        tell(t, "no friction of sliding: nothing slides");
+        text_append(t, "no friction of sliding: nothing slides");
     else if (isnan(mu.value))
-        tell(t, "friction as measured at %zu conditions, %s", n,
-             words_of_pair(least, most, 4).text);
+        text_append(t, "friction as measured at %zu conditions, %s", n,
+                    format_pair(least, most, 4).text);
     else
-        tell(t, "friction as measured %s", words_of_estimate(mu).text);
+        text_append(t, "friction as measured %s", format_estimate(mu).text);
     const double end = record_get(v, 0, RECORD_RUNNING_IN);
     if (v->n_rows == 1 && !isnan(end))
-        tell(t, ", after a running-in of %.0f cycles", end);
+        text_append(t, ", after a running-in of %.0f cycles", end);
     else if (v->n_rows == 1)
-        tell(t, "; %s", record_text(v, 0, RECORD_RUNNING_IN_NOTE));
+        text_append(t, "; %s", record_text(v, 0, RECORD_RUNNING_IN_NOTE));
     if (v->n_rows == 1 && record_text(v, 0, RECORD_NOTE)[0] != '\0')
-        tell(t, "; %s", record_text(v, 0, RECORD_NOTE));
+        text_append(t, "; %s", record_text(v, 0, RECORD_NOTE));
 }
 
 /* The nominal pressure under a ball and its duty, of which wear need not tell anything. */
-static void tell_ball(telling *t, const table_view *v)
+static void tell_ball(text_builder *t, const table_view *v)
 {
     double least = (double)NAN, most = (double)NAN;
     for (size_t i = 0; i < v->n_rows; i++) {
@@ -51,25 +51,25 @@ static void tell_ball(telling *t, const table_view *v)
     }
     if (isnan(least))
         return;
-    const number_words low = words_of(least, "Pa"), high = words_of(most, "Pa");
-    tell(t, "; nominal pressure under the ball %s", low.text);
+    const number_text low = format_with_unit(least, "Pa"), high = format_with_unit(most, "Pa");
+    text_append(t, "; nominal pressure under the ball %s", low.text);
     if (strcmp(low.text, high.text) != 0)
-        tell(t, " to %s", high.text);
+        text_append(t, " to %s", high.text);
     else if (!isnan(wear_get(v, 0, WEAR_DUTY)))
-        tell(t, ", duty %.3g", wear_get(v, 0, WEAR_DUTY));
+        text_append(t, ", duty %.3g", wear_get(v, 0, WEAR_DUTY));
 }
 
-void tell_wear(telling *t, const table_view *v)
+void append_wear(text_builder *t, const table_view *v)
 {
     const wt_estimate k = wear_value(v, WEAR_KEY_RATE);
     if (isnan(k.value))
-        tell(t, "no specific wear rate: %s", wear_text(v, 0, WEAR_NOTE));
+        text_append(t, "no specific wear rate: %s", wear_text(v, 0, WEAR_NOTE));
     else
-        tell(t, "specific wear rate %s", words_of_positive(k).text);
+        text_append(t, "specific wear rate %s", format_positive(k).text);
     tell_ball(t, v);
 }
 
-void answer_wear_of_layer(const answer_story *story, const char *question)
+void answer_wear_of_layer(const answer_context *story, const char *question)
 {
     const table_view *const layer = &story->found.layer;
     if (story->wear.table == NULL || layer->table == NULL)
@@ -79,29 +79,29 @@ void answer_wear_of_layer(const answer_story *story, const char *question)
     if (!(is.value > 0) || !(used.value > 0))
         return;
     if (used.value == is.value)
-        answer_say(story, question, "thickness",
-                   "Its specific wear rate is the one measured by the records: %s.",
-                   words_of_positive(is).text);
+        answer_add_sentence(story, question, "thickness",
+                            "Its specific wear rate is the one measured by the records: %s.",
+                            format_positive(is).text);
     else
-        answer_say(
+        answer_add_sentence(
             story, question, "thickness",
             "Its specific wear rate is the one given, %s; the one measured by the records is "
             "%.3g times that: %s.",
-            words_of_value(used).text, is.value / used.value, words_of_positive(is).text);
+            format_value(used).text, is.value / used.value, format_positive(is).text);
 }
 
-void answer_record(const answer_story *story)
+void answer_record(const answer_context *story)
 {
     char text[900];
-    telling t = {text, sizeof text, 0};
+    text_builder t = {text, sizeof text, 0};
     if (story->record.n_rows == 0)
         return;
-    tell_record(&t, &story->record);
+    append_record(&t, &story->record);
     if (story->wear.n_rows > 0) {
-        tell(&t, "; ");
-        tell_wear(&t, &story->wear);
+        text_append(&t, "; ");
+        append_wear(&t, &story->wear);
     }
     if (text[0] >= 'a' && text[0] <= 'z')
         text[0] = (char)(text[0] - 'a' + 'A');
-    answer_say(story, "What was measured of friction?", "record", "%s.", text);
+    answer_add_sentence(story, "What was measured of friction?", "record", "%s.", text);
 }

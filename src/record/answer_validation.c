@@ -8,90 +8,95 @@
 
 static const char question[] = "Does the theory explain the friction that was measured?";
 
-void tell_verdict(telling *t, const table_view *v)
+void append_verdict(text_builder *t, const table_view *v)
 {
-    tell(t, "the theory (%s) against the record: %s", validation_words(v, VALIDATION_KEY_JUDGED),
-         validation_words(v, VALIDATION_KEY_VERDICT));
+    text_append(t, "the theory (%s) against the record: %s",
+                validation_words(v, VALIDATION_KEY_JUDGED),
+                validation_words(v, VALIDATION_KEY_VERDICT));
 }
 
-void tell_needed(telling *t, const table_view *v)
+void append_required_shear(text_builder *t, const table_view *v)
 {
     const wt_estimate needed = validation_value(v, VALIDATION_KEY_NEEDED);
     if (isnan(needed.value))
         return;
-    tell(t, "the record asks for a shear stress of %s; plausible: %s",
-         words_between(needed, validation_value(v, VALIDATION_KEY_NEEDED_LOW).value,
-                       validation_value(v, VALIDATION_KEY_NEEDED_HIGH).value)
-             .text,
-         validation_words(v, VALIDATION_KEY_PLAUSIBLE));
+    text_append(t, "the record asks for a shear stress of %s; plausible: %s",
+                format_estimate_interval(needed,
+                                         validation_value(v, VALIDATION_KEY_NEEDED_LOW).value,
+                                         validation_value(v, VALIDATION_KEY_NEEDED_HIGH).value)
+                    .text,
+                validation_words(v, VALIDATION_KEY_PLAUSIBLE));
 }
 
-void tell_running_in_verdict(telling *t, const table_view *v)
+void append_running_in_verdict(text_builder *t, const table_view *v)
 {
-    tell(t, "the running-in with the layer against the record: %s",
-         validation_running_in_words(v, VALIDATION_RUNNING_IN_KEY_VERDICT));
+    text_append(t, "the running-in with the layer against the record: %s",
+                validation_running_in_words(v, VALIDATION_RUNNING_IN_KEY_VERDICT));
 }
 
-void tell_wear_needed(telling *t, const table_view *v)
+void append_required_wear(text_builder *t, const table_view *v)
 {
     const wt_estimate wear = validation_running_in_value(v, VALIDATION_RUNNING_IN_KEY_WEAR);
     if (isnan(wear.value))
         return;
-    tell(t, "the running-in time asks for k = %s with U_c = %s, the thickness as predicted",
-         words_between(wear,
-                       validation_running_in_value(v, VALIDATION_RUNNING_IN_KEY_WEAR_LOW).value,
-                       validation_running_in_value(v, VALIDATION_RUNNING_IN_KEY_WEAR_HIGH).value)
-             .text,
-         words_between(validation_running_in_value(v, VALIDATION_RUNNING_IN_KEY_ENERGY),
-                       validation_running_in_value(v, VALIDATION_RUNNING_IN_KEY_ENERGY_LOW).value,
-                       validation_running_in_value(v, VALIDATION_RUNNING_IN_KEY_ENERGY_HIGH).value)
-             .text);
+    text_append(t, "the running-in time asks for k = %s with U_c = %s, the thickness as predicted",
+                format_estimate_interval(
+                    wear, validation_running_in_value(v, VALIDATION_RUNNING_IN_KEY_WEAR_LOW).value,
+                    validation_running_in_value(v, VALIDATION_RUNNING_IN_KEY_WEAR_HIGH).value)
+                    .text,
+                format_estimate_interval(
+                    validation_running_in_value(v, VALIDATION_RUNNING_IN_KEY_ENERGY),
+                    validation_running_in_value(v, VALIDATION_RUNNING_IN_KEY_ENERGY_LOW).value,
+                    validation_running_in_value(v, VALIDATION_RUNNING_IN_KEY_ENERGY_HIGH).value)
+                    .text);
 }
 
-static void say_running_in(const answer_story *story)
+static void say_running_in(const answer_context *story)
 {
     const table_view *const v = &story->validation_running_in;
     if (v->table == NULL)
         return;
     char text[800];
-    telling t = {text, sizeof text, 0};
+    text_builder t = {text, sizeof text, 0};
     const char *const settled =
                           validation_running_in_words(v, VALIDATION_RUNNING_IN_KEY_SETTLED_BY),
                       *const agrees =
                           validation_running_in_words(v, VALIDATION_RUNNING_IN_KEY_AGREES);
-    tell_running_in_verdict(&t, v);
+    append_running_in_verdict(&t, v);
     text[0] = (char)toupper((unsigned char)text[0]);
-    answer_say(story, question, "validation", "%s.", text);
+    answer_add_sentence(story, question, "validation", "%s.", text);
     if (validation_running_in_words(v, VALIDATION_RUNNING_IN_KEY_REMARKS) != NULL)
-        answer_say(story, question, "validation", "To be kept in mind of the running-in: %s.",
-                   validation_running_in_words(v, VALIDATION_RUNNING_IN_KEY_REMARKS));
+        answer_add_sentence(story, question, "validation",
+                            "To be kept in mind of the running-in: %s.",
+                            validation_running_in_words(v, VALIDATION_RUNNING_IN_KEY_REMARKS));
     if (settled != NULL)
-        answer_say(story, question, "validation", "What would settle the running-in: %s.", settled);
+        answer_add_sentence(story, question, "validation", "What would settle the running-in: %s.",
+                            settled);
     t.used = 0;
-    tell_wear_needed(&t, v);
+    append_required_wear(&t, v);
     if (t.used == 0)
         return;
     text[0] = (char)toupper((unsigned char)text[0]);
     if (agrees != NULL)
-        tell(&t, "; against the wear that was measured: %s", agrees);
-    answer_say(story, question, "validation", "%s.", text);
+        text_append(&t, "; against the wear that was measured: %s", agrees);
+    answer_add_sentence(story, question, "validation", "%s.", text);
 }
 
-static void say_needed(const answer_story *story, const table_view *v)
+static void say_needed(const answer_context *story, const table_view *v)
 {
     char text[700] = "";
-    telling t = {text, sizeof text, 0};
+    text_builder t = {text, sizeof text, 0};
     const char *const shape = validation_words(v, VALIDATION_KEY_SHAPE);
-    tell_needed(&t, v);
+    append_required_shear(&t, v);
     if (t.used == 0)
         return;
     text[0] = (char)toupper((unsigned char)text[0]);
     if (shape != NULL)
-        tell(&t, ". The verdict with it: %s", shape);
-    answer_say(story, question, "validation", "%s.", text);
+        text_append(&t, ". The verdict with it: %s", shape);
+    answer_add_sentence(story, question, "validation", "%s.", text);
 }
 
-static void say_narrowed(const answer_story *story, const table_view *v)
+static void say_narrowed(const answer_context *story, const table_view *v)
 {
     const bool layer = !isnan(validation_value(v, VALIDATION_KEY_LAYERED_KEPT_LOW).value);
     const double all[] = {validation_value(v, layer ? VALIDATION_KEY_LAYERED_ALL_LOW
@@ -108,13 +113,14 @@ static void say_narrowed(const answer_story *story, const table_view *v)
                                .value};
     if (isnan(kept[0]))
         return;
-    answer_say(story, question, "validation",
-               "Over the choices of the model the friction at the reference velocity is %s; over "
-               "those that the record leaves, %s.",
-               ends_of(all[0], all[1], 3).text, ends_of(kept[0], kept[1], 3).text);
+    answer_add_sentence(
+        story, question, "validation",
+        "Over the choices of the model the friction at the reference velocity is %s; over "
+        "those that the record leaves, %s.",
+        format_range(all[0], all[1], 3).text, format_range(kept[0], kept[1], 3).text);
 }
 
-void answer_validation(const answer_story *story)
+void answer_validation(const answer_context *story)
 {
     const table_view *const v = &story->validation;
     if (v->table == NULL) { /* as it may have failed */
@@ -122,23 +128,24 @@ void answer_validation(const answer_story *story)
         return;
     }
     char text[400];
-    telling t = {text, sizeof text, 0};
+    text_builder t = {text, sizeof text, 0};
     const char *const settled = validation_words(v, VALIDATION_KEY_SETTLED_BY),
                       *const wear = validation_words(v, VALIDATION_KEY_WEAR);
-    tell_verdict(&t, v);
+    append_verdict(&t, v);
     text[0] = (char)toupper((unsigned char)text[0]);
-    answer_say(story, question, "validation", "%s.", text);
+    answer_add_sentence(story, question, "validation", "%s.", text);
     if (settled != NULL)
-        answer_say(story, question, "validation", "What would settle it: %s.", settled);
+        answer_add_sentence(story, question, "validation", "What would settle it: %s.", settled);
     if (story->validation_sources.table != NULL)
-        answer_say(
+        answer_add_sentence(
             story, question, "validation", "What would narrow it most: %s.",
             validation_sources_words(&story->validation_sources, VALIDATION_SOURCES_KEY_ADVICE));
     say_needed(story, v);
     say_narrowed(story, v);
     if (wear != NULL)
-        answer_say(story, question, "validation",
-                   "The specific wear rate as measured is %.3g times that of the layer: %s.",
-                   validation_value(v, VALIDATION_KEY_WEAR_RATIO).value, wear);
+        answer_add_sentence(
+            story, question, "validation",
+            "The specific wear rate as measured is %.3g times that of the layer: %s.",
+            validation_value(v, VALIDATION_KEY_WEAR_RATIO).value, wear);
     say_running_in(story);
 }

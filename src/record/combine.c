@@ -3,7 +3,7 @@
 
 #include <math.h>
 
-void several_add(several *s, wt_estimate e)
+void record_group_add(record_group *s, wt_estimate e)
 {
     s->n++;
     const double off = e.value - s->mean;
@@ -12,18 +12,18 @@ void several_add(several *s, wt_estimate e)
     s->own += e.standard_error * e.standard_error;
 }
 
-static double by_scatter_of(const several *s)
+static double by_scatter_of(const record_group *s)
 {
     return s->n > 1 ? s->squares / (s->n * (s->n - 1)) : 0;
 }
 
-double several_freedom(const several *s)
+double record_group_freedom(const record_group *s)
 {
     const double by_errors = s->own / (s->n * s->n);
     return s->n > 1 && (isnan(by_errors) || by_scatter_of(s) > by_errors) ? s->n - 1 : (double)NAN;
 }
 
-wt_estimate several_mean(const several *s, const char *unit)
+wt_estimate record_group_mean(const record_group *s, const char *unit)
 {
     if (!(s->n > 0))
         return (wt_estimate){(double)NAN, (double)NAN, 0, unit};
@@ -39,17 +39,17 @@ void wear_rates_end_run(wear_rates *rates)
 {
     if (!(rates->run.n > 0))
         return;
-    several_add(&rates->all, several_mean(&rates->run, "m^2/N"));
-    rates->freedom = several_freedom(&rates->run);
-    rates->run = (several){.n = 0};
+    record_group_add(&rates->all, record_group_mean(&rates->run, "m^2/N"));
+    rates->freedom = record_group_freedom(&rates->run);
+    rates->run = (record_group){.n = 0};
 }
 
 wt_estimate wear_rates_mean(const wear_rates *rates)
 {
-    return several_mean(&rates->all, "m^2/N");
+    return record_group_mean(&rates->all, "m^2/N");
 }
 
 double wear_rates_freedom(const wear_rates *rates)
 {
-    return rates->all.n == 1 ? rates->freedom : several_freedom(&rates->all);
+    return rates->all.n == 1 ? rates->freedom : record_group_freedom(&rates->all);
 }

@@ -92,7 +92,7 @@ static const char *words_of_rest(const wt_sliding *sliding, bool split)
 }
 
 static void add_rest(source_list *list, const wt_sliding *sliding, bool split,
-                     const trial_parts *parts, const trial_parts *needed)
+                     const model_variant_parts *parts, const model_variant_parts *needed)
 {
     const struct {
         const char *words, *remedy;
@@ -115,8 +115,8 @@ static void add_rest(source_list *list, const wt_sliding *sliding, bool split,
         }
 }
 
-static void list_sources(const validation *v, bool split, const trial_parts *parts,
-                         const trial_parts *needed, source_list *list)
+static void list_sources(const validation *v, bool split, const model_variant_parts *parts,
+                         const model_variant_parts *needed, source_list *list)
 {
     *list = (source_list){.all = parts->all, .all_needed = needed->all};
     for (size_t u = 0; split && u < v->p.n_lines; u++) {
@@ -130,9 +130,10 @@ static void list_sources(const validation *v, bool split, const trial_parts *par
 
 /* What the record makes of each drawn number, before it 0 +- 1: the value is noise about slope
  * times what the number truly is off, the other way round. */
-static wt_status find_pulls(const validation *v, const trial *t, source_list *list, wt_error *err)
+static wt_status find_pulls(const validation *v, const model_variant *t, source_list *list,
+                            wt_error *err)
 {
-    agreement_data data = trial_data(t);
+    agreement_data data = model_variant_data(t);
     data.allowed = validation_allowed(v);
     double *const weight = malloc((t->n + 1) * sizeof *weight);
     wt_status status = weight == NULL ? wt_fail(err, WT_E_MEMORY, "out of memory") : WT_OK;
@@ -165,7 +166,7 @@ static int by_variance(const void *a, const void *b)
 
 /* How many sources, the largest first, must go that the interval leaves the end of the margin that
  * it holds; their number + 1: all of them are not enough. */
-static size_t count_to_settle(const validation *v, const trial *t, const source_list *list)
+static size_t count_to_settle(const validation *v, const model_variant *t, const source_list *list)
 {
     const agreement *const fit = &t->fit;
     const size_t at = fit->where;
@@ -181,7 +182,7 @@ static size_t count_to_settle(const validation *v, const trial *t, const source_
 /* More of them at once are no advice. */
 enum { MOST_NAMED = 2 };
 
-static void give_advice(const validation *v, const trial *t, const source_list *list,
+static void give_advice(const validation *v, const model_variant *t, const source_list *list,
                         source_advice *advice)
 {
     const source *const first = &list->of[0];
@@ -222,16 +223,16 @@ static wt_status write_table(const source_list *list, const source_advice *advic
 
 wt_status sources_make(const validation *v, source_advice *advice, wt_table **table, wt_error *err)
 {
-    const trial *const t = v->has_shear ? &v->ratio[v->layered] : &v->shear;
+    const model_variant *const t = v->has_shear ? &v->ratio[v->layered] : &v->shear;
     double *const row = malloc((t->n + 1) * sizeof *row);
     source_list list;
     *advice = (source_advice){.narrows = ""};
     if (row == NULL)
         return wt_fail(err, WT_E_MEMORY, "out of memory");
     agreement_row(&t->fit, t->fit.where, row);
-    const trial_parts parts = trial_variance(t, row);
+    const model_variant_parts parts = model_variant_variance(t, row);
     agreement_row(&v->shear.fit, 0, row);
-    const trial_parts needed = trial_variance(&v->shear, row);
+    const model_variant_parts needed = model_variant_variance(&v->shear, row);
     free(row);
     const bool split = t->split || v->p.n_draws == 0; /* without draws there is nothing to split */
     list_sources(v, split, &parts, &needed, &list);

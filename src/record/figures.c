@@ -22,7 +22,7 @@ static void draw_record(figure_drawing *d)
     plot_item(d, ends,
               "($1*x_unit):($2*y_unit):($3*x_unit):($4*x_unit) with xerrorbars ls 2 title "
               "'%s'",
-              say(d->language, "end of the running-in"));
+              translate(d->language, "end of the running-in"));
     plot_end(d);
 }
 
@@ -32,9 +32,9 @@ static void caption_record(figure_drawing *d)
     size_t without = 0;
     for (size_t row = 0; row < steps->n_rows; row++)
         without += isnan(record_get(steps, row, RECORD_RUNNING_IN)) ? 1 : 0;
-    text_say(&d->caption, " Steps: %zu.", steps->n_rows);
+    text_append_translated(&d->caption, " Steps: %zu.", steps->n_rows);
     if (without > 0)
-        text_say(&d->caption, " Without an end of the running-in: %zu.", without);
+        text_append_translated(&d->caption, " Without an end of the running-in: %zu.", without);
 }
 
 /* In degrees Celsius, which a description of a curve cannot say: value, its error, the interval. */

@@ -7,14 +7,15 @@
 /* What the figures are about, as the key says it. */
 static void caption_verdict(figure_drawing *d)
 {
-    text_say(&d->caption, " Of %s: %s.", validation_words(d->table, VALIDATION_KEY_JUDGED),
-             validation_words(d->table, VALIDATION_KEY_VERDICT));
+    text_append_translated(&d->caption, " Of %s: %s.",
+                           validation_words(d->table, VALIDATION_KEY_JUDGED),
+                           validation_words(d->table, VALIDATION_KEY_VERDICT));
 }
 
 static void caption_course(figure_drawing *d)
 {
-    text_say(&d->caption, " Running-in: %s.",
-             validation_course_words(d->table, VALIDATION_COURSE_KEY_VERDICT));
+    text_append_translated(&d->caption, " Running-in: %s.",
+                           validation_course_words(d->table, VALIDATION_COURSE_KEY_VERDICT));
 }
 
 /* Where measured and predicted agree. */

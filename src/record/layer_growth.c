@@ -22,7 +22,7 @@ typedef struct growing {
     double velocity;
     const wt_sliding *stated; /* the conditions of the case, at which a thickness was observed */
     wt_layer_job job;         /* as stated, with the shear stress of the layer */
-    const wt_layer_known *known;
+    const wt_layer_observation *known;
     const wt_job *work;
     bool transport; /* of damage; else by rates */
     double *time;   /* [n] */
@@ -33,51 +33,51 @@ typedef struct growing {
 
 /* The scene of a draw at the conditions of the record, whose job the caller keeps: its critical
  * energy is that which makes an observed thickness at the conditions of the case. */
-static wt_status scene_of(const growing *g, size_t replicate, wt_drawn *drawn, wt_layer_job *job,
-                          layer_scene *scene, wt_error *err)
+static wt_status scene_of(const growing *g, size_t replicate, wt_material_cache *drawn,
+                          wt_layer_job *job, layer_context *scene, wt_error *err)
 {
-    const wt_layer_known *const known = g->known;
+    const wt_layer_observation *const known = g->known;
     const uint64_t seed = g->work->seed;
-    *scene = (layer_scene){.sliding = g->stated,
-                           .job = &g->job,
-                           .work = g->work,
-                           .replicate = replicate,
-                           .modulus_ratio = (double)NAN};
+    *scene = (layer_context){.sliding = g->stated,
+                             .job = &g->job,
+                             .work = g->work,
+                             .replicate = replicate,
+                             .modulus_ratio = (double)NAN};
     const wt_status status = layer_job_calibrated(scene, job, err);
     job->velocity = g->velocity;
     job->time = NULL;
-    *scene = (layer_scene){.sliding = &g->sliding,
-                           .job = job,
-                           .work = g->work,
-                           .replicate = replicate,
-                           .drawn = drawn,
-                           .modulus_ratio =
-                               flow_draw_positive_t(known->modulus_ratio, known->modulus_ratio_df,
-                                                    seed, replicate, FLOW_DRAW_RATIO),
-                           .slope = sliding_layer_slope(known, seed, replicate)};
+    *scene = (layer_context){.sliding = &g->sliding,
+                             .job = job,
+                             .work = g->work,
+                             .replicate = replicate,
+                             .drawn = drawn,
+                             .modulus_ratio =
+                                 flow_draw_positive_t(known->modulus_ratio, known->modulus_ratio_df,
+                                                      seed, replicate, FLOW_DRAW_RATIO),
+                             .slope = sliding_layer_slope(known, seed, replicate)};
     return status;
 }
 
 /* What a layer does to friction, and when it is how thick. */
 typedef struct one_draw {
-    layer_scene *scene;
+    layer_context *scene;
     wt_layer_parameters parameters;
     wt_layer_point *points; /* [n] at the times */
     double thickness, bare; /* in the end; friction without a layer */
-    friction_of_layer friction_of;
+    layer_friction_model friction_of;
 } one_draw;
 
 static wt_status grow_back(const growing *g, one_draw *d, wt_error *err)
 {
     wt_layer_loop loop;
-    const wt_status status = acts_back_find(d->scene, &loop, err);
+    const wt_status status = feedback_find(d->scene, &loop, err);
     if (status != WT_OK)
         return status;
     d->thickness = 0;
     for (size_t i = loop.n_roots; i-- > 0;)
         if (loop.root[i].stable)
             d->thickness = loop.root[i].thickness;
-    return wt_layer_loop_history(acts_back_energy, d->scene, &loop, g->time, g->n, d->points, err);
+    return wt_layer_loop_history(feedback_energy, d->scene, &loop, g->time, g->n, d->points, err);
 }
 
 static wt_status grow(const growing *g, one_draw *d, wt_error *err)
@@ -85,7 +85,7 @@ static wt_status grow(const growing *g, one_draw *d, wt_error *err)
     wt_layer_parameters *const p = &d->parameters;
     layer_energy energy = {.source = {.n = 0}};
     wt_layer_balance balance;
-    wt_status status = layer_at(d->scene, layer_here(), &energy, p, err);
+    wt_status status = layer_at(d->scene, operating_point_default(), &energy, p, err);
     p->balance_only = true;
     if (status == WT_OK)
         status = wt_layer_balance_compute(&energy.source, p, &balance, err);
@@ -108,14 +108,14 @@ static wt_status find_friction(const growing *g, one_draw *d, wt_error *err)
     double most = d->thickness;
     for (size_t i = 0; i < g->n; i++)
         most = fmax(most, d->points[i].thickness.value);
-    wt_status status = layer_friction_at(d->scene, layer_here(), &bare, err);
+    wt_status status = layer_friction_at(d->scene, operating_point_default(), &bare, err);
     if (status != WT_OK)
         return status;
     d->bare = bare.total;
     if (most > 0)
-        status = friction_of_layer_make(d->scene,
-                                        fmin(thinnest / g->sliding.surface->q1, least_part * most),
-                                        most, NODES, &d->friction_of, err);
+        status = layer_friction_model_make(
+            d->scene, fmin(thinnest / g->sliding.surface->q1, least_part * most), most, NODES,
+            &d->friction_of, err);
     return status;
 }
 
@@ -123,13 +123,13 @@ static wt_status put_friction(const one_draw *d, double thickness, double *out, 
 {
     layer_friction at = {.total = d->bare};
     const wt_status status =
-        thickness > 0 ? friction_of_layer_at(&d->friction_of, thickness, &at, err) : WT_OK;
+        thickness > 0 ? layer_friction_model_at(&d->friction_of, thickness, &at, err) : WT_OK;
     *out = at.total;
     return status;
 }
 
 /* out: [GROWTH_NUMBERS + n] */
-static wt_status follow(const growing *g, layer_scene *scene, double *out, wt_error *err)
+static wt_status follow(const growing *g, layer_context *scene, double *out, wt_error *err)
 {
     const wt_layer_job *const job = scene->job;
     one_draw d = {.scene = scene, .points = calloc(g->n, sizeof *d.points)};
@@ -145,7 +145,7 @@ static wt_status follow(const growing *g, layer_scene *scene, double *out, wt_er
     out[GROWTH_WEAR] = d.parameters.specific_wear_rate;
     out[GROWTH_ENERGY] =
         job->closure == WT_CLOSURE_ENERGY ? d.parameters.critical_energy : (double)NAN;
-    friction_of_layer_clear(&d.friction_of);
+    layer_friction_model_clear(&d.friction_of);
     free(d.points);
     return status;
 }
@@ -159,12 +159,12 @@ static wt_status choose_times(growing *g, growth *out, wt_error *err)
     wt_layer_parameters p;
     wt_layer_balance balance;
     wt_layer_job job;
-    layer_scene scene;
+    layer_context scene;
     double *shown = NULL;
     size_t n = 0;
     wt_status status = scene_of(g, WT_NO_REPLICATE, NULL, &job, &scene, err);
     if (status == WT_OK)
-        status = layer_at(&scene, layer_here(), &energy, &p, err);
+        status = layer_at(&scene, operating_point_default(), &energy, &p, err);
     if (status == WT_OK)
         status = wt_layer_balance_compute(&energy.source, &p, &balance, err);
     layer_energy_clear(&energy);
@@ -196,7 +196,7 @@ static wt_status one_replicate(const void *user, size_t i, double *out, wt_error
 {
     const drawing *const d = user;
     wt_layer_job job;
-    layer_scene scene;
+    layer_context scene;
     const wt_status status = scene_of(&d->g, i, d->r->drawn, &job, &scene, err);
     return status == WT_OK ? follow(&d->g, &scene, out, err) : status;
 }
@@ -226,7 +226,7 @@ static wt_status draw_all(const growing *g, growth *out, wt_error *err)
                            ? wt_fail(err, WT_E_MEMORY, "out of memory")
                            : WT_OK;
     wt_layer_job job;
-    layer_scene nominal;
+    layer_context nominal;
     if (status == WT_OK)
         status = scene_of(g, WT_NO_REPLICATE, NULL, &job, &nominal, err);
     if (status == WT_OK)
@@ -256,7 +256,8 @@ static void find_courses(growth *g)
 }
 
 static growing growing_of(const wt_sliding *sliding, const wt_layer_job *layer,
-                          const wt_layer_known *known, const measured_step *at, const wt_job *work)
+                          const wt_layer_observation *known, const measured_step *at,
+                          const wt_job *work)
 {
     growing g = {.sliding = *sliding,
                  .velocity = at->velocity,
@@ -270,8 +271,8 @@ static growing growing_of(const wt_sliding *sliding, const wt_layer_job *layer,
 }
 
 wt_status growth_make(const wt_sliding *sliding, const wt_layer_job *layer,
-                      const wt_layer_known *known, const measured_step *at, const wt_job *work,
-                      growth *out, wt_error *err)
+                      const wt_layer_observation *known, const measured_step *at,
+                      const wt_job *work, growth *out, wt_error *err)
 {
     wt_job own = *work;
     own.drawn = NULL; /* of another temperature */
@@ -315,7 +316,7 @@ course growth_course(const growth *g, size_t k)
 double growth_friction(const growth *g, size_t k, double time)
 {
     const course c = growth_course(g, k);
-    return growth_number_of(g, k, GROWTH_END) + course_at(&c, log(time));
+    return growth_number_of(g, k, GROWTH_END) + running_in_curve_at(&c, log(time));
 }
 
 double growth_scatter(const growth *g, growth_value *of, double time)

@@ -30,8 +30,8 @@ typedef struct growth {
 
 /* WT_E_RANGE where there is no layer, or one that grows without end. */
 wt_status growth_make(const wt_sliding *sliding, const wt_layer_job *layer,
-                      const wt_layer_known *known, const measured_step *at, const wt_job *work,
-                      growth *g, wt_error *err) WT_NODISCARD;
+                      const wt_layer_observation *known, const measured_step *at,
+                      const wt_job *work, growth *g, wt_error *err) WT_NODISCARD;
 void growth_clear(growth *g);
 
 /* Of the values themselves (k = 0) or of draw k - 1. */

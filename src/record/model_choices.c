@@ -28,8 +28,8 @@ static wt_status predict(const validation *v, setting *s, double thickness, pred
                          wt_error *err)
 {
     wt_rubber refitted = {0};
-    wt_layer_known known =
-        v->layered ? *v->known : (wt_layer_known){.modulus_ratio = {1, 0, 0, NULL}};
+    wt_layer_observation known =
+        v->layered ? *v->known : (wt_layer_observation){.modulus_ratio = {1, 0, 0, NULL}};
     wt_status status = WT_OK;
     known.bulk_shear = s->known.bulk_shear;
     if (!isnan(thickness))
@@ -52,10 +52,10 @@ static wt_status predict(const validation *v, setting *s, double thickness, pred
 /* Its ratio about the same covariance: what is drawn does to it what it does to the values used. */
 static wt_status judge(const validation *v, const prediction *p, choice_row *r, wt_error *err)
 {
-    const trial *const used = &v->ratio[v->layered];
+    const model_variant *const used = &v->ratio[v->layered];
     const ratio_of of = {p, &v->steps, p->shear, v->layered};
     agreement fit = {.n = 0};
-    agreement_data data = trial_data(used);
+    agreement_data data = model_variant_data(used);
     double *const value = malloc((data.n + 1) * sizeof *value);
     wt_status status = value == NULL ? wt_fail(err, WT_E_MEMORY, "out of memory") : WT_OK;
     for (size_t i = 0; status == WT_OK && i < data.n; i++) {
@@ -71,7 +71,7 @@ static wt_status judge(const validation *v, const prediction *p, choice_row *r, 
         status = agreement_fit(&data, 0, &fit, err);
     if (status == WT_OK) {
         double mean = 0;
-        agreement_judge(&fit, validation_margin(v));
+        agreement_assess(&fit, validation_margin(v));
         for (size_t i = 0; i < data.n; i++)
             mean += v->mean.row[i] * value[i];
         r->ratio = exp(mean);

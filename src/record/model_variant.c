@@ -15,14 +15,14 @@ enum { FOR_EACH = 5, MOST_COLUMNS = REPLICATES_MOST + 1 };
 
 typedef struct splitting {
     const prediction *p;
-    trial *t;
+    model_variant *t;
     double *z;     /* [n_draws * columns] 1, then the numbers that are drawn */
     double *value; /* [n_draws * n] */
     size_t columns, n_good;
 } splitting;
 
 /* The draws that have a solution, with the numbers they are made of. */
-static void collect_draws(splitting *s, trial_value *of, const void *user, uint64_t seed)
+static void collect_draws(splitting *s, model_variant_value *of, const void *user, uint64_t seed)
 {
     const size_t n = s->t->n;
     for (size_t k = 0; k < s->p->n_draws; k++) {
@@ -81,7 +81,7 @@ static void take_mean(splitting *s)
  * slopes without scatter; of the rest it is that of the draws. */
 static wt_status find_covariance(splitting *s, wt_error *err)
 {
-    trial *const t = s->t;
+    model_variant *const t = s->t;
     const bool lines = s->n_good >= FOR_EACH * s->columns && take_lines(s);
     t->split = lines;
     if (!lines) {
@@ -108,8 +108,8 @@ static wt_status find_covariance(splitting *s, wt_error *err)
     return WT_OK;
 }
 
-static wt_status split_draws(const prediction *p, trial_value *of, const void *user, uint64_t seed,
-                             trial *t, wt_error *err)
+static wt_status split_draws(const prediction *p, model_variant_value *of, const void *user,
+                             uint64_t seed, model_variant *t, wt_error *err)
 {
     splitting s = {.p = p, .t = t, .columns = p->n_lines + 1};
     s.z = malloc((p->n_draws + 1) * s.columns * sizeof *s.z);
@@ -127,7 +127,7 @@ static wt_status split_draws(const prediction *p, trial_value *of, const void *u
 
 /* ---- the trial ------------------------------------------------------------------------------- */
 
-static wt_status allocate(trial *t, wt_error *err)
+static wt_status allocate(model_variant *t, wt_error *err)
 {
     double **const vectors[] = {&t->place, &t->value, &t->own},
                    **const squares[] = {&t->common, &t->rest};
@@ -140,15 +140,16 @@ static wt_status allocate(trial *t, wt_error *err)
     return good && t->slope != NULL ? WT_OK : wt_fail(err, WT_E_MEMORY, "out of memory");
 }
 
-agreement_data trial_data(const trial *t)
+agreement_data model_variant_data(const model_variant *t)
 {
     return (agreement_data){t->n, t->place, t->value, t->own, t->common, 0};
 }
 
-wt_status trial_make(const prediction *p, const measured *steps, trial_value *of, const void *user,
-                     const double *own, uint64_t seed, size_t most_terms, trial *t, wt_error *err)
+wt_status model_variant_make(const prediction *p, const measured *steps, model_variant_value *of,
+                             const void *user, const double *own, uint64_t seed, size_t most_terms,
+                             model_variant *t, wt_error *err)
 {
-    *t = (trial){.n = steps->n, .n_lines = p->n_lines};
+    *t = (model_variant){.n = steps->n, .n_lines = p->n_lines};
     wt_status status = allocate(t, err);
     for (size_t i = 0; status == WT_OK && i < t->n; i++) {
         t->place[i] = log10(steps->step[i].velocity);
@@ -160,11 +161,11 @@ wt_status trial_make(const prediction *p, const measured *steps, trial_value *of
     }
     if (status == WT_OK)
         status = split_draws(p, of, user, seed, t, err);
-    const agreement_data data = trial_data(t);
+    const agreement_data data = model_variant_data(t);
     return status == WT_OK ? agreement_fit(&data, most_terms, &t->fit, err) : status;
 }
 
-void trial_clear(trial *t)
+void model_variant_clear(model_variant *t)
 {
     free(t->place);
     free(t->value);
@@ -173,7 +174,7 @@ void trial_clear(trial *t)
     free(t->slope);
     free(t->rest);
     agreement_clear(&t->fit);
-    *t = (trial){.n = 0};
+    *t = (model_variant){.n = 0};
 }
 
 /* ---- what is compared ------------------------------------------------------------------------ */
@@ -185,17 +186,18 @@ double ratio_value(const void *user, size_t k, size_t step)
                prediction_total(r->p, k, r->layered, step, r->shear[k]));
 }
 
-wt_status trial_of_ratio(const ratio_of *of, uint64_t seed, trial *t, wt_error *err)
+wt_status model_variant_of_ratio(const ratio_of *of, uint64_t seed, model_variant *t, wt_error *err)
 {
     double *const own = malloc((of->steps->n + 1) * sizeof *own);
-    *t = (trial){.n = 0};
+    *t = (model_variant){.n = 0};
     if (own == NULL)
         return wt_fail(err, WT_E_MEMORY, "out of memory");
     for (size_t i = 0; i < of->steps->n; i++) {
         const measured_step *const s = &of->steps->step[i];
         own[i] = (s->error / s->friction) * (s->error / s->friction);
     }
-    const wt_status status = trial_make(of->p, of->steps, ratio_value, of, own, seed, 0, t, err);
+    const wt_status status =
+        model_variant_make(of->p, of->steps, ratio_value, of, own, seed, 0, t, err);
     free(own);
     return status;
 }
@@ -212,28 +214,28 @@ static double shear_value(const void *user, size_t k, size_t step)
            by_shear(r, k, step);
 }
 
-wt_status trial_of_shear(const prediction *p, const measured *steps, bool layered, uint64_t seed,
-                         trial *t, wt_error *err)
+wt_status model_variant_of_shear(const prediction *p, const measured *steps, bool layered,
+                                 uint64_t seed, model_variant *t, wt_error *err)
 {
     const ratio_of of = {p, steps, NULL, layered};
     double *const own = malloc((steps->n + 1) * sizeof *own);
-    *t = (trial){.n = 0};
+    *t = (model_variant){.n = 0};
     if (own == NULL)
         return wt_fail(err, WT_E_MEMORY, "out of memory");
     for (size_t i = 0; i < steps->n; i++) {
         const double error = steps->step[i].error / by_shear(&of, 0, i);
         own[i] = error * error;
     }
-    const wt_status status = trial_make(p, steps, shear_value, &of, own, seed, 1, t, err);
+    const wt_status status = model_variant_make(p, steps, shear_value, &of, own, seed, 1, t, err);
     free(own);
     return status;
 }
 
 /* ---- parts of the variance ------------------------------------------------------------------- */
 
-trial_parts trial_variance(const trial *t, const double *row)
+model_variant_parts model_variant_variance(const model_variant *t, const double *row)
 {
-    trial_parts parts = {.all = 0};
+    model_variant_parts parts = {.all = 0};
     for (size_t u = 0; u < t->n_lines; u++) {
         double sum = 0;
         for (size_t i = 0; i < t->n; i++)

@@ -38,7 +38,7 @@ static double limit_high(const setting *s)
 static wt_status likelihood_at(const validation *v, double q1, double *value, double *likelihood,
                                wt_error *err)
 {
-    const trial *const used = &v->ratio[v->layered];
+    const model_variant *const used = &v->ratio[v->layered];
     setting s = v->used;
     prediction p = {.part = NULL};
     s.surface.q1 = q1;
@@ -50,7 +50,7 @@ static wt_status likelihood_at(const validation *v, double q1, double *value, do
     const ratio_of of = {&p, &v->steps, p.shear, v->layered};
     for (size_t i = 0; status == WT_OK && i < v->steps.n; i++)
         value[i] = ratio_value(&of, 0, i);
-    agreement_data data = trial_data(used);
+    agreement_data data = model_variant_data(used);
     data.value = value;
     data.allowed = validation_allowed(v);
     if (status == WT_OK)

@@ -9,7 +9,7 @@
 /* Steps of one temperature and pressure. */
 typedef struct group {
     wt_sliding sliding;
-    const wt_layer_known *known; /* or NULL */
+    const wt_layer_observation *known; /* or NULL */
     const wt_job *work;
     size_t n;
     const double *velocity;
@@ -22,7 +22,7 @@ static double *numbers_of(double *out, size_t n, prediction_part part)
 
 /* One contact: friction without a shear stress of the bulk, which is the hysteresis and what cracks
  * cost, and by how much it grows with that. */
-static wt_status compute_contact(const group *g, wt_drawn *drawn, size_t replicate,
+static wt_status compute_contact(const group *g, wt_material_cache *drawn, size_t replicate,
                                  wt_layer_state layer, wt_friction_point *points,
                                  double *hysteresis, double *by_shear, wt_error *err)
 {
@@ -44,8 +44,8 @@ static wt_status compute_contact(const group *g, wt_drawn *drawn, size_t replica
     return status;
 }
 
-static wt_status compute_group(const group *g, wt_drawn *drawn, size_t replicate, double *out,
-                               wt_error *err)
+static wt_status compute_group(const group *g, wt_material_cache *drawn, size_t replicate,
+                               double *out, wt_error *err)
 {
     const wt_layer_state none = {.modulus_ratio = 1};
     wt_friction_point *const points = malloc((g->n + 1) * sizeof *points);
@@ -126,7 +126,7 @@ static wt_status predict_group(const group *g, const wt_sliding *sliding, const 
     return status;
 }
 
-static group group_of(const wt_sliding *sliding, const wt_layer_known *known,
+static group group_of(const wt_sliding *sliding, const wt_layer_observation *known,
                       const measured_step *step, const double *velocity, size_t n,
                       const wt_job *work)
 {
@@ -138,7 +138,7 @@ static group group_of(const wt_sliding *sliding, const wt_layer_known *known,
     return g;
 }
 
-static wt_status predict_groups(const wt_sliding *sliding, const wt_layer_known *known,
+static wt_status predict_groups(const wt_sliding *sliding, const wt_layer_observation *known,
                                 const measured *steps, const wt_job *work, bool draws,
                                 prediction *p, wt_error *err)
 {
@@ -159,7 +159,7 @@ static wt_status predict_groups(const wt_sliding *sliding, const wt_layer_known 
     return status;
 }
 
-wt_status prediction_make(const wt_sliding *sliding, const wt_layer_known *known,
+wt_status prediction_make(const wt_sliding *sliding, const wt_layer_observation *known,
                           const measured *steps, const wt_job *work, bool draws, prediction *p,
                           wt_error *err)
 {

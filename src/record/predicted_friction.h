@@ -26,7 +26,7 @@ typedef struct prediction {
 } prediction;
 
 /* `known` NULL: without a layer. Without `draws` only the values themselves. */
-wt_status prediction_make(const wt_sliding *sliding, const wt_layer_known *known,
+wt_status prediction_make(const wt_sliding *sliding, const wt_layer_observation *known,
                           const measured *steps, const wt_job *work, bool draws, prediction *p,
                           wt_error *err) WT_NODISCARD;
 void prediction_clear(prediction *p);

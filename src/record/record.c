@@ -59,7 +59,7 @@ static wt_status find_end(const wt_record_job *job, const double *y, size_t n, f
         *end = (found_end){found.end, found.steady_from, found.why_not};
         break;
     case WT_RUNNING_IN_STEP:
-        end->steady_from = wt_change_of_mean(y, n);
+        end->steady_from = wt_step_detect(y, n);
         break;
     case WT_RUNNING_IN_MSER:
         end->steady_from = wt_mser_5(y, n);
@@ -154,10 +154,10 @@ static void say_step(const wt_job *work, const wt_cycles *cycles, const record_r
         add_note(note, size, "few samples in a cycle: its mean holds a part of its wave");
     if (isnan(r->end.value) && r->steady.n < r->cycles) { /* no end, and yet not all of it */
         add_note(note, size, "not steady: the last tenth is told");
-        wt_parselog_add(work->log, WT_WARNING, r->file, NULL,
-                        "friction does not become steady before the last tenth of step %zu, whose "
-                        "mean is told",
-                        r->step);
+        wt_log_add(work->log, WT_WARNING, r->file, NULL,
+                   "friction does not become steady before the last tenth of step %zu, whose "
+                   "mean is told",
+                   r->step);
     }
     if (r->drift.low * r->drift.high > 0) {
         clocale_print(words, sizeof words, "drifts by %.2g over the steady part", r->drift.value);
@@ -217,7 +217,7 @@ static wt_status measure_step(const wt_record_job *job, const wt_cycles *all, co
 
 /* Rows so far, for what they have in common. */
 typedef struct together {
-    several friction;
+    record_group friction;
     record_conditions first;
     bool alike;
 } together;
@@ -240,8 +240,8 @@ static void count_row(together *all, const record_row *r)
         all->alike = true;
     }
     all->alike = all->alike && conditions_alike(all->first, r->at);
-    several_add(&all->friction,
-                (wt_estimate){r->steady.mean.value, r->steady.mean.standard_error, 0, "1"});
+    record_group_add(&all->friction,
+                     (wt_estimate){r->steady.mean.value, r->steady.mean.standard_error, 0, "1"});
 }
 
 static wt_status put_steps(const wt_record_job *job, const wt_job *work, const wt_cycles *cycles,
@@ -280,10 +280,10 @@ static void say_difference(const wt_job *work, const wt_cycles *cycles, const ch
     for (size_t i = 0; i < cycles->n; i++)
         sum += cycles->cycle[i].coefficient;
     if (cycles->difference > same_friction * sum / (double)cycles->n)
-        wt_parselog_add(work->log, WT_WARNING, file, NULL,
-                        "the friction coefficient of the file and its friction force over its load "
-                        "differ by up to %.3g; the first is used",
-                        cycles->difference);
+        wt_log_add(work->log, WT_WARNING, file, NULL,
+                   "the friction coefficient of the file and its friction force over its load "
+                   "differ by up to %.3g; the first is used",
+                   cycles->difference);
 }
 
 static void say_pauses(const wt_job *work, const record_pauses *pauses, const char *file)
@@ -292,18 +292,17 @@ static void say_pauses(const wt_job *work, const record_pauses *pauses, const ch
     for (size_t i = 0; i < pauses->n; i++)
         all += pauses->of[i].time;
     if (pauses->n > 0)
-        wt_parselog_add(work->log, WT_WARNING, file, NULL,
-                        "%zu pause%s of %s%.4g s in mid-record, %s at %.4g s of sliding: no time "
-                        "of sliding, and left out",
-                        pauses->n, pauses->n > 1 ? "s" : "", pauses->n > 1 ? "together " : "", all,
-                        pauses->n > 1 ? "the first" : "behind which it goes on", pauses->of[0].at);
+        wt_log_add(work->log, WT_WARNING, file, NULL,
+                   "%zu pause%s of %s%.4g s in mid-record, %s at %.4g s of sliding: no time "
+                   "of sliding, and left out",
+                   pauses->n, pauses->n > 1 ? "s" : "", pauses->n > 1 ? "together " : "", all,
+                   pauses->n > 1 ? "the first" : "behind which it goes on", pauses->of[0].at);
     if (pauses->alike > 0)
-        wt_parselog_add(
-            work->log, WT_WARNING, file, NULL,
-            "%zu gaps in the time that are alike are taken for those of a recorder that "
-            "is off between while sliding goes on; no column of distance, laps or "
-            "velocity tells",
-            pauses->alike);
+        wt_log_add(work->log, WT_WARNING, file, NULL,
+                   "%zu gaps in the time that are alike are taken for those of a recorder that "
+                   "is off between while sliding goes on; no column of distance, laps or "
+                   "velocity tells",
+                   pauses->alike);
 }
 
 /* Of a disc, by what its laps were long; NaN: neither tells it. */
@@ -326,11 +325,10 @@ static wt_status measure_wear(const wt_record_job *job, const wt_job *work, cons
     if (isnan(radius.value) && isnan(job->track_length.value) && cycles->kind != WT_CYCLE_STROKE) {
         radius.value = radius_of_laps(record);
         if (!isnan(radius.value))
-            wt_parselog_add(
-                work->log, WT_WARNING, file, NULL,
-                "the track is %.4g mm long by distance and laps, taken for that of a disc; "
-                "if it is not, give its length with --track-length",
-                2e3 * M_PI * radius.value);
+            wt_log_add(work->log, WT_WARNING, file, NULL,
+                       "the track is %.4g mm long by distance and laps, taken for that of a disc; "
+                       "if it is not, give its length with --track-length",
+                       2e3 * M_PI * radius.value);
     }
     return wear_add(job, record, cycles, radius, file, &w->wear, &w->rates, err);
 }
@@ -357,8 +355,9 @@ static void count_stored_wear(void *user, const table_view *v, size_t row)
         wear_rates_end_run(rates);
     const double rate = wear_get(v, row, WEAR_RATE);
     if (!isnan(rate))
-        several_add(&rates->run,
-                    (wt_estimate){rate, wear_get(v, row, WEAR_RATE_STANDARD_ERROR), 0, "m^2/N"});
+        record_group_add(
+            &rates->run,
+            (wt_estimate){rate, wear_get(v, row, WEAR_RATE_STANDARD_ERROR), 0, "m^2/N"});
 }
 
 static void begin_wear(writers *w, wt_error *err)
@@ -433,12 +432,12 @@ static wt_status measure_file(const wt_record_job *job, const wt_job *work, flow
         say_difference(work, &cycles, file->name);
         say_pauses(work, &pauses, file->name);
         if (cycles.n_unloaded > 0)
-            wt_parselog_add(work->log, WT_WARNING, file->name, NULL,
-                            "%zu of %zu samples are at no load and left out", cycles.n_unloaded,
-                            record.n);
+            wt_log_add(work->log, WT_WARNING, file->name, NULL,
+                       "%zu of %zu samples are at no load and left out", cycles.n_unloaded,
+                       record.n);
         status = put_steps(job, work, &cycles, &pauses, file->name, w, err);
     }
-    if (status == WT_OK && wear_is_asked(job))
+    if (status == WT_OK && wear_is_requested(job))
         status = measure_wear(job, work, &record, &cycles, radius, file->name, w, err);
     if (status != WT_OK)
         wt_error_file(err, file->name);
@@ -470,7 +469,7 @@ static wt_status end_tables(writers *w, wt_status status, wt_record_tables *made
 {
     record_set_print(&w->record, RECORD_KEY_N_FILES, "%zu", w->n_files);
     if (w->all.friction.n > 0 && w->all.alike)
-        record_set(&w->record, RECORD_KEY_FRICTION, several_mean(&w->all.friction, "1"));
+        record_set(&w->record, RECORD_KEY_FRICTION, record_group_mean(&w->all.friction, "1"));
     if (w->has_wear && w->rates.all.n > 0) {
         wear_set(&w->wear, WEAR_KEY_RATE, wear_rates_mean(&w->rates));
         wear_set_value(&w->wear, WEAR_KEY_RATE_DF, wear_rates_freedom(&w->rates), 0, 0);
@@ -489,18 +488,18 @@ static wt_status make_tables(const wt_record_job *job, const wt_job *work, const
     size_t n_failed;
     writers w = {.record = table_begin(&record_schema, err),
                  .cycles = table_begin(&record_cycles_schema, err)};
-    if (wear_is_asked(job))
+    if (wear_is_requested(job))
         begin_wear(&w, err);
     record_cycles_set_text(&w.cycles, RECORD_CYCLES_KEY_AVERAGED_OVER,
                            job->cycle == WT_CYCLE_AUTO ? "what each record tells"
                                                        : kind_words(job->cycle));
     record_task task = {job, work, &w, err};
-    wt_status status = flow_files_take(files, work, take_file, &task, &n_failed, err);
+    wt_status status = flow_files_process(files, work, take_file, &task, &n_failed, err);
     if (status == WT_OK && w.n_files == 0) {
         status = wt_fail(err, WT_E_EMPTY, "no record of friction could be read");
-        flow_tell_files(files, n_failed, err);
+        flow_error_add_files(files, n_failed, err);
     }
-    cost_say(work, (cost_summary){.items = (double)w.n_files});
+    cost_report(work, (cost_summary){.items = (double)w.n_files});
     return end_tables(&w, status, made);
 }
 

@@ -21,26 +21,26 @@ size_t conditions_step(const wt_cycle *cycles, size_t n);
 
 /* Measurements of one number: their mean has the scatter among them where that is more than their
  * errors. */
-typedef struct several {
+typedef struct record_group {
     double n, mean, squares, own; /* squares about the mean; of their errors */
-} several;
-void several_add(several *s, wt_estimate e);
+} record_group;
+void record_group_add(record_group *s, wt_estimate e);
 /* NaN of nothing. */
-wt_estimate several_mean(const several *s, const char *unit);
+wt_estimate record_group_mean(const record_group *s, const char *unit);
 /* Degrees of freedom of its error where that is of the scatter, else NaN. */
-double several_freedom(const several *s);
+double record_group_freedom(const record_group *s);
 
 /* Rates of wear: what tells that of one run, such as mass and area, is one measurement. */
 typedef struct wear_rates {
-    several run, all; /* the run that is not ended yet; those before */
-    double freedom;   /* of the last of those */
+    record_group run, all; /* the run that is not ended yet; those before */
+    double freedom;        /* of the last of those */
 } wear_rates;
 void wear_rates_end_run(wear_rates *rates);
 wt_estimate wear_rates_mean(const wear_rates *rates);
 double wear_rates_freedom(const wear_rates *rates);
 
 /* Whether anything of the wear was given. */
-bool wear_is_asked(const wt_record_job *job);
+bool wear_is_requested(const wt_record_job *job);
 wt_record_job wear_left_out(wt_record_job job);
 /* Mean cross-section of the profiles of job->profile, with their scatter. */
 wt_status wear_area_of_profiles(const wt_record_job *job, const wt_job *work, wt_estimate *area,

@@ -141,10 +141,10 @@ size_t recorded_means(const recorded *r, double until)
     return n > 0 ? n / length_of(n) : 0;
 }
 
-wt_status recorded_series(const recorded *r, double until, course_series *s, wt_error *err)
+wt_status recorded_series(const recorded *r, double until, running_in_series *s, wt_error *err)
 {
     const size_t cycles = count_until(r, until), length = cycles > 0 ? length_of(cycles) : 1;
-    const wt_status status = course_series_new(recorded_means(r, until), s, err);
+    const wt_status status = running_in_series_new(recorded_means(r, until), s, err);
     if (status != WT_OK)
         return status;
     s->begin = r->begin;

@@ -25,7 +25,7 @@ wt_status recorded_read(const table_view *record, const table_view *cycles,
 void recorded_free(recorded *runs, size_t n);
 
 /* The cycles up to a time, as means of equal numbers of them. */
-wt_status recorded_series(const recorded *r, double until, course_series *s,
+wt_status recorded_series(const recorded *r, double until, running_in_series *s,
                           wt_error *err) WT_NODISCARD;
 /* How many means those are. */
 size_t recorded_means(const recorded *r, double until);

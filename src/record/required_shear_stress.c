@@ -10,7 +10,7 @@
  * (pressure, area, modulus ratio) are factors; what is nearer, one that may reach below 0. */
 static const double well_above = 3; /* standard errors */
 
-wt_interval needed_interval(double value, double error, double df)
+wt_interval required_shear_interval(double value, double error, double df)
 {
     const double half = agreement_quantile(df) * error, factor = exp(half / value);
     if (value > well_above * error)
@@ -21,8 +21,8 @@ wt_interval needed_interval(double value, double error, double df)
 /* The weighted mean of what the steps ask for, of the values and of each draw. */
 static wt_status find_needed(validation *v, wt_error *err)
 {
-    const trial *const t = &v->shear;
-    v->needed = needed_interval(t->fit.coefficient[0], t->fit.error[0], t->fit.df[0]);
+    const model_variant *const t = &v->shear;
+    v->needed = required_shear_interval(t->fit.coefficient[0], t->fit.error[0], t->fit.df[0]);
     v->needed_shear = calloc(1 + v->p.n_draws, sizeof *v->needed_shear);
     if (v->needed_shear == NULL)
         return wt_fail(err, WT_E_MEMORY, "out of memory");
@@ -37,17 +37,18 @@ static wt_status find_needed(validation *v, wt_error *err)
     return WT_OK;
 }
 
-wt_status needed_make(validation *v, wt_error *err)
+wt_status required_shear_make(validation *v, wt_error *err)
 {
-    wt_status status = trial_of_shear(&v->p, &v->steps, v->layered, v->work->seed, &v->shear, err);
+    wt_status status =
+        model_variant_of_shear(&v->p, &v->steps, v->layered, v->work->seed, &v->shear, err);
     if (status == WT_OK)
         status = find_needed(v, err);
     if (status != WT_OK || !(v->needed.value > 0) || v->ratio[0].fit.terms < 2)
         return status; /* one velocity tells one number, which is the shear stress */
     const ratio_of of = {&v->p, &v->steps, v->needed_shear, v->layered};
-    status = trial_of_ratio(&of, v->work->seed, &v->shape, err);
+    status = model_variant_of_ratio(&of, v->work->seed, &v->shape, err);
     if (status == WT_OK)
-        agreement_judge(&v->shape.fit, validation_margin(v));
+        agreement_assess(&v->shape.fit, validation_margin(v));
     return status;
 }
 
@@ -73,7 +74,7 @@ static void say_plausible(const validation *v, table_writer *t)
     validation_set_text(t, VALIDATION_KEY_PLAUSIBLE, text);
 }
 
-void needed_set_keys(const validation *v, table_writer *t)
+void required_shear_set_keys(const validation *v, table_writer *t)
 {
     if (v->shear.n == 0)
         return;
@@ -83,7 +84,7 @@ void needed_set_keys(const validation *v, table_writer *t)
     validation_set_value(t, VALIDATION_KEY_NEEDED_HIGH, v->needed.high, 0, 0);
     say_plausible(v, t);
     if (v->shape.n > 0)
-        validation_set_text(t, VALIDATION_KEY_SHAPE, verdict_of_trial(v, &v->shape).text);
+        validation_set_text(t, VALIDATION_KEY_SHAPE, model_variant_verdict(v, &v->shape).text);
     else
         validation_set_text(t, VALIDATION_KEY_SHAPE,
                             v->needed.value > 0

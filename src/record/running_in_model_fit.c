@@ -19,7 +19,7 @@ static const double errors_around = 4, least_around = 0.3;
 static double settled_of(const growth *g, size_t k)
 {
     const course c = growth_course(g, k);
-    return course_settled(&c, RUNNING_IN_LEFT);
+    return running_in_curve_settled(&c, RUNNING_IN_LEFT);
 }
 
 static double log_settled(const growth *g, size_t k, double time)
@@ -34,21 +34,21 @@ static double expected_error(const growth *g)
     return fmax(growth_scatter(g, log_settled, (double)NAN), least_expected);
 }
 
-static wt_status fit_until(course_run *run, double until, double expected, wt_error *err)
+static wt_status fit_until(run_fit *run, double until, double expected, wt_error *err)
 {
-    course_series s;
+    running_in_series s;
     const course c = growth_course(run->growth, 0);
     wt_status status = recorded_series(run->rec, until, &s, err);
     if (status == WT_OK)
-        status =
-            course_fit_make(&(course_pair){&s, &c}, 1, RUNNING_IN_LEFT, expected, &run->fit, err);
+        status = running_in_curve_fit_make(&(running_in_curve_pair){&s, &c}, 1, RUNNING_IN_LEFT,
+                                           expected, &run->fit, err);
     run->until = until;
-    course_series_clear(&s);
+    running_in_series_clear(&s);
     return status;
 }
 
 /* The whole of the record, then its beginning where that is what counts. */
-static wt_status fit_values(course_run *run, wt_error *err)
+static wt_status fit_values(run_fit *run, wt_error *err)
 {
     const double settled = settled_of(run->growth, 0), expected = expected_error(run->growth);
     double until = run->rec->end[run->rec->n - 1];
@@ -65,12 +65,12 @@ static wt_status fit_values(course_run *run, wt_error *err)
     return status;
 }
 
-static void put_numbers(const course_run *run, size_t k, double margin, double log_ratio,
-                        double ratio, double *out)
+static void put_numbers(const run_fit *run, size_t k, double margin, double log_ratio, double ratio,
+                        double *out)
 {
     const growth *const g = run->growth;
     const course c = growth_course(g, k);
-    const double height = course_height(&c), most = 1 + margin;
+    const double height = running_in_curve_height(&c), most = 1 + margin;
     out[RUN_TIME_RATIO] = run->fit.seen ? log_ratio : (double)NAN;
     out[RUN_MORE] = height * (ratio - 1 / most);
     out[RUN_LESS] = height * (most - ratio);
@@ -84,32 +84,32 @@ static void put_numbers(const course_run *run, size_t k, double margin, double l
 
 /* What the course of each draw says, as it differs from that of the values by one law of the
  * scatter: what all laws leave open is the error of the record. */
-static wt_status fit_draws(course_run *run, double margin, wt_error *err)
+static wt_status fit_draws(run_fit *run, double margin, wt_error *err)
 {
     const growth *const g = run->growth;
-    const course_fit *const fit = &run->fit;
+    const running_in_curve_fit *const fit = &run->fit;
     const course nominal = growth_course(g, 0);
-    course_series s;
+    running_in_series s;
     const wt_status status = recorded_series(run->rec, run->until, &s, err);
     const double within = fit->seen ? fmax(errors_around * fit->error, least_around) : 0,
                  centre = fit->seen ? fit->log_factor : 0, settled = log(settled_of(g, 0));
-    course_place base = {0};
+    running_in_optimum base = {0};
     if (status == WT_OK)
-        base = course_place_find(&s, &nominal, fit->law, centre, within);
+        base = running_in_optimum_find(&s, &nominal, fit->law, centre, within);
     put_numbers(run, 0, margin, fit->log_factor, fit->ratio, run->value);
     for (size_t k = 1; status == WT_OK && k <= g->n_draws; k++) {
         const course c = growth_course(g, k);
         /* not seen: held at the time that the draw predicts */
         const double around = fit->seen ? centre + settled - log(settled_of(g, k)) : 0;
-        const course_place place = course_place_find(&s, &c, fit->law, around, within);
+        const running_in_optimum place = running_in_optimum_find(&s, &c, fit->law, around, within);
         put_numbers(run, k, margin, fit->log_factor + place.log_factor - base.log_factor,
                     fit->ratio + place.ratio - base.ratio, run->value + k * RUN_NUMBERS);
     }
-    course_series_clear(&s);
+    running_in_series_clear(&s);
     return status;
 }
 
-wt_status course_run_fit(course_run *run, double margin, wt_error *err)
+wt_status run_fit_compute(run_fit *run, double margin, wt_error *err)
 {
     wt_error why = WT_ERROR_INIT;
     const wt_status status = fit_values(run, &why);
@@ -135,26 +135,26 @@ wt_status course_run_fit(course_run *run, double margin, wt_error *err)
     return fit_draws(run, margin, err);
 }
 
-void course_run_clear(course_run *run)
+void run_fit_clear(run_fit *run)
 {
     free(run->value);
     run->value = NULL;
 }
 
-bool course_run_is_closed(const course_run *run)
+bool run_fit_is_closed(const run_fit *run)
 {
     return run->value != NULL && run->fit.seen && !isnan(run->fit.low) && !isnan(run->fit.high);
 }
 
-double course_run_value(const course_run *run, size_t k, run_number number)
+double run_fit_value(const run_fit *run, size_t k, run_number number)
 {
     return run->value[k * RUN_NUMBERS + (size_t)number];
 }
 
-double course_run_own(const course_run *run, run_number number)
+double run_fit_own(const run_fit *run, run_number number)
 {
     const course c = growth_course(run->growth, 0);
-    const double height = course_height(&c), ratio = run->fit.ratio_error,
+    const double height = running_in_curve_height(&c), ratio = run->fit.ratio_error,
                  time = (run->fit.high - run->fit.low) / (2 * NORMAL_95);
     switch (number) {
     case RUN_RATIO:
@@ -172,16 +172,15 @@ double course_run_own(const course_run *run, run_number number)
 /* ---- draws ----------------------------------------------------------------------------------- */
 
 /* Over the draws that both have; their number is returned. */
-static size_t covariance(const course_run *a, const course_run *b, run_number number,
-                         double *covariance)
+static size_t covariance(const run_fit *a, const run_fit *b, run_number number, double *covariance)
 {
     const size_t n =
         a->growth->n_draws < b->growth->n_draws ? a->growth->n_draws : b->growth->n_draws;
     double x = 0, y = 0, xy = 0;
     size_t good = 0;
     for (size_t k = 1; k <= n; k++) {
-        const double u = course_run_value(a, k, number) - course_run_value(a, 0, number),
-                     v = course_run_value(b, k, number) - course_run_value(b, 0, number);
+        const double u = run_fit_value(a, k, number) - run_fit_value(a, 0, number),
+                     v = run_fit_value(b, k, number) - run_fit_value(b, 0, number);
         if (!isfinite(u) || !isfinite(v))
             continue;
         x += u;
@@ -193,39 +192,39 @@ static size_t covariance(const course_run *a, const course_run *b, run_number nu
     return good;
 }
 
-double course_run_spread(const course_run *run, run_number number)
+double run_fit_spread(const run_fit *run, run_number number)
 {
     double variance;
     return covariance(run, run, number, &variance) > 1 ? sqrt(variance) : (double)NAN;
 }
 
-double course_run_end(const course_run *run, run_number number)
+double run_fit_end(const run_fit *run, run_number number)
 {
     const bool least = isnan(run->fit.high);
-    const double spread = NORMAL_95 * course_run_spread(run, number),
-                 at = course_run_value(run, 0, number),
+    const double spread = NORMAL_95 * run_fit_spread(run, number),
+                 at = run_fit_value(run, 0, number),
                  move = hypot((least ? run->fit.low : run->fit.high) - run->fit.log_factor, spread);
     return least ? at - move : at + move;
 }
 
 /* ---- several runs ---------------------------------------------------------------------------- */
 
-bool course_run_tells(const course_run *run, run_number number)
+bool run_fit_determines(const run_fit *run, run_number number)
 {
     if (number == RUN_PREDICTED) /* of which the record says nothing */
         return false;
     const bool of_change = number == RUN_MORE || number == RUN_LESS || number == RUN_RATIO;
-    return (of_change ? run->value != NULL : course_run_is_closed(run)) &&
-           isfinite(course_run_value(run, 0, number)) && isfinite(course_run_own(run, number));
+    return (of_change ? run->value != NULL : run_fit_is_closed(run)) &&
+           isfinite(run_fit_value(run, 0, number)) && isfinite(run_fit_own(run, number));
 }
 
 typedef struct run_arrays {
-    const course_run **of; /* [n] */
+    const run_fit **of; /* [n] */
     size_t n;
     double *place, *value, *own, *common;
 } run_arrays;
 
-static wt_status arrays_make(const course_run *runs, size_t n, run_number number, run_arrays *a,
+static wt_status arrays_make(const run_fit *runs, size_t n, run_number number, run_arrays *a,
                              wt_error *err)
 {
     *a = (run_arrays){.of = calloc(n + 1, sizeof *a->of),
@@ -237,12 +236,12 @@ static wt_status arrays_make(const course_run *runs, size_t n, run_number number
         a->common == NULL)
         return wt_fail(err, WT_E_MEMORY, "out of memory");
     for (size_t i = 0; i < n; i++) {
-        if (!course_run_tells(&runs[i], number))
+        if (!run_fit_determines(&runs[i], number))
             continue;
         a->of[a->n] = &runs[i];
         a->place[a->n] = log10(runs[i].rec->at.velocity);
-        a->value[a->n] = course_run_value(&runs[i], 0, number);
-        a->own[a->n++] = course_run_own(&runs[i], number);
+        a->value[a->n] = run_fit_value(&runs[i], 0, number);
+        a->own[a->n++] = run_fit_own(&runs[i], number);
     }
     for (size_t i = 0; i < a->n; i++)
         for (size_t k = 0; k < a->n; k++)
@@ -259,7 +258,7 @@ static void arrays_clear(run_arrays *a)
     free(a->common);
 }
 
-wt_status run_level_make(const course_run *runs, size_t n, run_number number, run_level *level,
+wt_status run_level_make(const run_fit *runs, size_t n, run_number number, run_level *level,
                          wt_error *err)
 {
     run_arrays a;
@@ -296,10 +295,10 @@ void run_level_clear(run_level *level)
 /* ---- all runs as one ------------------------------------------------------------------------- */
 
 typedef struct joint {
-    const course_run **of; /* [n] those that were compared */
-    course_series *series;
+    const run_fit **of; /* [n] those that were compared */
+    running_in_series *series;
     course *course;
-    course_pair *pair;
+    running_in_curve_pair *pair;
     size_t n;
     double log_odds; /* of a time and a change of each */
 } joint;
@@ -307,14 +306,14 @@ typedef struct joint {
 static void joint_clear(joint *j)
 {
     for (size_t i = 0; j->series != NULL && i < j->n; i++)
-        course_series_clear(&j->series[i]);
+        running_in_series_clear(&j->series[i]);
     free((void *)j->of);
     free(j->series);
     free(j->course);
     free(j->pair);
 }
 
-static wt_status joint_make(const course_run *runs, size_t n, joint *j, wt_error *err)
+static wt_status joint_make(const run_fit *runs, size_t n, joint *j, wt_error *err)
 {
     *j = (joint){.of = calloc(n + 1, sizeof *j->of),
                  .series = calloc(n + 1, sizeof *j->series),
@@ -329,7 +328,7 @@ static wt_status joint_make(const course_run *runs, size_t n, joint *j, wt_error
         const size_t k = j->n++;
         j->of[k] = &runs[i];
         j->course[k] = growth_course(runs[i].growth, 0);
-        j->pair[k] = (course_pair){&j->series[k], &j->course[k]};
+        j->pair[k] = (running_in_curve_pair){&j->series[k], &j->course[k]};
         j->log_odds += runs[i].fit.log_odds;
         status = recorded_series(runs[i].rec, runs[i].until, &j->series[k], err);
     }
@@ -342,9 +341,9 @@ static double moved(const joint *j, size_t k)
 {
     double sum = 0, n = 0;
     for (size_t i = 0; i < j->n; i++) {
-        const course_run *const run = j->of[i];
-        const double off = k <= run->growth->n_draws ? course_run_value(run, k, RUN_TIME_RATIO) -
-                                                           course_run_value(run, 0, RUN_TIME_RATIO)
+        const run_fit *const run = j->of[i];
+        const double off = k <= run->growth->n_draws ? run_fit_value(run, k, RUN_TIME_RATIO) -
+                                                           run_fit_value(run, 0, RUN_TIME_RATIO)
                                                      : (double)NAN;
         sum += isfinite(off) ? off : 0;
         n += isfinite(off);
@@ -353,7 +352,7 @@ static double moved(const joint *j, size_t k)
                  : log(settled_of(j->of[0]->growth, 0)) - log(settled_of(j->of[0]->growth, k));
 }
 
-static wt_status joint_tell(const joint *j, double margin, course_run *joined, wt_error *err)
+static wt_status joint_tell(const joint *j, double margin, run_fit *joined, wt_error *err)
 {
     const size_t draws = joined->growth->n_draws;
     joined->value = calloc((1 + draws) * RUN_NUMBERS, sizeof *joined->value);
@@ -366,17 +365,17 @@ static wt_status joint_tell(const joint *j, double margin, course_run *joined, w
 }
 
 /* One fit to all records that were compared; its value is NULL where they do not have one time. */
-static wt_status join_runs(const course_run *runs, size_t n, double margin, course_run *joined,
+static wt_status join_runs(const run_fit *runs, size_t n, double margin, run_fit *joined,
                            wt_error *err)
 {
     joint j;
-    *joined = (course_run){.value = NULL};
+    *joined = (run_fit){.value = NULL};
     wt_status status = joint_make(runs, n, &j, err);
     if (status == WT_OK && j.n > 1) {
         *joined = *j.of[0];
         joined->value = NULL;
-        status = course_fit_make(j.pair, j.n, RUNNING_IN_LEFT, expected_error(joined->growth),
-                                 &joined->fit, err);
+        status = running_in_curve_fit_make(j.pair, j.n, RUNNING_IN_LEFT,
+                                           expected_error(joined->growth), &joined->fit, err);
         if (status == WT_OK && joined->fit.log_odds > j.log_odds - log(COURSE_ODDS))
             status = joint_tell(&j, margin, joined, err);
     }
@@ -389,14 +388,14 @@ static const run_number of_time[] = {RUN_TIME_RATIO, RUN_MEASURED, RUN_WEAR, RUN
 
 static wt_status level_together(run_set *all, wt_error *err)
 {
-    course_run joined;
+    run_fit joined;
     wt_status status = join_runs(all->runs, all->n, all->margin, &joined, err);
     for (size_t k = 0; status == WT_OK && k < sizeof of_time / sizeof *of_time; k++) {
         run_level *const level = &all->level[of_time[k]];
         run_level_clear(level);
         status = run_level_make(&joined, joined.value != NULL, of_time[k], level, err);
     }
-    course_run_clear(&joined);
+    run_fit_clear(&joined);
     return status;
 }
 
@@ -408,7 +407,7 @@ wt_status run_set_levels(run_set *all, wt_error *err)
         status = run_level_make(all->runs, all->n, (run_number)k, &all->level[k], err);
     for (size_t i = 0; i < all->n; i++) {
         compared += all->runs[i].value != NULL;
-        closed += course_run_is_closed(&all->runs[i]);
+        closed += run_fit_is_closed(&all->runs[i]);
     }
     /* those that scatter by more than their errors have no time in common */
     if (status == WT_OK && compared > 1 && closed < compared &&

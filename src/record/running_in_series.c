@@ -27,10 +27,10 @@ static wt_estimate predicted(const growth *g, growth_value *of, double time)
 }
 
 /* Means first to before `end` of the series. */
-static void add_row(const course_run *run, const course_series *s, size_t first, size_t end,
+static void add_row(const run_fit *run, const running_in_series *s, size_t first, size_t end,
                     table_writer *t)
 {
-    const course_fit *const fit = &run->fit;
+    const running_in_curve_fit *const fit = &run->fit;
     const course c = growth_course(run->growth, 0);
     const size_t n = end - first;
     const double from = first > 0 ? s->end[first - 1] : s->begin,
@@ -45,13 +45,14 @@ static void add_row(const course_run *run, const course_series *s, size_t first,
         .measured = {mean, error, mean - half, mean + half},
         .layered = predicted(run->growth, growth_friction, time),
         .bare = predicted(run->growth, bare_friction, time),
-        .fitted = fit->seen ? fit->level + fit->ratio * course_at(&c, log(time) - fit->log_factor)
+        .fitted = fit->seen ? fit->level +
+                                  fit->ratio * running_in_curve_at(&c, log(time) - fit->log_factor)
                             : (double)NAN,
         .file = run->rec->at.file};
     validation_course_add_row(t, &row);
 }
 
-static void add_rows(const course_run *run, const course_series *s, table_writer *t)
+static void add_rows(const run_fit *run, const running_in_series *s, table_writer *t)
 {
     const double step = pow(s->end[s->n - 1] / s->end[0], 1.0 / MOST_ROWS);
     for (size_t first = 0, end; first < s->n; first = end) {
@@ -68,7 +69,7 @@ wt_status running_in_course_table(const run_set *all, const char *verdict, wt_ta
 {
     table_writer t = table_begin(&validation_course_schema, err);
     for (size_t i = 0; i < all->n && t.status == WT_OK; i++) {
-        course_series s;
+        running_in_series s;
         if (all->runs[i].value == NULL)
             continue;
         t.status = recorded_series(all->runs[i].rec, all->runs[i].until, &s, err);
@@ -76,7 +77,7 @@ wt_status running_in_course_table(const run_set *all, const char *verdict, wt_ta
             table_block(&t);
             add_rows(&all->runs[i], &s, &t);
         }
-        course_series_clear(&s);
+        running_in_series_clear(&s);
     }
     validation_course_set_text(&t, VALIDATION_COURSE_KEY_VERDICT, verdict);
     return table_end(&t, table);

@@ -27,10 +27,10 @@ static const wt_estimate no_number = {(double)NAN, (double)NAN, (double)NAN, NUL
 typedef struct running_in_task {
     const wt_validation_job *job;
     const wt_job *work;
-    recorded *rec;   /* [n] */
-    course_run *run; /* [n] */
-    growth *growth;  /* [n] those of a condition of their own */
-    bool *own;       /* [n] whether there is one */
+    recorded *rec;  /* [n] */
+    run_fit *run;   /* [n] */
+    growth *growth; /* [n] those of a condition of their own */
+    bool *own;      /* [n] whether there is one */
     size_t n, n_compared;
     char remarks[640]; /* what was taken for granted of the record */
 } running_in_task;
@@ -55,7 +55,7 @@ static bool are_alike(const measured_step *a, const measured_step *b)
 /* That of an earlier run at the same conditions, or its own. */
 static wt_status predict(running_in_task *task, size_t i, wt_error *err)
 {
-    course_run *const run = &task->run[i];
+    run_fit *const run = &task->run[i];
     wt_error why = WT_ERROR_INIT;
     for (size_t k = 0; k < i; k++)
         if (task->own[k] && are_alike(&task->rec[k].at, &task->rec[i].at)) {
@@ -76,14 +76,14 @@ static wt_status predict(running_in_task *task, size_t i, wt_error *err)
 
 static wt_status compare_run(running_in_task *task, size_t i, wt_error *err)
 {
-    course_run *const run = &task->run[i];
-    *run = (course_run){.rec = &task->rec[i]};
+    run_fit *const run = &task->run[i];
+    *run = (run_fit){.rec = &task->rec[i]};
     snprintf(run->note, sizeof run->note, "%s", run->rec->note);
     if (run->note[0] != '\0' || isnan(task->job->sliding->shear_stress.value))
         return WT_OK;
     wt_status status = predict(task, i, err);
     if (status == WT_OK && run->growth != NULL)
-        status = course_run_fit(run, task->job->running_in_margin, err);
+        status = run_fit_compute(run, task->job->running_in_margin, err);
     task->n_compared += run->value != NULL;
     return status;
 }
@@ -114,7 +114,7 @@ static void task_clear(running_in_task *task)
 {
     for (size_t i = 0; i < task->n; i++) {
         if (task->run != NULL)
-            course_run_clear(&task->run[i]);
+            run_fit_clear(&task->run[i]);
         if (task->growth != NULL)
             growth_clear(&task->growth[i]);
     }
@@ -131,26 +131,26 @@ TABLE_ROW(validation_running_in, VALIDATION_RUNNING_IN, measured_step at;
           const char *note, *file;)
 
 /* Standard error of a number of a run; NaN without draws, which an interval must hold. */
-static double error_of(const course_run *run, run_number number)
+static double error_of(const run_fit *run, run_number number)
 {
-    return hypot(sqrt(course_run_own(run, number)), course_run_spread(run, number));
+    return hypot(sqrt(run_fit_own(run, number)), run_fit_spread(run, number));
 }
 
 /* A time, or its ratio; of one end alone, which is that of the verdict, where it lies behind that
  * is not told. */
-static wt_interval factor_of(const course_run *run, run_number number)
+static wt_interval factor_of(const run_fit *run, run_number number)
 {
     const bool has_low = !isnan(run->fit.low), has_high = !isnan(run->fit.high);
-    const double end = exp(course_run_end(run, number)), none = (double)NAN;
+    const double end = exp(run_fit_end(run, number)), none = (double)NAN;
     if (has_low && has_high)
-        return validation_factor(course_run_value(run, 0, number), error_of(run, number),
+        return validation_factor(run_fit_value(run, 0, number), error_of(run, number),
                                  (double)INFINITY);
     return (wt_interval){none, none, has_low ? end : none, has_high ? end : none};
 }
 
-static wt_interval ratio_of_run(const course_run *run)
+static wt_interval ratio_of_run(const run_fit *run)
 {
-    const double value = course_run_value(run, 0, RUN_RATIO), error = error_of(run, RUN_RATIO),
+    const double value = run_fit_value(run, 0, RUN_RATIO), error = error_of(run, RUN_RATIO),
                  half = agreement_quantile((double)INFINITY) * error;
     return (wt_interval){value, error, value - half, value + half};
 }
@@ -173,7 +173,7 @@ static wt_estimate change_of(const growth *g)
     return (wt_estimate){-farthest(g, 0, none), growth_scatter(g, farthest, none), none, NULL};
 }
 
-static void add_run(const course_run *run, const wt_sliding *sliding, table_writer *t)
+static void add_run(const run_fit *run, const wt_sliding *sliding, table_writer *t)
 {
     validation_running_in_row row = {.at = run->rec->at,
                                      .settled = not_known,
@@ -186,9 +186,9 @@ static void add_run(const course_run *run, const wt_sliding *sliding, table_writ
     if (isnan(row.at.temperature))
         row.at.temperature = sliding->rubber->prony.reference_temperature;
     if (run->value != NULL) {
-        const double predicted = exp(course_run_value(run, 0, RUN_PREDICTED));
+        const double predicted = exp(run_fit_value(run, 0, RUN_PREDICTED));
         row.predicted.value = predicted;
-        row.predicted.standard_error = predicted * course_run_spread(run, RUN_PREDICTED);
+        row.predicted.standard_error = predicted * run_fit_spread(run, RUN_PREDICTED);
         row.change = change_of(run->growth);
         row.change_ratio = ratio_of_run(run);
         if (run->fit.seen) {
@@ -252,7 +252,7 @@ static wt_status set_agreement(const running_in_task *task, const run_set *all, 
             t, VALIDATION_RUNNING_IN_KEY_AGREES,
             "%s: the time asks for %.3g times the wear rate that was measured (95 %%: %s)",
             ratio.low <= 1 && ratio.high >= 1 ? "agrees within the errors" : "contradicts",
-            ratio.value, ends_of(ratio.low, ratio.high, 3).text);
+            ratio.value, format_range(ratio.low, ratio.high, 3).text);
     else
         validation_running_in_set_print(t, VALIDATION_RUNNING_IN_KEY_AGREES,
                                         "cannot say: the time asks for %.3g times the wear rate "
@@ -298,7 +298,7 @@ static wt_status set_keys(const running_in_task *task, const run_set *all, const
         "explains: the intervals of 95 %% of the time and of the change of friction, measured over "
         "predicted, are from %s; does not: one of them is outside; else it cannot say. "
         "Errors of record and prediction are in them, choices of the model are not",
-        validation_asked(all->margin).text);
+        validation_requested_range(all->margin).text);
     if (said->settled_by[0] != '\0')
         validation_running_in_set_text(t, VALIDATION_RUNNING_IN_KEY_SETTLED_BY, said->settled_by);
     set_interval(t, VALIDATION_RUNNING_IN_KEY_TIME_RATIO,
@@ -374,12 +374,12 @@ wt_status wt_validation_running_in_make(const wt_validation_job *job, const wt_j
     if (status == WT_OK)
         status = judge(&task, &all, err);
     if (status == WT_OK) {
-        const run_verdict said = run_set_judge(&all);
+        const run_verdict said = run_set_assess(&all);
         status = make_runs(&task, &all, &said, &made.running_in, err);
         if (status == WT_OK)
             status = running_in_course_table(&all, said.verdict, &made.course, err);
     }
-    cost_say(work, (cost_summary){.items = (double)task.n, .tolerance_asked = work->tolerance});
+    cost_report(work, (cost_summary){.items = (double)task.n, .tolerance_asked = work->tolerance});
     run_set_clear(&all);
     task_clear(&task);
     if (status == WT_OK) {

@@ -23,43 +23,43 @@ typedef enum run_number {
     RUN_NUMBERS
 } run_number;
 
-typedef struct course_run {
+typedef struct run_fit {
     const recorded *rec;
     const growth *growth; /* NULL: not predicted */
-    course_fit fit;
+    running_in_curve_fit fit;
     double until;  /* that it was fitted up to [s] */
     double *value; /* [(1 + n_draws) * RUN_NUMBERS]; NULL: not compared */
     char note[256];
-} course_run;
+} run_fit;
 
 /* The fits of one run; its note says why where there is none. */
-wt_status course_run_fit(course_run *run, double margin, wt_error *err) WT_NODISCARD;
-void course_run_clear(course_run *run);
+wt_status run_fit_compute(run_fit *run, double margin, wt_error *err) WT_NODISCARD;
+void run_fit_clear(run_fit *run);
 /* It has a time that the record tells to both sides. */
-bool course_run_is_closed(const course_run *run);
+bool run_fit_is_closed(const run_fit *run);
 /* Whether the record tells this number of it. */
-bool course_run_tells(const course_run *run, run_number number);
-double course_run_value(const course_run *run, size_t k, run_number number);
+bool run_fit_determines(const run_fit *run, run_number number);
+double run_fit_value(const run_fit *run, size_t k, run_number number);
 /* Variance by the record alone, and what its draws scatter. */
-double course_run_own(const course_run *run, run_number number);
-double course_run_spread(const course_run *run, run_number number);
+double run_fit_own(const run_fit *run, run_number number);
+double run_fit_spread(const run_fit *run, run_number number);
 /* Of a time of which the record tells one end alone that end of its ln, 95 % with the error of the
  * prediction; NaN without that error. */
-double course_run_end(const course_run *run, run_number number);
+double run_fit_end(const run_fit *run, run_number number);
 
 /* The level of a number over the runs that tell it, with both errors. */
 typedef struct run_level {
     agreement fit; /* n 0: none tells it */
     double own, common;
 } run_level;
-wt_status run_level_make(const course_run *runs, size_t n, run_number number, run_level *level,
+wt_status run_level_make(const run_fit *runs, size_t n, run_number number, run_level *level,
                          wt_error *err) WT_NODISCARD;
 wt_interval run_level_interval(const run_level *level);
 void run_level_clear(run_level *level);
 
 /* What all runs say together. */
 typedef struct run_set {
-    const course_run *runs;
+    const run_fit *runs;
     size_t n;
     double margin;
     uint64_t seed; /* of the draws */
@@ -77,7 +77,7 @@ void run_set_clear(run_set *all);
 typedef struct run_verdict {
     char verdict[600], settled_by[320];
 } run_verdict;
-run_verdict run_set_judge(const run_set *all);
+run_verdict run_set_assess(const run_set *all);
 
 /* Table "validation_course". */
 wt_status running_in_course_table(const run_set *all, const char *verdict, wt_table **table,

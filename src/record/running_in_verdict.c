@@ -14,16 +14,16 @@ static const double least_doubt = 0.025;
 
 /* ---- two questions --------------------------------------------------------------------------- */
 
-static bool contradicts_at_one_end(const course_run *run, double margin)
+static bool contradicts_at_one_end(const run_fit *run, double margin)
 {
-    if (run->value == NULL || !run->fit.seen || course_run_is_closed(run))
+    if (run->value == NULL || !run->fit.seen || run_fit_is_closed(run))
         return false;
-    const double end = course_run_end(run, RUN_TIME_RATIO);
+    const double end = run_fit_end(run, RUN_TIME_RATIO);
     return isnan(run->fit.high) ? end > log1p(margin) : end < -log1p(margin);
 }
 
 /* The first run that contradicts at the one end that it tells; NULL. */
-static const course_run *contradicting(const run_set *all)
+static const run_fit *contradicting(const run_set *all)
 {
     for (size_t i = 0; i < all->n; i++)
         if (contradicts_at_one_end(&all->runs[i], all->margin))
@@ -32,19 +32,19 @@ static const course_run *contradicting(const run_set *all)
 }
 
 /* The first compared run of which the record does not tell both ends of the time; NULL. */
-static const course_run *first_open(const run_set *all)
+static const run_fit *first_open(const run_set *all)
 {
     for (size_t i = 0; i < all->n; i++)
-        if (all->runs[i].value != NULL && !course_run_is_closed(&all->runs[i]))
+        if (all->runs[i].value != NULL && !run_fit_is_closed(&all->runs[i]))
             return &all->runs[i];
     return NULL;
 }
 
 /* The first run that tells a number; NULL. */
-static const course_run *first_telling(const run_set *all, run_number number)
+static const run_fit *first_telling(const run_set *all, run_number number)
 {
     for (size_t i = 0; i < all->n; i++)
-        if (course_run_tells(&all->runs[i], number))
+        if (run_fit_determines(&all->runs[i], number))
             return &all->runs[i];
     return NULL;
 }
@@ -57,7 +57,7 @@ static agreement_verdict judge_time(const run_set *all)
         return AGREEMENT_NO;
     if (judged.n == 0)
         return AGREEMENT_OPEN;
-    agreement_judge(&judged, log1p(all->margin));
+    agreement_assess(&judged, log1p(all->margin));
     return judged.verdict == AGREEMENT_YES && first_open(all) != NULL ? AGREEMENT_OPEN
                                                                       : judged.verdict;
 }
@@ -74,10 +74,10 @@ static agreement_verdict judge_change(const run_set *all)
 
 /* ---- words ----------------------------------------------------------------------------------- */
 
-static void tell_open(const course_run *run, char *text, size_t size)
+static void tell_open(const run_fit *run, char *text, size_t size)
 {
-    const course_fit *const fit = &run->fit;
-    const double with_prediction = course_run_end(run, RUN_TIME_RATIO);
+    const running_in_curve_fit *const fit = &run->fit;
+    const double with_prediction = run_fit_end(run, RUN_TIME_RATIO);
     const char *const by = isnan(with_prediction) ? ", by the record alone" : "";
     if (!fit->seen)
         clocale_print(
@@ -110,7 +110,7 @@ static void tell_open(const course_run *run, char *text, size_t size)
 static void tell_time(const run_set *all, char *text, size_t size)
 {
     const wt_interval i = run_level_interval(&all->level[RUN_TIME_RATIO]);
-    const course_run *const against = contradicting(all), *const open = first_open(all);
+    const run_fit *const against = contradicting(all), *const open = first_open(all);
     if (against != NULL || isnan(i.value)) {
         if (against == NULL && first_telling(all, RUN_TIME_RATIO) != NULL)
             snprintf(text, size, "a record tells a time of running-in that all together do not");
@@ -121,43 +121,43 @@ static void tell_time(const run_set *all, char *text, size_t size)
     clocale_print(text, size,
                   "a change as the layer makes it is over after %.3g times the time predicted (95 "
                   "%%: %s)%s",
-                  exp(i.value), ends_of(exp(i.low), exp(i.high), 3).text,
+                  exp(i.value), format_range(exp(i.low), exp(i.high), 3).text,
                   open != NULL ? ", which not every record tells" : "");
 }
 
-static void tell_change(const run_set *all, char *text, size_t size)
+static void append_change(const run_set *all, char *text, size_t size)
 {
     const wt_interval ratio = run_level_interval(&all->level[RUN_RATIO]);
     if (isnan(ratio.low) || isnan(ratio.high))
         snprintf(text, size, "how much friction changes is not told");
     else
         clocale_print(text, size, "the change of friction is %.3g times that predicted (95 %%: %s)",
-                      ratio.value, ends_of(ratio.low, ratio.high, 3).text);
+                      ratio.value, format_range(ratio.low, ratio.high, 3).text);
 }
 
-static void tell_verdict(const run_set *all, agreement_verdict verdict, char *text, size_t size)
+static void append_verdict(const run_set *all, agreement_verdict verdict, char *text, size_t size)
 {
     char time[240], change[120];
     /* The one that decides comes first. */
     const bool by_change = judge_time(all) != AGREEMENT_NO && judge_change(all) == AGREEMENT_NO;
     tell_time(all, time, sizeof time);
-    tell_change(all, change, sizeof change);
+    append_change(all, change, sizeof change);
     snprintf(text, size, "%s: %s; %s, and %s is asked for", validation_verdict(verdict),
              by_change ? change : time, by_change ? time : change,
-             validation_asked(all->margin).text);
+             validation_requested_range(all->margin).text);
 }
 
 /* ---- what would settle it -------------------------------------------------------------------- */
 
 /* The draw that a number of a run goes with most, and its share of the variance; 0: not known. */
-static double largest_line(const course_run *run, uint64_t seed, run_number number, size_t *line)
+static double largest_line(const run_fit *run, uint64_t seed, run_number number, size_t *line)
 {
     double most = 0;
-    const double all = course_run_spread(run, number);
+    const double all = run_fit_spread(run, number);
     for (size_t u = 0; u < run->growth->n_lines; u++) {
         double slope = 0, n = 0;
         for (size_t k = 1; k <= run->growth->n_draws; k++) {
-            const double off = course_run_value(run, k, number) - course_run_value(run, 0, number);
+            const double off = run_fit_value(run, k, number) - run_fit_value(run, 0, number);
             if (!isfinite(off))
                 continue;
             slope += off * flow_draw_normal(seed, k - 1, run->growth->line[u]);
@@ -172,7 +172,7 @@ static double largest_line(const course_run *run, uint64_t seed, run_number numb
     return all > 0 ? most / (all * all) : 0;
 }
 
-static const course_run *first_compared(const run_set *all)
+static const run_fit *first_compared(const run_set *all)
 {
     for (size_t i = 0; i < all->n; i++)
         if (all->runs[i].value != NULL)
@@ -180,7 +180,7 @@ static const course_run *first_compared(const run_set *all)
     return NULL;
 }
 
-static const char *close_of(const course_fit *fit)
+static const char *close_of(const running_in_curve_fit *fit)
 {
     if (fit->seen && isnan(fit->high))
         return "a record that goes on until a change as the layer makes it is over";
@@ -190,8 +190,8 @@ static const char *close_of(const course_fit *fit)
 
 static void advise(const run_set *all, run_number number, char *text, size_t size)
 {
-    const course_run *const open = number == RUN_TIME_RATIO ? first_open(all) : NULL,
-                            *const run = first_telling(all, number);
+    const run_fit *const open = number == RUN_TIME_RATIO ? first_open(all) : NULL,
+                         *const run = first_telling(all, number);
     const run_level *const level = &all->level[number];
     size_t line = 0;
     if (open != NULL || run == NULL) {
@@ -231,7 +231,7 @@ static bool may_be_bare(const run_set *all)
 /* Why nothing can be said; the first note of a run if nothing else. */
 static bool refuse(const run_set *all, run_verdict *w)
 {
-    const course_run *const run = first_compared(all);
+    const run_fit *const run = first_compared(all);
     const char *why = NULL, *settles = "a record of a fresh surface from its first cycle on";
     if (!all->has_shear) {
         why = "no shear stress is given, and the total friction is not predicted without it";
@@ -257,7 +257,7 @@ static bool refuse(const run_set *all, run_verdict *w)
     return true;
 }
 
-run_verdict run_set_judge(const run_set *all)
+run_verdict run_set_assess(const run_set *all)
 {
     run_verdict w = {.settled_by = ""};
     if (refuse(all, &w))
@@ -267,7 +267,7 @@ run_verdict run_set_judge(const run_set *all)
                                       : time == AGREEMENT_YES && change == AGREEMENT_YES
                                           ? AGREEMENT_YES
                                           : AGREEMENT_OPEN;
-    tell_verdict(all, verdict, w.verdict, sizeof w.verdict);
+    append_verdict(all, verdict, w.verdict, sizeof w.verdict);
     if (verdict == AGREEMENT_OPEN)
         advise(all, time != AGREEMENT_YES ? RUN_TIME_RATIO : RUN_RATIO, w.settled_by,
                sizeof w.settled_by);

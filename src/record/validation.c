@@ -76,7 +76,7 @@ TABLE_ROW(validation, VALIDATION, double velocity, temperature, pressure; wt_int
           const char *note, *file;)
 
 /* Of one step by itself: the scatter of the steps is its error, too. */
-static double step_error(const trial *t, size_t i)
+static double step_error(const model_variant *t, size_t i)
 {
     return sqrt(t->own[i] + t->fit.scatter + t->common[i * t->n + i]);
 }
@@ -84,7 +84,7 @@ static double step_error(const trial *t, size_t i)
 static void fill_ratio(const validation *v, bool layered, size_t i, wt_estimate *predicted,
                        wt_interval *ratio)
 {
-    const trial *const t = &v->ratio[layered];
+    const model_variant *const t = &v->ratio[layered];
     if (t->n == 0)
         return;
     const double error = step_error(t, i);
@@ -117,7 +117,7 @@ static void add_step(const validation *v, size_t i, table_writer *t)
         const agreement *const fit = &v->shear.fit;
         const double error = step_error(&v->shear, i),
                      df = agreement_df(error * error, fit->scatter, fit->scatter_df);
-        row.needed = needed_interval(v->shear.value[i], error, df);
+        row.needed = required_shear_interval(v->shear.value[i], error, df);
     }
     validation_add_row(t, &row);
 }
@@ -152,10 +152,11 @@ static void set_verdicts(const validation *v, table_writer *t)
         validation_set_text(t, VALIDATION_KEY_WITHOUT, no_shear);
     } else {
         validation_set_text(t, VALIDATION_KEY_VERDICT,
-                            verdict_of_trial(v, &v->ratio[v->layered]).text);
-        validation_set_text(t, VALIDATION_KEY_WITHOUT, verdict_of_trial(v, &v->ratio[0]).text);
+                            model_variant_verdict(v, &v->ratio[v->layered]).text);
+        validation_set_text(t, VALIDATION_KEY_WITHOUT, model_variant_verdict(v, &v->ratio[0]).text);
         if (layer)
-            validation_set_text(t, VALIDATION_KEY_WITH, verdict_of_trial(v, &v->ratio[1]).text);
+            validation_set_text(t, VALIDATION_KEY_WITH,
+                                model_variant_verdict(v, &v->ratio[1]).text);
     }
     validation_set_print(
         t, VALIDATION_KEY_TEST,
@@ -164,7 +165,7 @@ static void set_verdicts(const validation *v, table_writer *t)
         "all "
         "steps at once is outside; else it cannot say. Errors of record and scatter between steps "
         "are in it, %s, choices of the model are not",
-        validation_asked(v->job->margin).text,
+        validation_requested_range(v->job->margin).text,
         v->p.n_draws > 0 ? "and stated errors of the prediction"
                          : "errors of the prediction are not, without replicates");
 }
@@ -177,7 +178,8 @@ static void set_ratio(const validation *v, table_writer *t)
     set_interval(t, VALIDATION_KEY_RATIO, VALIDATION_KEY_RATIO_LOW, VALIDATION_KEY_RATIO_HIGH,
                  validation_factor(v->mean.value, v->mean.error, v->mean.df));
     if (fit->terms > 1) {
-        const double error = trial_variance(&v->ratio[v->layered], fit->weight + fit->n).all;
+        const double error =
+            model_variant_variance(&v->ratio[v->layered], fit->weight + fit->n).all;
         validation_set_value(t, VALIDATION_KEY_TREND, expm1(fit->coefficient[1] / fit->span),
                              exp(fit->coefficient[1] / fit->span) * sqrt(error) / fit->span,
                              (double)NAN);
@@ -261,7 +263,7 @@ static wt_status set_keys(const validation *v, const choice_ranges *ranges,
     set_layer(v, t);
     if (v->has_shear)
         validation_set(t, VALIDATION_KEY_SHEAR, flow_as_stated(v->used.sliding.shear_stress));
-    needed_set_keys(v, t);
+    required_shear_set_keys(v, t);
     wt_status status = v->has_shear ? cutoff_set_keys(v, t, err) : WT_OK;
     if (ranges != NULL)
         set_ranges(ranges, t);
@@ -281,9 +283,9 @@ static wt_status hold_ratios(validation *v, wt_error *err)
     wt_status status = WT_OK;
     for (int layered = 0; status == WT_OK && layered < (v->known != NULL ? 2 : 1); layered++) {
         const ratio_of of = {&v->p, &v->steps, v->p.shear, layered != 0};
-        status = trial_of_ratio(&of, v->work->seed, &v->ratio[layered], err);
+        status = model_variant_of_ratio(&of, v->work->seed, &v->ratio[layered], err);
         if (status == WT_OK)
-            agreement_judge(&v->ratio[layered].fit, validation_margin(v));
+            agreement_assess(&v->ratio[layered].fit, validation_margin(v));
     }
     return status == WT_OK ? mean_ratio_make(&v->ratio[v->layered], &v->mean, err) : status;
 }
@@ -343,9 +345,9 @@ static wt_status make_tables(const validation *v, wt_validation_tables *tables, 
 static void validation_clear(validation *v)
 {
     for (int i = 0; i < 2; i++)
-        trial_clear(&v->ratio[i]);
-    trial_clear(&v->shear);
-    trial_clear(&v->shape);
+        model_variant_clear(&v->ratio[i]);
+    model_variant_clear(&v->shear);
+    model_variant_clear(&v->shape);
     free(v->mean.row);
     free(v->needed_shear);
     prediction_clear(&v->p);
@@ -377,10 +379,11 @@ wt_status wt_validation_make(const wt_validation_job *job, const wt_job *work,
     if (status == WT_OK && v.has_shear)
         status = hold_ratios(&v, err);
     if (status == WT_OK)
-        status = needed_make(&v, err);
+        status = required_shear_make(&v, err);
     if (status == WT_OK)
         status = make_tables(&v, &made, err);
-    cost_say(work, (cost_summary){.items = (double)v.steps.n, .tolerance_asked = work->tolerance});
+    cost_report(work,
+                (cost_summary){.items = (double)v.steps.n, .tolerance_asked = work->tolerance});
     validation_clear(&v);
     if (status == WT_OK) {
         *tables = made;

@@ -16,17 +16,17 @@ typedef struct mean_ratio {
 typedef struct validation {
     const wt_validation_job *job;
     const wt_job *work;
-    const wt_layer_known *known; /* NULL: no layer, or none of finite thickness */
+    const wt_layer_observation *known; /* NULL: no layer, or none of finite thickness */
     setting used;
     measured steps;
     prediction p;
     bool has_shear, layered; /* what is judged has the layer */
-    trial ratio[2];          /* without, with the layer; n 0: none */
+    model_variant ratio[2];  /* without, with the layer; n 0: none */
     mean_ratio mean;         /* of the judged one */
-    trial shear;             /* the shear stress that each step asks for; likewise */
+    model_variant shear;     /* the shear stress that each step asks for; likewise */
     wt_interval needed;
     double *needed_shear; /* [1 + n_draws] the same of the draws */
-    trial shape;          /* with it */
+    model_variant shape;  /* with it */
 } validation;
 
 /* ln of the factor within which measured and predicted friction agree. */
@@ -34,24 +34,24 @@ double validation_margin(const validation *v);
 /* The variance of ln of what the theory may be off by: 95 % of it are within the margin. */
 double validation_allowed(const validation *v);
 /* "explains: ...", of a trial of the ratio. */
-typedef struct verdict_words {
+typedef struct verdict_text {
     char text[256];
-} verdict_words;
-verdict_words verdict_of_trial(const validation *v, const trial *t);
+} verdict_text;
+verdict_text model_variant_verdict(const validation *v, const model_variant *t);
 /* What measured over predicted shall be within: "0.833 to 1.2". */
-ends_text validation_asked(double margin);
+range_text validation_requested_range(double margin);
 /* "explains", "does not", "cannot say" */
 const char *validation_verdict(agreement_verdict verdict);
 
-wt_status mean_ratio_make(const trial *t, mean_ratio *mean, wt_error *err) WT_NODISCARD;
+wt_status mean_ratio_make(const model_variant *t, mean_ratio *mean, wt_error *err) WT_NODISCARD;
 /* Interval of 95 % of exp(value). */
 wt_interval validation_factor(double value, double error, double df);
 
 /* That of 95 % of a shear stress that is asked for, with the error of its value. */
-wt_interval needed_interval(double value, double error, double df);
+wt_interval required_shear_interval(double value, double error, double df);
 /* The shear stress that the record asks for, and what is left with it. */
-wt_status needed_make(validation *v, wt_error *err) WT_NODISCARD;
-void needed_set_keys(const validation *v, table_writer *t);
+wt_status required_shear_make(validation *v, wt_error *err) WT_NODISCARD;
+void required_shear_set_keys(const validation *v, table_writer *t);
 /* The largest wavenumber that it asks for, all else as used. */
 wt_status cutoff_set_keys(const validation *v, table_writer *t, wt_error *err) WT_NODISCARD;
 

@@ -31,14 +31,14 @@ wt_interval validation_factor(double value, double error, double df)
     return (wt_interval){factor, factor * error, exp(value - half), exp(value + half)};
 }
 
-ends_text validation_asked(double margin)
+range_text validation_requested_range(double margin)
 {
-    return ends_of(1 / (1 + margin), 1 + margin, 3);
+    return format_range(1 / (1 + margin), 1 + margin, 3);
 }
 
-verdict_words verdict_of_trial(const validation *v, const trial *t)
+verdict_text model_variant_verdict(const validation *v, const model_variant *t)
 {
-    verdict_words words;
+    verdict_text words;
     double ends[2];
     const agreement *const fit = &t->fit;
     const size_t at = fit->where;
@@ -52,19 +52,20 @@ verdict_words verdict_of_trial(const validation *v, const trial *t)
                       "(95 %%: %s)",
                       100 * v->job->margin, all, v->steps.step[at].velocity,
                       t->n > 1 ? ", where it is farthest," : "", exp(fit->smooth[at]),
-                      ends_of(exp(ends[0]), exp(ends[1]), 3).text);
+                      format_range(exp(ends[0]), exp(ends[1]), 3).text);
     else
-        clocale_print(
-            words.text, sizeof words.text,
-            "%s: at %.3g m/s measured over predicted is %.3g (95 %%%s: %s), and %s is "
-            "asked for",
-            validation_verdict(fit->verdict), v->steps.step[at].velocity, exp(fit->smooth[at]),
-            fit->verdict == AGREEMENT_NO ? " at all steps at once" : "",
-            ends_of(exp(ends[0]), exp(ends[1]), 3).text, validation_asked(v->job->margin).text);
+        clocale_print(words.text, sizeof words.text,
+                      "%s: at %.3g m/s measured over predicted is %.3g (95 %%%s: %s), and %s is "
+                      "asked for",
+                      validation_verdict(fit->verdict), v->steps.step[at].velocity,
+                      exp(fit->smooth[at]),
+                      fit->verdict == AGREEMENT_NO ? " at all steps at once" : "",
+                      format_range(exp(ends[0]), exp(ends[1]), 3).text,
+                      validation_requested_range(v->job->margin).text);
     return words;
 }
 
-wt_status mean_ratio_make(const trial *t, mean_ratio *mean, wt_error *err)
+wt_status mean_ratio_make(const model_variant *t, mean_ratio *mean, wt_error *err)
 {
     double *const one = calloc(t->n, sizeof *one);
     *mean = (mean_ratio){.row = calloc(t->n, sizeof *mean->row)};
@@ -79,7 +80,7 @@ wt_status mean_ratio_make(const trial *t, mean_ratio *mean, wt_error *err)
     }
     for (size_t i = 0; i < t->n; i++)
         mean->value += mean->row[i] * t->value[i];
-    const trial_parts parts = trial_variance(t, mean->row);
+    const model_variant_parts parts = model_variant_variance(t, mean->row);
     mean->error = sqrt(parts.all);
     mean->df = agreement_df(parts.all, parts.scatter, t->fit.scatter_df);
     free(one);

@@ -26,7 +26,7 @@ static bool given(wt_estimate e)
     return !isnan(e.value);
 }
 
-bool wear_is_asked(const wt_record_job *job)
+bool wear_is_requested(const wt_record_job *job)
 {
     return job->profile != NULL || given(job->track_area) || given(job->mass_loss) ||
            given(job->ball_radius);
@@ -227,8 +227,8 @@ static void put(wear_rows *rows, const char *of, wt_estimate volume)
              large ? "the contact is large against the ball" : "");
     wear_add_row(rows->t, r);
     if (!isnan(r->rate.value))
-        several_add(&rows->rates->run,
-                    (wt_estimate){r->rate.value, r->rate.standard_error, 0, "m^2/N"});
+        record_group_add(&rows->rates->run,
+                         (wt_estimate){r->rate.value, r->rate.standard_error, 0, "m^2/N"});
 }
 
 static wt_estimate volume_of_depth(wt_estimate depth, double ball_radius, wt_estimate length)

@@ -28,7 +28,7 @@ static wt_status find_track(const wt_image *image, wt_track *track, wt_error *er
 
 typedef struct profiles {
     const wt_job *work;
-    several areas;
+    record_group areas;
 } profiles;
 
 static wt_status measure_profile(void *user, flow_file *file, size_t i, wt_error *err)
@@ -54,11 +54,11 @@ static wt_status measure_profile(void *user, flow_file *file, size_t i, wt_error
         wt_error_advice(err, "measure across the whole track, with as much beside it");
         return WT_E_EMPTY;
     }
-    several_add(&to->areas, track.area);
+    record_group_add(&to->areas, track.area);
     if (track.ridges > track.area.value)
-        wt_parselog_add(to->work->log, WT_WARNING, file->name, NULL,
-                        "more stands above the surface beside the track than is missing in it: "
-                        "material was pushed aside or transferred, and its volume is no wear");
+        wt_log_add(to->work->log, WT_WARNING, file->name, NULL,
+                   "more stands above the surface beside the track than is missing in it: "
+                   "material was pushed aside or transferred, and its volume is no wear");
     return WT_OK;
 }
 
@@ -75,13 +75,13 @@ wt_status wear_area_of_profiles(const wt_record_job *job, const wt_job *work, wt
     size_t n_failed = 0;
     wt_status status = flow_files_list(&set, 1, work, &files, err);
     if (status == WT_OK)
-        status = flow_files_take(&files, work, measure_profile, &found, &n_failed, err);
+        status = flow_files_process(&files, work, measure_profile, &found, &n_failed, err);
     if (status == WT_OK && !(found.areas.n > 0)) {
         status = wt_fail(err, WT_E_EMPTY, "no profile shows the track");
-        flow_tell_files(&files, n_failed, err);
+        flow_error_add_files(&files, n_failed, err);
     }
     flow_files_clear(&files);
     if (status == WT_OK)
-        *area = several_mean(&found.areas, "m^2");
+        *area = record_group_mean(&found.areas, "m^2");
     return status;
 }

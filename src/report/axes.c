@@ -38,8 +38,8 @@ void span_add_section(value_span *span, const figure_drawing *d, int section, si
 
 static void write_label(figure_drawing *d, const char *axis, const char *label, const lab_unit *lab)
 {
-    growing_text words = {0};
-    text_add(&words, say(d->language, label));
+    text_buffer words = {0};
+    text_add(&words, translate(d->language, label));
     if (lab->label[0] != '\0')
         text_format(&words, " (%s)", lab->label);
     if (strcmp(axis, "cb") == 0) // beside the scale of colour, which stands right of the picture
@@ -52,7 +52,7 @@ static void write_label(figure_drawing *d, const char *axis, const char *label, 
 
 static void write_unit(figure_drawing *d, const char *axis, const char *unit, const lab_unit *lab)
 {
-    growing_text words = {0};
+    text_buffer words = {0};
     text_format(&d->script, "%s_unit = %s", axis, LITERAL(lab->factor));
     if (lab->offset != 0)
         text_format(&d->script, "; %s_offset = %s", axis, LITERAL(lab->offset));

@@ -29,7 +29,7 @@ static wt_status find_drawing(const char **script, const char **style, const cha
     return status;
 }
 
-static void add_page(const page_part *parts, size_t n, growing_text *page)
+static void add_page(const page_part *parts, size_t n, text_buffer *page)
 {
     const char *p = file_of_library("browse.html");
     for (const char *mark; (mark = strstr(p, "@@")) != NULL;) {
@@ -46,7 +46,7 @@ static void add_page(const page_part *parts, size_t n, growing_text *page)
     text_add(page, p);
 }
 
-static void add_source(const wt_result *result, bool with_provenance, growing_text *to)
+static void add_source(const wt_result *result, bool with_provenance, text_buffer *to)
 {
     text_html(to, "weartrack %s", wt_version());
     const char *command = wt_provenance_command(wt_result_provenance_const(result));
@@ -54,15 +54,15 @@ static void add_source(const wt_result *result, bool with_provenance, growing_te
         text_html(to, "<details><summary>Command</summary><code>%s</code></details>", command);
 }
 
-wt_status wt_browse_write(const wt_result *result, const char *path, bool with_provenance,
-                          wt_error *err)
+wt_status wt_curve_browser_write(const wt_result *result, const char *path, bool with_provenance,
+                                 wt_error *err)
 {
-    bound_tables tables = {0};
-    growing_text data = {0}, licence = {0}, source = {0}, page = {0};
+    figure_tables tables = {0};
+    text_buffer data = {0}, licence = {0}, source = {0}, page = {0};
     const char *script = NULL, *style = NULL, *copyright = NULL;
     wt_status status = find_drawing(&script, &style, &copyright, err);
     if (status == WT_OK)
-        status = bound_make(result, &tables, err);
+        status = figure_tables_make(result, &tables, err);
     if (status == WT_OK)
         status = curves_check(&tables, err);
     if (status == WT_OK)
@@ -86,6 +86,6 @@ wt_status wt_browse_write(const wt_result *result, const char *path, bool with_p
     text_free(&licence);
     text_free(&source);
     text_free(&page);
-    bound_clear(&tables);
+    figure_tables_clear(&tables);
     return status;
 }

@@ -10,6 +10,6 @@
 
 /* Appends the curves of all groups, their samples and the choices made before as JSON that may
  * stand in a script element. */
-wt_status browse_data(const bound_tables *tables, growing_text *to, wt_error *err) WT_NODISCARD;
+wt_status browse_data(const figure_tables *tables, text_buffer *to, wt_error *err) WT_NODISCARD;
 
 #endif

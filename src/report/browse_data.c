@@ -20,7 +20,7 @@ enum { PACKED_MOST = 65534, PACKED_NONE = 65535 };
 
 /* A string. Neither '<' nor what else markup has can stand in it, and what is no UTF-8 becomes
  * U+FFFD. */
-static void add_text(growing_text *to, const char *text)
+static void add_text(text_buffer *to, const char *text)
 {
     static const char escaped[] = "\"\\<>&\x7f";
     size_t left = strlen(text);
@@ -40,7 +40,7 @@ static void add_text(growing_text *to, const char *text)
     text_add(to, "\"");
 }
 
-static void add_number(growing_text *to, double value)
+static void add_number(text_buffer *to, double value)
 {
     if (isfinite(value))
         text_format(to, "%.6g", value);
@@ -49,7 +49,7 @@ static void add_number(growing_text *to, double value)
 }
 
 /* Contact points are differences of large numbers, and are handed back. */
-static void add_exact(growing_text *to, double value)
+static void add_exact(text_buffer *to, double value)
 {
     char number[64];
     if (!isfinite(value)) {
@@ -60,7 +60,7 @@ static void add_exact(growing_text *to, double value)
     text_add(to, number);
 }
 
-static void add_base64(growing_text *to, const uint8_t *bytes, size_t n)
+static void add_base64(text_buffer *to, const uint8_t *bytes, size_t n)
 {
     static const char digits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
     text_add(to, "\"");
@@ -127,7 +127,7 @@ static double compliance(const table_view *view, curve_block b)
 /* [samples, of them approach, first with a fit above the baseline, displacement from, to, force
  * from, to, compliance of the lever, base64: displacements, forces, fitted forces of the contact]
  */
-static wt_status add_samples(const table_view *view, curve_block b, growing_text *to, wt_error *err)
+static wt_status add_samples(const table_view *view, curve_block b, text_buffer *to, wt_error *err)
 {
     const size_t n = b.to - b.from;
     size_t approach = 0, contact = 0;
@@ -169,7 +169,7 @@ static wt_status add_samples(const table_view *view, curve_block b, growing_text
 /* [file, curve, verdict, reason, modulus, its error, contact point, x, y, samples or null]; a file
  * is a number in the list of files. */
 static wt_status add_row(const table_view *rows, size_t row, size_t file, curve_finder *f,
-                         growing_text *to, wt_error *err)
+                         text_buffer *to, wt_error *err)
 {
     static const indentation_column numbers[] = {INDENTATION_MODULUS,
                                                  INDENTATION_MODULUS_STANDARD_ERROR};
@@ -199,9 +199,9 @@ static wt_status add_row(const table_view *rows, size_t row, size_t file, curve_
     return status;
 }
 
-static wt_status add_group(const table_view *rows, curve_finder *f, growing_text *to, wt_error *err)
+static wt_status add_group(const table_view *rows, curve_finder *f, text_buffer *to, wt_error *err)
 {
-    growing_text files = {0};
+    text_buffer files = {0};
     wt_status status = WT_OK;
     const char *last = NULL;
     size_t n_files = 0;
@@ -225,7 +225,7 @@ static wt_status add_group(const table_view *rows, curve_finder *f, growing_text
 }
 
 /* Those of before, which are handed back with those that are made on the page. */
-static void add_choices(const table_view *choices, growing_text *to)
+static void add_choices(const table_view *choices, text_buffer *to)
 {
     static const choices_column texts[] = {CHOICES_GROUP, CHOICES_FILE, CHOICES_CHOICE,
                                            CHOICES_VALUE, CHOICES_NOTE};
@@ -240,7 +240,7 @@ static void add_choices(const table_view *choices, growing_text *to)
     }
 }
 
-wt_status browse_data(const bound_tables *tables, growing_text *to, wt_error *err)
+wt_status browse_data(const figure_tables *tables, text_buffer *to, wt_error *err)
 {
     curve_finder f = {.view = &tables->curves};
     wt_status status = curve_finder_make(&f, err);

@@ -20,7 +20,7 @@ curve_kind curve_kind_of(const table_view *rows, size_t row)
 }
 
 /* Those that were fitted, if none of them was refused; else 0. */
-static size_t n_none_refused(const bound_tables *tables)
+static size_t n_none_refused(const figure_tables *tables)
 {
     size_t n = 0;
     for (size_t i = 0; i < tables->n_indentation; i++)
@@ -30,7 +30,7 @@ static size_t n_none_refused(const bound_tables *tables)
     return n;
 }
 
-wt_status curves_check(const bound_tables *tables, wt_error *err)
+wt_status curves_check(const figure_tables *tables, wt_error *err)
 {
     if (tables->n_indentation > 0 && tables->curves.n_rows > 0)
         return WT_OK;
@@ -48,11 +48,11 @@ wt_status curves_check(const bound_tables *tables, wt_error *err)
 
 wt_status wt_report_check_curves(const wt_result *result, wt_error *err)
 {
-    bound_tables tables;
-    wt_status status = bound_make(result, &tables, err);
+    figure_tables tables;
+    wt_status status = figure_tables_make(result, &tables, err);
     if (status == WT_OK)
         status = curves_check(&tables, err);
-    bound_clear(&tables);
+    figure_tables_clear(&tables);
     return status;
 }
 

@@ -25,7 +25,7 @@ typedef enum curve_kind { CURVE_REFUSED, CURVE_DOUBTFUL, CURVE_ACCEPTED, CURVE_K
 curve_kind curve_kind_of(const table_view *rows, size_t row);
 
 /* Whether there are curves to look at; WT_E_EMPTY says how they are made. */
-wt_status curves_check(const bound_tables *tables, wt_error *err) WT_NODISCARD;
+wt_status curves_check(const figure_tables *tables, wt_error *err) WT_NODISCARD;
 
 /* With a view. curve_finder_clear also after a failure. */
 wt_status curve_finder_make(curve_finder *finder, wt_error *err) WT_NODISCARD;

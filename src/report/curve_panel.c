@@ -38,7 +38,7 @@ static void sort_by_kind(listed_curve *to, const curve_list *list)
         to[at[list->curves[i].kind]++] = list->curves[i];
 }
 
-wt_status curve_list_make(const bound_tables *tables, curve_list *list, wt_error *err)
+wt_status curve_list_make(const figure_tables *tables, curve_list *list, wt_error *err)
 {
     curve_finder finder = {.view = &tables->curves};
     *list = (curve_list){.n = 0};
@@ -82,7 +82,7 @@ void curve_list_clear(curve_list *list)
 
 /* Adds a text in lines, broken at blanks; what the last line has no room for is left out, and said
  * by dots. Returns how many. */
-static size_t add_lines(growing_text *to, const char *text, size_t most)
+static size_t add_lines(text_buffer *to, const char *text, size_t most)
 {
     size_t n = 0;
     while (*text != '\0' && n < most) {
@@ -101,7 +101,7 @@ static size_t add_lines(growing_text *to, const char *text, size_t most)
     return n;
 }
 
-static void add_name(growing_text *to, const char *file, double curve)
+static void add_name(text_buffer *to, const char *file, double curve)
 {
     enum { NAME = LINE_LENGTH - 8 }; /* behind it the number */
     text_name(to, strrchr(file, '/') != NULL ? strrchr(file, '/') + 1 : file, NAME);
@@ -109,7 +109,7 @@ static void add_name(growing_text *to, const char *file, double curve)
 }
 
 /* Lines: curve, verdict and modulus, reason of what was not accepted. Returns how many. */
-static size_t add_words(growing_text *to, const figure_drawing *d, const listed_curve *c)
+static size_t add_words(text_buffer *to, const figure_drawing *d, const listed_curve *c)
 {
     const char *verdict = indentation_text(c->rows, c->row, INDENTATION_VERDICT),
                *reason = indentation_text(c->rows, c->row, INDENTATION_REASON);
@@ -124,7 +124,7 @@ static size_t add_words(growing_text *to, const figure_drawing *d, const listed_
     text_add(to, "\n");
     if (d->tables->n_indentation > 1)
         text_format(to, "%s: ", c->rows->suffix);
-    text_add(to, say(d->language, verdict));
+    text_add(to, translate(d->language, verdict));
     if (c->kind != CURVE_REFUSED && isfinite(modulus.value))
         text_format(to, ", E = %s", ESTIMATE(d->language, &modulus));
     const size_t same = strlen("doubtful: ");
@@ -139,7 +139,7 @@ static size_t add_words(growing_text *to, const figure_drawing *d, const listed_
 
 size_t curve_panel_lines(const figure_drawing *d, const listed_curve *c)
 {
-    growing_text words = {0};
+    text_buffer words = {0};
     const size_t lines = add_words(&words, d, c);
     text_free(&words);
     return lines;
@@ -148,7 +148,7 @@ size_t curve_panel_lines(const figure_drawing *d, const listed_curve *c)
 /* As a label from the left end of the panel, its last line above the picture. */
 static void add_heading(figure_drawing *d, const listed_curve *c)
 {
-    growing_text words = {0}, line = {0};
+    text_buffer words = {0}, line = {0};
     const size_t lines = add_words(&words, d, c);
     size_t number = 0;
     for (const char *s = text_string(&words); number < lines; number++) {

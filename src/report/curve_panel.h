@@ -24,7 +24,8 @@ typedef struct curve_list {
 
 /* All curves that have samples: refused ones first, then doubtful ones, each kind in the order of
  * the table. curve_list_clear also after a failure. */
-wt_status curve_list_make(const bound_tables *tables, curve_list *list, wt_error *err) WT_NODISCARD;
+wt_status curve_list_make(const figure_tables *tables, curve_list *list,
+                          wt_error *err) WT_NODISCARD;
 void curve_list_clear(curve_list *list);
 
 /* Lines of words above the panel of a curve. */

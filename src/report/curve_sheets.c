@@ -34,10 +34,10 @@ static const size_t sheet_size = (size_t)1 << 20;
 
 typedef struct sheets {
     wt_report_options options;
-    bound_tables tables;
+    figure_tables tables;
     language *language;
     curve_list list;
-    growing_text style, script;
+    text_buffer style, script;
     char *folder; /* temporary */
     int in_use;
     size_t n, begun; /* sheets in all; that gnuplot has begun */
@@ -55,7 +55,7 @@ static void sheet_name(size_t sheet, char name[32])
 }
 
 static wt_status write_file(const sheets *s, const char *name, const char *ending,
-                            const growing_text *text, wt_error *err)
+                            const text_buffer *text, wt_error *err)
 {
     char file[64];
     (void)snprintf(file, sizeof file, "%s%s", name, ending);
@@ -73,19 +73,19 @@ static wt_status write_file(const sheets *s, const char *name, const char *endin
 static void add_title(sheets *s, size_t sheet)
 {
     static const char *const kinds[] = {"refused", "doubtful", "accepted"};
-    growing_text words = {.language = s->language};
-    text_say(&words, "Force curves, sheet %zu of %zu:", sheet + 1, s->n);
+    text_buffer words = {.language = s->language};
+    text_append_translated(&words, "Force curves, sheet %zu of %zu:", sheet + 1, s->n);
     for (int k = 0; k < CURVE_KINDS; k++)
         text_format(&words, "%s %zu %s", k > 0 ? "," : "", s->list.of_kind[k],
-                    say(s->language, kinds[k]));
+                    translate(s->language, kinds[k]));
     if (s->list.n < s->list.n_rows)
-        text_say(&words, " with samples, of %zu curves", s->list.n_rows);
+        text_append_translated(&words, " with samples, of %zu curves", s->list.n_rows);
     text_add(&s->script, "set multiplot title ");
     text_quoted(&s->script, text_string(&words));
     text_format(&s->script,
                 ".\"\\n%s\" noenhanced layout %d,%d margins 0.085,0.985,0.05,0.87 "
                 "spacing 0.085,0.135\n",
-                say(s->language, curve_panel_words), ROWS, COLUMNS);
+                translate(s->language, curve_panel_words), ROWS, COLUMNS);
     text_done(&words, &s->script);
 }
 
@@ -100,7 +100,7 @@ static wt_status add_sheet(sheets *s, size_t sheet, wt_error *err)
                         .language = s->language,
                         .table = &s->tables.curves,
                         .err = err};
-    growing_text data = {0};
+    text_buffer data = {0};
     const size_t first = CURVES * sheet,
                  end = first + CURVES < s->list.n ? first + CURVES : s->list.n;
     text_format(&s->script, "set print '%s'\nprint ''\nunset print\n", name);
@@ -122,7 +122,7 @@ static wt_status add_sheet(sheets *s, size_t sheet, wt_error *err)
 
 /* ---- all ------------------------------------------------------------------------------------- */
 
-static bool tell(const sheets *s, size_t done)
+static bool text_append(const sheets *s, size_t done)
 {
     return s->progress == NULL || s->progress->report == NULL ||
            s->progress->report(s->progress->user, "sheets", done, s->n);
@@ -145,7 +145,7 @@ static bool go_on(void *user)
     for (; s->begun < s->n && is_begun(s, s->begun); s->begun++)
         s->since = wt_time_wall();
     s->late = wt_time_wall() - s->since > s->options.gnuplot_time;
-    return !s->late && tell(s, s->begun > 0 ? s->begun - 1 : 0);
+    return !s->late && text_append(s, s->begun > 0 ? s->begun - 1 : 0);
 }
 
 /* Beside the output; where that is a pipe there is no such place. */
@@ -153,7 +153,7 @@ static wt_status open_folder(sheets *s, const char *path, wt_error *err)
 {
     struct stat info;
     const bool beside = stat(path, &info) != 0 || S_ISREG(info.st_mode);
-    char *const parent = beside ? wt_path_folder(path) : realpath(temporary_place(), NULL);
+    char *const parent = beside ? wt_path_folder(path) : realpath(temporary_directory(), NULL);
     if (parent == NULL && (beside || errno == ENOMEM))
         return wt_fail(err, WT_E_MEMORY, "out of memory");
     if (parent != NULL) {
@@ -174,7 +174,7 @@ static wt_status open_folder(sheets *s, const char *path, wt_error *err)
 
 static wt_status write_script(sheets *s, wt_error *err)
 {
-    growing_text output = {0};
+    text_buffer output = {0};
     wt_status status = write_file(s, "style", ".gp", &s->style, err);
     text_add(&output, file_of_library("output.gnuplot"));
     if (status == WT_OK)
@@ -194,7 +194,7 @@ static wt_status write_script(sheets *s, wt_error *err)
 static wt_status draw(sheets *s, const char *path, wt_error *err)
 {
     static const char *const arguments[] = {"--default-settings", "sheets.gp", NULL};
-    growing_text made = {0};
+    text_buffer made = {0};
     const gnuplot_call call = {.program = s->options.gnuplot,
                                .folder = s->folder,
                                .arguments = arguments,
@@ -231,7 +231,7 @@ static void sheets_clear(sheets *s)
     text_free(&s->style);
     text_free(&s->script);
     language_close(s->language);
-    bound_clear(&s->tables);
+    figure_tables_clear(&s->tables);
 }
 
 wt_status wt_sheets_write(const wt_result *result, const char *path,
@@ -243,7 +243,7 @@ wt_status wt_sheets_write(const wt_result *result, const char *path,
     if (status == WT_OK)
         status = language_open(s.options.language, &s.language, err);
     if (status == WT_OK)
-        status = bound_make(result, &s.tables, err);
+        status = figure_tables_make(result, &s.tables, err);
     if (status == WT_OK)
         status = curves_check(&s.tables, err);
     if (status == WT_OK)
@@ -257,12 +257,12 @@ wt_status wt_sheets_write(const wt_result *result, const char *path,
         status = open_folder(&s, path, err);
     if (status == WT_OK)
         status = write_script(&s, err);
-    if (status == WT_OK && !tell(&s, 0))
+    if (status == WT_OK && !text_append(&s, 0))
         status = wt_fail(err, WT_E_CANCELLED, "the sheets were cancelled");
     if (status == WT_OK)
         status = draw(&s, path, err);
     if (status == WT_OK)
-        (void)tell(&s, s.n);
+        (void)text_append(&s, s.n);
     sheets_clear(&s);
     return status;
 }

@@ -71,31 +71,34 @@ double lab_value(const lab_unit *lab, double value)
     return value * lab->factor + lab->offset;
 }
 
-value_words value_in_words(const language *l, wt_quantity quantity, const char *unit, double value)
+display_value_text format_display_value(const language *l, wt_quantity quantity, const char *unit,
+                                        double value)
 {
     lab_unit lab = lab_unit_for(quantity, unit, value);
     bool bare = !isfinite(value) || lab.label[0] == '\0';
-    value_words text;
+    display_value_text text;
     (void)snprintf(text.words, sizeof text.words, "%s%s%s",
                    SHORT_NUMBER(l, lab_value(&lab, value), 3), bare ? "" : " ",
                    bare ? "" : lab.label);
     return text;
 }
 
-value_words estimate_in_words(const language *l, const wt_estimate *estimate)
+display_value_text format_display_estimate(const language *l, const wt_estimate *estimate)
 {
     lab_unit lab = lab_unit_for(WT_Q_NONE, estimate->unit, estimate->value);
     double error = fabs(estimate->standard_error) * lab.factor;
     if (!(error > 0) || !isfinite(estimate->value)) {
-        value_words value = value_in_words(l, WT_Q_NONE, estimate->unit, estimate->value), text;
+        display_value_text value =
+                               format_display_value(l, WT_Q_NONE, estimate->unit, estimate->value),
+                           text;
         if (!isnan(error) || !isfinite(estimate->value))
             return value;
-        (void)snprintf(text.words, sizeof text.words, say(l, "%.700s (error not known)"),
+        (void)snprintf(text.words, sizeof text.words, translate(l, "%.700s (error not known)"),
                        value.words);
         return text;
     }
     const int decimals = (int)fmin(9, 1 - floor(log10(error)));
-    value_words text;
+    display_value_text text;
     (void)snprintf(text.words, sizeof text.words, "%s ± %s%s%s",
                    FIXED(l, number_to_tens(lab_value(&lab, estimate->value), decimals), decimals),
                    FIXED(l, number_to_tens(error, decimals), decimals),

@@ -20,14 +20,15 @@ lab_unit lab_unit_for(wt_quantity quantity, const char *unit, double magnitude);
 double lab_value(const lab_unit *lab, double value);
 
 /* A value [`unit`, NULL = that of the quantity] with its lab unit, up to 3 digits: "1.15 µm". */
-typedef struct value_words {
+typedef struct display_value_text {
     char words[800];
-} value_words;
-value_words value_in_words(const language *l, wt_quantity quantity, const char *unit, double value);
+} display_value_text;
+display_value_text format_display_value(const language *l, wt_quantity quantity, const char *unit,
+                                        double value);
 /* "12.3 ± 0.4 MPa" with the standard error, the value alone without one. */
-value_words estimate_in_words(const language *l, const wt_estimate *estimate);
+display_value_text format_display_estimate(const language *l, const wt_estimate *estimate);
 
-#define VALUE(l, quantity, unit, value) value_in_words(l, quantity, unit, value).words
-#define ESTIMATE(l, estimate) estimate_in_words(l, estimate).words
+#define VALUE(l, quantity, unit, value) format_display_value(l, quantity, unit, value).words
+#define ESTIMATE(l, estimate) format_display_estimate(l, estimate).words
 
 #endif

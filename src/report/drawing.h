@@ -35,7 +35,7 @@ typedef struct value_span {
 /* The first failure stays in `status`; later calls do nothing. */
 typedef struct figure_drawing {
     const figure_description *figure;
-    const bound_tables *tables;
+    const figure_tables *tables;
     const language *language;           /* of all that is read in the picture; NULL: English */
     const table_view *table;            /* that of the figure */
     const char *groups[DRAWING_GROUPS]; /* of a figure by groups: their names, borrowed; else "" */
@@ -56,8 +56,8 @@ typedef struct figure_drawing {
     bool band_titled;                       /* and so is the first band */
     double colours[FEW_COLOURS];            /* those that the key names in the place of a scale */
     size_t n_colours;                       /* 0: there are more, or the colour says nothing */
-    growing_text script;                    /* what follows the loading of the style */
-    growing_text caption;                   /* plain text */
+    text_buffer script;                     /* what follows the loading of the style */
+    text_buffer caption;                    /* plain text */
     size_t n_items;                         /* of the plot command that is being written */
 } figure_drawing;
 
@@ -67,7 +67,7 @@ bool drawing_is_wide(const figure_drawing *d);
 /* Fills sections, script and caption; without anything to draw it leaves no script. drawing_clear
  * also after a failure. */
 wt_status drawing_make(figure_drawing *d, const figure_description *figure,
-                       const bound_tables *tables, const language *l, wt_error *err) WT_NODISCARD;
+                       const figure_tables *tables, const language *l, wt_error *err) WT_NODISCARD;
 void drawing_clear(figure_drawing *d);
 
 /* ---- what the description says, for the functions of figures --------------------------------- */

@@ -63,7 +63,7 @@ wt_status figure_font_check(const void *member, wt_error *err)
 
 /* ---- before it is drawn ---------------------------------------------------------------------- */
 
-wt_status figure_data(const figure_drawing *d, growing_text *to, wt_error *err)
+wt_status figure_data(const figure_drawing *d, text_buffer *to, wt_error *err)
 {
     wt_status status = WT_OK;
     char *bytes = NULL;
@@ -94,14 +94,14 @@ static wt_status write_data(const report_folder *folder, drawn_figure *figure, w
                : folder_write(folder, name, text_string(&figure->data), figure->data.length, err);
 }
 
-void figure_decimals(growing_text *script, const language *l)
+void figure_decimals(text_buffer *script, const language *l)
 {
     if (l != NULL) // of the tics: what gnuplot reads keeps its points
         text_format(script, "set decimalsign '%c'\n", l->decimal_mark);
 }
 
 /* What the style and what is drawn on need to know. */
-static void add_sizes(growing_text *script, const figure_drawing *d,
+static void add_sizes(text_buffer *script, const figure_drawing *d,
                       const wt_report_options *options)
 {
     text_format(script, "figure_name = '%s'; figure_width = %s; figure_height = %s\n",
@@ -120,10 +120,10 @@ static wt_status write_script(const report_folder *folder, const wt_report_optio
 {
     const figure_drawing *const d = &drawn->drawing;
     const char *const figure = d->figure->name;
-    growing_text *const script = &drawn->script;
+    text_buffer *const script = &drawn->script;
     char name[128];
     text_format(script, "# %s. To draw it again: gnuplot %s.gp\n",
-                say(d->language, d->figure->title), figure);
+                translate(d->language, d->figure->title), figure);
     text_format(script,
                 "# Data: %s.tsv, in SI units; x_unit and so on turn them into those of "
                 "the axes.\n",
@@ -152,7 +152,7 @@ wt_status figure_write(const report_folder *folder, const wt_report_options *opt
 
 /* Appends "plots/NAME.ENDING", whose name is left in `name`. */
 static wt_status read_picture(const report_folder *folder, const drawn_figure *figure,
-                              const char *ending, char name[128], growing_text *picture,
+                              const char *ending, char name[128], text_buffer *picture,
                               wt_error *err)
 {
     (void)snprintf(name, 128, "plots/%s.%s", figure->drawing.figure->name, ending);
@@ -176,7 +176,7 @@ static wt_status size_bitmap(const report_folder *folder, const drawn_figure *fi
 {
     enum { HEAD = 8 + 25, WORDS = 8 + 9, CHUNK = WORDS + 4 }; // signature and IHDR; type and data
     unsigned char chunk[CHUNK] = "\0\0\0\x09pHYs";
-    growing_text picture = {0}, sized = {0};
+    text_buffer picture = {0}, sized = {0};
     char name[128];
     put_word(chunk + 8, (uint32_t)lrint(dots_per_metre));
     put_word(chunk + 12, (uint32_t)lrint(dots_per_metre));
@@ -204,7 +204,7 @@ wt_status figure_take(const report_folder *folder, const wt_report_options *opti
     char name[128];
     wt_status status = read_picture(folder, figure, "svg", name, &figure->svg, err);
     if (status == WT_OK && (options->figures & WT_FIGURE_SVG) != 0) {
-        growing_text sized = {0};
+        text_buffer sized = {0};
         svg_sized(&sized, text_string(&figure->svg), figure->svg.length, 1e3 * unit_length);
         status = sized.failed ? wt_fail(err, WT_E_MEMORY, "out of memory")
                               : folder_write(folder, name, text_string(&sized), sized.length, err);

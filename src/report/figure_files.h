@@ -18,9 +18,9 @@ wt_status figure_formats_read(const char *text, void *member, wt_error *err) WT_
 wt_status figure_font_check(const void *member, wt_error *err) WT_NODISCARD;
 
 /* Has a script, behind the style, write numbers as the language does. */
-void figure_decimals(growing_text *script, const language *l);
+void figure_decimals(text_buffer *script, const language *l);
 /* Appends the data of a figure: its sections, as gnuplot's `index` counts them. */
-wt_status figure_data(const figure_drawing *d, growing_text *to, wt_error *err) WT_NODISCARD;
+wt_status figure_data(const figure_drawing *d, text_buffer *to, wt_error *err) WT_NODISCARD;
 /* Writes data and script, and keeps them. */
 wt_status figure_write(const report_folder *folder, const wt_report_options *options,
                        drawn_figure *figure, wt_error *err) WT_NODISCARD;

@@ -172,8 +172,8 @@ void drawing_label_at(const figure_drawing *d, char label[DRAWING_LABEL], const 
                       double temperature)
 {
     (void)snprintf(
-        label, DRAWING_LABEL, isfinite(temperature) ? say(d->language, "%s at %s") : "%s%s",
-        say(d->language, words),
+        label, DRAWING_LABEL, isfinite(temperature) ? translate(d->language, "%s at %s") : "%s%s",
+        translate(d->language, words),
         isfinite(temperature) ? VALUE(d->language, WT_Q_TEMPERATURE, NULL, temperature) : "");
 }
 
@@ -185,7 +185,7 @@ char drawing_letter(const char *deformation)
 /* ---- curves ---------------------------------------------------------------------------------- */
 
 /* Adds a column with the factor to the unit of its axis: "($2*y_unit)". */
-static void add_place(growing_text *item, const figure_drawing *d, const char *letter,
+static void add_place(text_buffer *item, const figure_drawing *d, const char *letter,
                       const figure_axis *axis, unsigned column, bool above_zero)
 {
     size_t n = place_of(d, column) + 1;
@@ -235,7 +235,7 @@ static void add_title(figure_drawing *d, size_t group, const figure_curve *curve
     if (d->figure->by_group && curve->form != CURVE_FIT)
         plot_title(d, drawing_group_name(d, d->groups[group]));
     else if (curve->title != NULL && !*titled)
-        text_format(&d->script, " title '%s'", say(d->language, curve->title));
+        text_format(&d->script, " title '%s'", translate(d->language, curve->title));
     else if (has_key(d->figure) || d->n_colours > 0)
         text_add(&d->script, " notitle");
     *titled = true;
@@ -250,7 +250,7 @@ static void plot_curve(figure_drawing *d, size_t group, const figure_curve *curv
                                        [CURVE_FIT] = "lines"};
     const figure_axis *axis = &d->figure->y[curve->panel];
     const schema_field *column = &d->figure->table->columns[curve->column];
-    growing_text item = {0};
+    text_buffer item = {0};
 
     add_place(&item, d, "x", &d->figure->x, d->figure->x.column, false);
     text_add(&item, ":");
@@ -345,13 +345,13 @@ static void find_groups(figure_drawing *d)
 }
 
 wt_status drawing_make(figure_drawing *d, const figure_description *figure,
-                       const bound_tables *tables, const language *l, wt_error *err)
+                       const figure_tables *tables, const language *l, wt_error *err)
 {
     *d = (figure_drawing){.figure = figure,
                           .language = l,
                           .caption = {.language = l},
                           .tables = tables,
-                          .table = bound_find(tables, figure->table),
+                          .table = figure_tables_find(tables, figure->table),
                           .err = err,
                           .width = 1,
                           .height = 1,
@@ -368,9 +368,9 @@ wt_status drawing_make(figure_drawing *d, const figure_description *figure,
     else
         draw_as_described(d);
     if (d->script.length > 0) {
-        text_words(&d->caption, figure->words);
+        text_append_phrase(&d->caption, figure->words);
         if (d->too_many)
-            text_say(&d->caption, " Only the first %d are drawn.", DRAWING_GROUPS);
+            text_append_translated(&d->caption, " Only the first %d are drawn.", DRAWING_GROUPS);
         if (figure->caption != NULL)
             figure->caption(d);
     }

@@ -136,7 +136,7 @@ static wt_status check_replaceable(const char *path, wt_error *err)
     if (place_is_page(path))
         return !S_ISREG(info.st_mode) || !has_mark(path)
                    ? fail_not_replaceable(err, path, "another file of that name")
-                   : wt_guard_write(path, err);
+                   : wt_check_overwrite(path, err);
     if (!S_ISDIR(info.st_mode))
         return fail_not_replaceable(err, path, "a file of that name");
     if (!has_mark(path))
@@ -155,7 +155,7 @@ static wt_status check_replaceable(const char *path, wt_error *err)
         if (file == NULL)
             status = wt_fail(err, WT_E_MEMORY, "out of memory");
         else if (!is_bitmap_or_pdf(own))
-            status = wt_guard_write(file, err);
+            status = wt_check_overwrite(file, err);
         free(file);
     }
     return status;

@@ -13,7 +13,7 @@ static int by_english(const void *english, const void *sentence)
     return strcmp(english, ((const translation *)sentence)->english);
 }
 
-const char *say(const language *l, const char *english)
+const char *translate(const language *l, const char *english)
 {
     const translation *found = NULL;
     if (l != NULL && english != NULL)
@@ -21,15 +21,15 @@ const char *say(const language *l, const char *english)
     return found != NULL ? found->words : english;
 }
 
-const char *say_count(const language *l, size_t n, const char *one, const char *more)
+const char *translate_count(const language *l, size_t n, const char *one, const char *more)
 {
-    return say(l, n == 1 ? one : more);
+    return translate(l, n == 1 ? one : more);
 }
 
 const char *say_group(const language *l, const char *name)
 {
     const bool usual = strcmp(name, "bulk") == 0 || strcmp(name, "track") == 0;
-    return usual ? say(l, name) : name;
+    return usual ? translate(l, name) : name;
 }
 
 const char *language_tag(const language *l)

@@ -27,13 +27,13 @@ typedef struct language {
 __attribute__((format_arg(2)))
 #endif
 const char *
-say(const language *l, const char *english);
+translate(const language *l, const char *english);
 /* Of the same length for one and for more. */
 #if defined(__GNUC__)
 __attribute__((format_arg(3), format_arg(4)))
 #endif
 const char *
-say_count(const language *l, size_t n, const char *one, const char *more);
+translate_count(const language *l, size_t n, const char *one, const char *more);
 
 /* A group by its name, of which bulk and track have words. */
 const char *say_group(const language *l, const char *name);

@@ -54,19 +54,19 @@ static void plain_number(const char *digits, int exponent, char words[PLAIN_SIZE
     words[n] = '\0';
 }
 
-static number_words not_finite(const language *l, double value)
+static number_text not_finite(const language *l, double value)
 {
-    number_words number;
+    number_text number;
     (void)snprintf(number.words, sizeof number.words, "%s",
-                   isnan(value) ? say(l, "not known")
+                   isnan(value) ? translate(l, "not known")
                    : value < 0  ? "−∞"
                                 : "∞");
     return number;
 }
 
-number_words number_rounded(const language *l, double value, int significant, bool trimmed)
+number_text number_rounded(const language *l, double value, int significant, bool trimmed)
 {
-    number_words number = {"0"};
+    number_text number = {"0"};
     char digits[MAX_DIGITS + 1], words[PLAIN_SIZE], power[PLAIN_SIZE] = "";
     int count = significant < 1 ? 1 : significant > MAX_DIGITS ? MAX_DIGITS : significant;
     if (!isfinite(value))
@@ -88,10 +88,10 @@ number_words number_rounded(const language *l, double value, int significant, bo
     return number;
 }
 
-number_words number_fixed(const language *l, double value, int decimals)
+number_text number_fixed(const language *l, double value, int decimals)
 {
     enum { MAX_DECIMALS = 15, MARK = sizeof "−" - 1 };
-    number_words number = {"−"};
+    number_text number = {"−"};
     int after = decimals < 0 ? 0 : decimals > MAX_DECIMALS ? MAX_DECIMALS : decimals;
     if (!isfinite(value))
         return not_finite(l, value);
@@ -103,13 +103,13 @@ number_words number_fixed(const language *l, double value, int decimals)
     return number;
 }
 
-number_words number_literal(double value)
+number_text number_literal(double value)
 {
     if (isnan(value) || value == 0)
-        return isnan(value) ? (number_words){"NaN"} : (number_words){"0"};
+        return isnan(value) ? (number_text){"NaN"} : (number_text){"0"};
     if (isinf(value))
-        return value < 0 ? (number_words){"-1e308"} : (number_words){"1e308"};
-    number_words number;
+        return value < 0 ? (number_text){"-1e308"} : (number_text){"1e308"};
+    number_text number;
     char digits[MAX_DIGITS + 1], words[PLAIN_SIZE], power[8] = "";
     int exponent = decimal_digits(value, 10, digits);
     trim_zeros(digits);

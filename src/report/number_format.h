@@ -9,17 +9,17 @@
 
 #include <stdbool.h>
 
-/* Returned whole, to be used within one expression: text_say(text, "%s", NUMBER(l, x, 3)). */
-typedef struct number_words {
+/* Returned whole, to be used within one expression: text_append_translated(text, "%s", NUMBER(l, x,
+ * 3)). */
+typedef struct number_text {
     char words[352]; /* 309 digits before the decimal mark at most */
-} number_words;
+} number_text;
 
 /* Rounded to `significant` digits (but never left of the decimal point): "12.3", "−0.0046", 1.2e-7
  * as "1.2×10⁻⁷". "not known" for NaN, "∞". Trimmed, without zeros at the end of its decimals. */
-number_words number_rounded(const language *l, double value, int significant, bool trimmed);
-number_words number_fixed(const language *l, double value,
-                          int decimals);                /* with so many decimals */
-number_words number_literal(double value);              /* as gnuplot reads it, to 10 digits */
+number_text number_rounded(const language *l, double value, int significant, bool trimmed);
+number_text number_fixed(const language *l, double value, int decimals); /* with so many decimals */
+number_text number_literal(double value);               /* as gnuplot reads it, to 10 digits */
 double number_to_digits(double value, int significant); /* the nearest of so many digits */
 
 #define NUMBER(l, value, significant) number_rounded(l, value, significant, false).words

@@ -11,7 +11,7 @@
 
 #include <string.h>
 
-static void page_head(const page_writer *page, growing_text *out, const char *title)
+static void page_head(const page_writer *page, text_buffer *out, const char *title)
 {
     const char *const tag = language_tag(page->language);
     text_html(out,
@@ -31,7 +31,7 @@ static void page_head(const page_writer *page, growing_text *out, const char *ti
     text_html(out,
               "</style>\n</head>\n<body>\n<main>\n<header>\n<h1>%s</h1>\n"
               "<nav aria-label=\"%s\">\n<ul>\n",
-              title, say(page->language, "Contents"));
+              title, translate(page->language, "Contents"));
     text_add(out, text_string(&page->contents));
     text_add(out, "</ul>\n</nav>\n</header>\n");
 }
@@ -46,7 +46,7 @@ static size_t folded_answers(page_writer *page, size_t row)
     if (end == row)
         return end;
     text_add(&page->out, "<details class=\"printed\">\n<summary>");
-    text_say(&page->out, "%zu more", end - row);
+    text_append_translated(&page->out, "%zu more", end - row);
     text_add(&page->out, "</summary>\n");
     for (; row < end; row++)
         text_html(&page->out, "<p>%s</p>\n", answer_text(table, row, ANSWER_ANSWER));
@@ -89,7 +89,7 @@ static void page_answer(page_writer *page)
 
 /* A file that the page holds. */
 static void add_file(page_writer *page, const char *name, const char *ending,
-                     const growing_text *file)
+                     const text_buffer *file)
 {
     text_html(&page->out, "<a download=\"%s.%s\" href=\"", name, ending);
     text_data_link(&page->out, "text/plain", text_string(file), file->length);
@@ -104,14 +104,15 @@ static void add_source(page_writer *page, const drawn_figure *drawn)
     const char *const name = drawn->drawing.figure->name;
     text_add(&page->out, " <span class=\"source\">");
     if (drawn->data.length <= data_limit) {
-        text_words(&page->out, "Data and script: ");
+        text_append_phrase(&page->out, "Data and script: ");
         add_file(page, name, "tsv", &drawn->data);
         text_add(&page->out, ", ");
     } else
-        text_say(&page->out,
-                 "Data: plots/%s.tsv, %zu kB, in the folder that weartrack report -o FOLDER "
-                 "writes. Script: ",
-                 name, drawn->data.length >> 10);
+        text_append_translated(
+            &page->out,
+            "Data: plots/%s.tsv, %zu kB, in the folder that weartrack report -o FOLDER "
+            "writes. Script: ",
+            name, drawn->data.length >> 10);
     add_file(page, name, "gp", &drawn->script);
     text_add(&page->out, ".</span>");
 }
@@ -123,15 +124,15 @@ static wt_status add_figure(page_writer *page, const drawn_figure *drawn, size_t
     text_html(&page->out, "<figure id=\"figure-%s\" class=\"%s\">\n<div class=\"card\">",
               figure->name, drawing_is_wide(&drawn->drawing) ? "wide" : "single");
     if (!svg_inline(&page->out, text_string(&drawn->svg), drawn->svg.length, figure->name,
-                    say(page->language, figure->title))) {
+                    translate(page->language, figure->title))) {
         wt_status status =
             wt_fail(err, WT_E_TOOL, "the picture of figure %s is not SVG", figure->name);
         wt_error_advice(err, "a plot style must use `set terminal svg`");
         return status;
     }
     text_add(&page->out, "</div>\n<figcaption><strong>");
-    text_say(&page->out, "Figure %zu. ", number);
-    text_html(&page->out, "%s.</strong> %s", say(page->language, figure->title),
+    text_append_translated(&page->out, "Figure %zu. ", number);
+    text_html(&page->out, "%s.</strong> %s", translate(page->language, figure->title),
               text_string(&drawn->drawing.caption));
     add_source(page, drawn);
     text_add(&page->out, "</figcaption>\n</figure>\n");
@@ -157,8 +158,9 @@ static void add_missing_figures(page_writer *page)
         const figure_description *figure = page->figures[i].drawing.figure;
         if (figure != NULL && page->figures[i].svg.length == 0 && figure->nothing != NULL)
             text_html(&page->out, "<p class=\"omitted\">%s: %s – %s.</p>\n",
-                      say(page->language, "Not drawn"), say(page->language, figure->title),
-                      say(page->language, figure->nothing));
+                      translate(page->language, "Not drawn"),
+                      translate(page->language, figure->title),
+                      translate(page->language, figure->nothing));
     }
 }
 
@@ -187,11 +189,11 @@ static wt_status page_figures(page_writer *page, wt_error *err)
     }
     if (number > 0) {
         text_add(&page->out, "<p class=\"source\">");
-        text_words(&page->out, "The scripts are of gnuplot, and load ");
-        growing_text output = {0};
+        text_append_phrase(&page->out, "The scripts are of gnuplot, and load ");
+        text_buffer output = {0};
         text_add(&output, file_of_library("output.gnuplot"));
         add_file(page, "style", "gp", page->style);
-        text_words(&page->out, " and ");
+        text_append_phrase(&page->out, " and ");
         add_file(page, "output", "gp", &output);
         text_add(&page->out, ".</p>\n");
         text_done(&output, &page->out);
@@ -210,14 +212,14 @@ static const char *page_title(const page_writer *page)
                                        &page->tables->friction};
     for (size_t i = 0; i < COUNT_OF(asked); i++)
         if (asked[i]->n_rows > 0)
-            return say(page->language, asked[i]->schema->title);
+            return translate(page->language, asked[i]->schema->title);
     for (int in_depth = 0; in_depth < 2; in_depth++)
         for (size_t i = 0; i < page->n_figures; i++)
             if (page->figures[i].svg.length > 0 &&
                 page->figures[i].drawing.figure->in_depth == in_depth)
-                return say(page->language, page->figures[i].drawing.figure->title);
+                return translate(page->language, page->figures[i].drawing.figure->title);
     if (wt_result_n_tables(page->result) == 0)
-        return say(page->language, "Nothing was answered");
+        return translate(page->language, "Nothing was answered");
     const wt_table *first = wt_result_table(page->result, 0);
     title = wt_table_title(first);
     return title[0] != '\0' ? title : wt_table_name(first);
@@ -226,7 +228,7 @@ static const char *page_title(const page_writer *page)
 wt_status page_write(page_writer *page, wt_error *err)
 {
     // The body first, so that the contents before it are known.
-    growing_text body = {0};
+    text_buffer body = {0};
     page_answer(page);
     page_failures(page);
     page_numbers(page);
@@ -238,8 +240,8 @@ wt_status page_write(page_writer *page, wt_error *err)
         page_cost(page);
         page_record(page);
         body = page->out;
-        page->out = (growing_text){.failed = body.failed || page->contents.failed,
-                                   .language = page->language};
+        page->out = (text_buffer){.failed = body.failed || page->contents.failed,
+                                  .language = page->language};
         page_head(page, &page->out, page_title(page));
         text_bytes(&page->out, text_string(&body), body.length);
         text_add(&page->out, "</main>\n</body>\n</html>\n");

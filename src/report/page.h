@@ -9,18 +9,18 @@
 
 /* A figure that this library knows, drawn or not. */
 typedef struct drawn_figure {
-    figure_drawing drawing;         /* zeroed if the result does not have its table */
-    growing_text data, script, svg; /* of the page; empty if there was nothing to draw */
+    figure_drawing drawing;        /* zeroed if the result does not have its table */
+    text_buffer data, script, svg; /* of the page; empty if there was nothing to draw */
 } drawn_figure;
 
 typedef struct page_writer {
-    growing_text out;
-    growing_text contents; /* list of the headings so far */
+    text_buffer out;
+    text_buffer contents; /* list of the headings so far */
     const wt_result *result;
-    const bound_tables *tables;
-    const language *language;  /* NULL: English */
-    const growing_text *style; /* that the scripts load */
-    const char *font;          /* of the figures; NULL: that of the style */
+    const figure_tables *tables;
+    const language *language; /* NULL: English */
+    const text_buffer *style; /* that the scripts load */
+    const char *font;         /* of the figures; NULL: that of the style */
     bool with_provenance;
     const drawn_figure *figures;
     size_t n_figures;

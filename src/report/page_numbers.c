@@ -9,72 +9,77 @@
 #include <math.h>
 
 /* "0.59 to 0.69 MPa" in the unit of the value. */
-static void add_ends(growing_text *text, const finding *f, double low, double high, int digits)
+static void add_ends(text_buffer *text, const result_value *f, double low, double high, int digits)
 {
     lab_unit lab = lab_unit_for(f->quantity, f->number.unit, f->number.value);
-    text_say(text, "%s to %s%s%s", NUMBER(text->language, lab_value(&lab, low), digits),
-             NUMBER(text->language, lab_value(&lab, high), digits), lab.label[0] != '\0' ? " " : "",
-             lab.label);
+    text_append_translated(text, "%s to %s%s%s",
+                           NUMBER(text->language, lab_value(&lab, low), digits),
+                           NUMBER(text->language, lab_value(&lab, high), digits),
+                           lab.label[0] != '\0' ? " " : "", lab.label);
 }
 
 /* An interval as statistical error, and what the choices of the model make of the number behind the
  * remark. */
-static void finding_row(page_writer *page, const char *name, const finding *f, growing_text *remark)
+static void result_value_row(page_writer *page, const char *name, const result_value *f,
+                             text_buffer *remark)
 {
-    growing_text interval = {.language = page->language};
+    text_buffer interval = {.language = page->language};
     const wt_estimate estimate = {f->number.value, (f->high - f->low) / 4,
                                   f->number.numerical_error, f->number.unit};
     if (isfinite(f->low) && isfinite(f->high)) {
-        add_ends(&interval, f, f->low, f->high, finding_digits(f->number.value, f->low, f->high));
-        text_words(&interval, " (95 % interval)");
+        add_ends(&interval, f, f->low, f->high,
+                 result_value_digits(f->number.value, f->low, f->high));
+        text_append_phrase(&interval, " (95 % interval)");
     } else
-        text_words(&interval, "not known");
+        text_append_phrase(&interval, "not known");
     if (!isnan(f->range.low)) {
         text_add(remark, remark->length > 0 ? "; " : "");
         add_ends(remark, f, f->range.low, f->range.high, 3);
-        text_words(remark, " over all choices of the model");
+        text_append_phrase(remark, " over all choices of the model");
     }
     page_estimate(page, name, &estimate, f->quantity, text_string(&interval), text_string(remark));
     text_done(&interval, &page->out);
 }
 
-static void ratio_row(page_writer *page, const finding_tables *found)
+static void ratio_row(page_writer *page, const result_value_tables *found)
 {
     const table_view *table = &found->comparison;
-    finding f = finding_of_ratio(found);
+    result_value f = result_value_of_ratio(found);
     if (!isfinite(f.number.value))
         return;
     const char *unit = comparison_words(table, COMPARISON_KEY_UNIT_OF_ANALYSIS);
-    growing_text remark = {.language = page->language};
-    text_say(&remark, "geometric means; n = %s in the track, %s in the bulk",
-             FIXED(page->language, comparison_get(table, 0, COMPARISON_SPOTS_TRACK), 0),
-             FIXED(page->language, comparison_get(table, 0, COMPARISON_SPOTS_BULK), 0));
+    text_buffer remark = {.language = page->language};
+    text_append_translated(
+        &remark, "geometric means; n = %s in the track, %s in the bulk",
+        FIXED(page->language, comparison_get(table, 0, COMPARISON_SPOTS_TRACK), 0),
+        FIXED(page->language, comparison_get(table, 0, COMPARISON_SPOTS_BULK), 0));
     if (unit != NULL)
-        text_say(&remark, ", unit of analysis: %s", say(page->language, unit));
+        text_append_translated(&remark, ", unit of analysis: %s", translate(page->language, unit));
     f.number.numerical_error = 0;
-    finding_row(page, f.words, &f, &remark);
+    result_value_row(page, f.words, &f, &remark);
     text_done(&remark, &page->out);
 }
 
-static void group_rows(page_writer *page, const finding_tables *found)
+static void group_rows(page_writer *page, const result_value_tables *found)
 {
     const table_view *table = &found->groups;
     for (size_t row = 0; row < table->n_rows; row++) {
-        finding f = finding_of_group(found, row);
+        result_value f = result_value_of_group(found, row);
         if (!isfinite(f.number.value))
             continue;
-        growing_text name = {.language = page->language}, remark = {.language = page->language};
+        text_buffer name = {.language = page->language}, remark = {.language = page->language};
         text_format(
-            &name, "%s, %s", say(page->language, f.words),
+            &name, "%s, %s", translate(page->language, f.words),
             say_group(page->language, modulus_groups_text(table, row, MODULUS_GROUPS_GROUP)));
         const double n_spots = modulus_groups_get(table, row, MODULUS_GROUPS_N_SPOTS);
-        text_say(&remark, "geometric mean; %.0f curves on %.0f %s, %.0f rejected; by %s",
-                 modulus_groups_get(table, row, MODULUS_GROUPS_N), n_spots,
-                 say_count(page->language, n_spots == 1, "spot", "spots"),
-                 modulus_groups_get(table, row, MODULUS_GROUPS_N_REJECTED),
-                 say(page->language, f.includes));
+        text_append_translated(&remark,
+                               "geometric mean; %.0f curves on %.0f %s, %.0f rejected; by %s",
+                               modulus_groups_get(table, row, MODULUS_GROUPS_N), n_spots,
+                               translate_count(page->language, n_spots == 1, "spot", "spots"),
+                               modulus_groups_get(table, row, MODULUS_GROUPS_N_REJECTED),
+                               translate(page->language, f.includes));
         f.number.numerical_error = 0;
-        finding_row(page, text_string(&name), &f, &remark);
+        result_value_row(page, text_string(&name), &f, &remark);
         text_done(&name, &page->out);
         text_done(&remark, &page->out);
     }
@@ -83,19 +88,19 @@ static void group_rows(page_writer *page, const finding_tables *found)
 enum { EVERY_KEY = SCHEMA_MOST };
 
 /* The keys of a table that are headlines; the remark belongs to one of them or to every one. */
-static void headline_rows(page_writer *page, const finding_tables *found, const table_view *table,
-                          unsigned remarked, const char *remark)
+static void headline_rows(page_writer *page, const result_value_tables *found,
+                          const table_view *table, unsigned remarked, const char *remark)
 {
     for (unsigned i = 0; i < table->schema->n_keys; i++) {
         const schema_field *key = &table->schema->keys[i];
         const wt_estimate estimate = view_key(table, table->schema, i);
-        finding f;
+        result_value f;
         if (key->headline == NULL || isnan(estimate.value))
             continue;
-        growing_text words = {.language = page->language};
-        text_words(&words, remarked == EVERY_KEY || remarked == i ? remark : "");
-        if (finding_of_key(found, key, &f))
-            finding_row(page, key->headline, &f, &words);
+        text_buffer words = {.language = page->language};
+        text_append_phrase(&words, remarked == EVERY_KEY || remarked == i ? remark : "");
+        if (result_value_of_key(found, key, &f))
+            result_value_row(page, key->headline, &f, &words);
         else
             page_estimate(page, key->headline, &estimate, key->quantity, NULL, text_string(&words));
         text_done(&words, &page->out);
@@ -103,13 +108,13 @@ static void headline_rows(page_writer *page, const finding_tables *found, const 
 }
 
 /* At the velocity that the answer is given for. */
-static void reference_rows(page_writer *page, const finding_tables *found)
+static void reference_rows(page_writer *page, const result_value_tables *found)
 {
     const table_view *table = &page->tables->friction;
-    growing_text remark = {.language = page->language};
-    text_say(&remark, "at the reference velocity, %s",
-             VALUE(page->language, WT_Q_VELOCITY, NULL,
-                   friction_value(table, FRICTION_KEY_REFERENCE_VELOCITY).value));
+    text_buffer remark = {.language = page->language};
+    text_append_translated(&remark, "at the reference velocity, %s",
+                           VALUE(page->language, WT_Q_VELOCITY, NULL,
+                                 friction_value(table, FRICTION_KEY_REFERENCE_VELOCITY).value));
     headline_rows(page, found, table, EVERY_KEY, text_string(&remark));
     text_done(&remark, &page->out);
 }
@@ -126,14 +131,14 @@ static void largest_row(page_writer *page)
     }
     if (best == table->n_rows)
         return;
-    growing_text remark = {.language = page->language};
+    text_buffer remark = {.language = page->language};
     double share = friction_get(table, best, FRICTION_EXTRAPOLATED_SHARE);
-    text_say(
+    text_append_translated(
         &remark, "at %s",
         VALUE(page->language, WT_Q_VELOCITY, NULL, friction_get(table, best, FRICTION_VELOCITY)));
     if (share >= 1e-3)
-        text_say(&remark, "; %s %% from frequencies outside the measured ones",
-                 NUMBER(page->language, 100 * share, 2));
+        text_append_translated(&remark, "; %s %% from frequencies outside the measured ones",
+                               NUMBER(page->language, 100 * share, 2));
     const wt_estimate estimate = {friction_get(table, best, FRICTION_TOTAL),
                                   friction_get(table, best, FRICTION_TOTAL_STANDARD_ERROR),
                                   friction_get(table, best, FRICTION_TOTAL_NUMERICAL_ERROR), "1"};
@@ -143,42 +148,43 @@ static void largest_row(page_writer *page)
 }
 
 /* The constants of the material, and whether they mean anything. */
-static void law_rows(page_writer *page, const finding_tables *found)
+static void law_rows(page_writer *page, const result_value_tables *found)
 {
     const table_view *table = &page->tables->shift_factors;
     if (table->table == NULL)
         return;
-    growing_text remark = {.language = page->language};
-    text_say(&remark, "correlated with C₂, see the table of constants; superposition: %s",
-             shift_factors_words(table, SHIFT_FACTORS_KEY_SUPERPOSITION));
+    text_buffer remark = {.language = page->language};
+    text_append_translated(&remark,
+                           "correlated with C₂, see the table of constants; superposition: %s",
+                           shift_factors_words(table, SHIFT_FACTORS_KEY_SUPERPOSITION));
     headline_rows(page, found, table, SHIFT_FACTORS_KEY_WLF_C1, text_string(&remark));
     text_done(&remark, &page->out);
 }
 
-static void transition_rows(page_writer *page, const finding_tables *found)
+static void transition_rows(page_writer *page, const result_value_tables *found)
 {
     const table_view *table = &page->tables->glass_transition;
     if (table->table == NULL)
         return;
     const wt_estimate frequency =
         glass_transition_value(table, GLASS_TRANSITION_KEY_ANGULAR_FREQUENCY);
-    growing_text remark = {.language = page->language};
-    text_say(&remark, "at %s",
-             VALUE(page->language, WT_Q_ANGULAR_FREQUENCY, NULL, frequency.value));
+    text_buffer remark = {.language = page->language};
+    text_append_translated(&remark, "at %s",
+                           VALUE(page->language, WT_Q_ANGULAR_FREQUENCY, NULL, frequency.value));
     headline_rows(page, found, table, EVERY_KEY, text_string(&remark));
     text_done(&remark, &page->out);
 }
 
 void page_numbers(page_writer *page)
 {
-    const bound_tables *t = page->tables;
+    const figure_tables *t = page->tables;
     if (t->comparison.table == NULL && t->modulus_groups.table == NULL &&
         t->shift_factors.table == NULL && t->glass_transition.table == NULL &&
         t->friction.table == NULL && t->layer.table == NULL)
         return;
-    finding_tables found;
-    if (findings_bind(page->result, &found, NULL) != WT_OK)
-        return; /* bound_make has said so */
+    result_value_tables found;
+    if (result_values_bind(page->result, &found, NULL) != WT_OK)
+        return; /* figure_tables_make has said so */
     page_heading(page, "numbers", "Numbers");
     page_estimates_begin(page,
                          "Main results. Statistical error: one standard error, or the "

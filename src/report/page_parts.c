@@ -14,14 +14,14 @@
 
 void page_heading(page_writer *page, const char *id, const char *words)
 {
-    const char *const said = say(page->language, words);
+    const char *const said = translate(page->language, words);
     text_html(&page->out, "<h2 id=\"%s\">%s</h2>\n", id, said);
     text_html(&page->contents, "<li><a href=\"#%s\">%s</a></li>\n", id, said);
 }
 
 void page_fold(page_writer *page, const char *id, const char *words, page_on_paper on_paper)
 {
-    const char *const said = say(page->language, words);
+    const char *const said = translate(page->language, words);
     // The anchor is among what is folded: a browser that goes there unfolds it.
     text_html(&page->out,
               "<details class=\"part %s\">\n<summary><h2>%s</h2></summary>\n<div id=\"%s\">\n",
@@ -39,7 +39,7 @@ enum { MANY_COLUMNS = 8, MOST_COLUMNS = 16 /* of small type, too: each row is a 
 
 static void begin_table(page_writer *page, const char *caption, size_t n_columns)
 {
-    const char *const said = say(page->language, caption);
+    const char *const said = translate(page->language, caption);
     // The wrapper scrolls where a table is wider than the page, also with the keyboard.
     text_html(&page->out,
               "<div class=\"scroll\" tabindex=\"0\" role=\"region\" aria-label=\"%s\">\n"
@@ -60,7 +60,7 @@ static void heading_cell(page_writer *page, const char *words, const char *unit,
 {
     text_add(&page->out, number ? "<th scope=\"col\" class=\"n\">" : "<th scope=\"col\">");
     text_html(&page->out, unit[0] != '\0' ? "%s <span class=\"unit\">(%s)</span></th>" : "%s</th>",
-              say(page->language, words), unit);
+              translate(page->language, words), unit);
 }
 
 /* ---- tables ---------------------------------------------------------------------------------- */
@@ -166,7 +166,7 @@ static int digits_at(const table_view *table, size_t row, const shown_column *sh
     double ends[3]; /* and what is between them first */
     for (size_t i = 0; i < 3; i++)
         ends[i] = lab_value(&shown->lab, view_number(table, schema, row, columns[i]));
-    return finding_digits(ends[0], ends[1], ends[2]);
+    return result_value_digits(ends[0], ends[1], ends[2]);
 }
 
 /* What stands above a column, again in each cell of it: on a telephone a row is a block. */
@@ -174,7 +174,7 @@ static void begin_cell(page_writer *page, const char *words, const char *unit, b
 {
     text_add(&page->out, number ? "<td class=\"n\"" : "<td");
     text_html(&page->out, unit[0] != '\0' ? " data-label=\"%s (%s)\">" : " data-label=\"%s\">",
-              say(page->language, words), unit);
+              translate(page->language, words), unit);
 }
 
 static const char *column_label(const shown_column *shown)
@@ -189,9 +189,9 @@ static void number_cell(page_writer *page, const shown_column *shown, double val
     begin_cell(page, column_label(shown), shown->lab.label, true);
     if (isnan(value))
         text_html(&page->out, "%s",
-                  column->missing != NULL ? say(page->language, column->missing) : "–");
+                  column->missing != NULL ? translate(page->language, column->missing) : "–");
     else if (column->yes_no)
-        text_words(&page->out, value != 0 ? "yes" : "no");
+        text_append_phrase(&page->out, value != 0 ? "yes" : "no");
     else if (column->decimals > 0 || shown->whole)
         text_add(&page->out, FIXED(page->language, lab, column->decimals));
     else
@@ -268,14 +268,14 @@ void page_estimates_begin(page_writer *page, const char *caption, bool remarks)
     text_add(&page->out, "</tr></thead>\n<tbody>\n");
 }
 
-static void add_unit(growing_text *text, const char *label)
+static void add_unit(text_buffer *text, const char *label)
 {
     if (label[0] != '\0')
         text_html(text, " %s", label);
 }
 
 /* As many decimals as the larger error has meaning, and no more than six digits in all. */
-static void add_value(growing_text *text, const wt_estimate *e, const lab_unit *lab)
+static void add_value(text_buffer *text, const wt_estimate *e, const lab_unit *lab)
 {
     double value = lab_value(lab, e->value), error = 0;
     if (isfinite(e->standard_error))
@@ -292,10 +292,10 @@ static void add_value(growing_text *text, const wt_estimate *e, const lab_unit *
     }
 }
 
-static void add_error(growing_text *text, double error, const lab_unit *lab)
+static void add_error(text_buffer *text, double error, const lab_unit *lab)
 {
     if (isnan(error))
-        text_words(text, "error not known");
+        text_append_phrase(text, "error not known");
     else if (error == 0)
         text_add(text, "–");
     else {
@@ -310,7 +310,7 @@ void page_estimate(page_writer *page, const char *words, const wt_estimate *esti
                    wt_quantity quantity, const char *interval, const char *remark)
 {
     lab_unit lab = lab_unit_for(quantity, estimate->unit, estimate->value);
-    text_html(&page->out, "<tr><th scope=\"row\">%s</th>", say(page->language, words));
+    text_html(&page->out, "<tr><th scope=\"row\">%s</th>", translate(page->language, words));
     begin_cell(page, value_heading, "", true);
     add_value(&page->out, estimate, &lab);
     if (isfinite(estimate->value))
@@ -384,7 +384,7 @@ void page_keys(page_writer *page, const table_view *table, const char *caption)
         else {
             text_html(&page->out,
                       "<tr><th scope=\"row\">%s</th><td data-label=\"%s\" colspan=\"3\">",
-                      say(page->language, label), say(page->language, value_heading));
+                      translate(page->language, label), translate(page->language, value_heading));
             add_plain(page, key, wt_table_key(table->table, name));
             text_add(&page->out, "</td></tr>\n");
         }

@@ -26,7 +26,7 @@ static void folded_table(page_writer *page, const char *id, const char *words,
 
 void page_inputs(page_writer *page)
 {
-    const bound_tables *t = page->tables;
+    const figure_tables *t = page->tables;
     folded_table(page, "inputs", "Inputs", &t->inputs, "Files read, with their digests");
     folded_table(page, "methods", "Methods", &t->methods,
                  "Methods, what they did here, and where they are described");
@@ -64,7 +64,7 @@ void page_record(page_writer *page)
     size_t length = 0;
     const char *xml = wt_result_case(page->result, &length);
     if (xml != NULL && length > 0) {
-        growing_text copy = {0}; // it need not end in zero
+        text_buffer copy = {0}; // it need not end in zero
         text_bytes(&copy, xml, length);
         page_fold(page, "case", "Case file", PAGE_UNPRINTED);
         text_html(&page->out, "<pre tabindex=\"0\"><code>%s</code></pre>\n", text_string(&copy));
@@ -77,9 +77,10 @@ void page_record(page_writer *page)
     const char *command = wt_provenance_command(provenance);
     page_fold(page, "provenance", "Provenance", PAGE_PRINTED);
     text_html(&page->out, "<dl>\n<dt>%s</dt><dd>weartrack %s</dd>\n",
-              say(page->language, "Page written by"), wt_version());
+              translate(page->language, "Page written by"), wt_version());
     if (command[0] != '\0')
-        text_html(&page->out, "<dt>%s</dt><dd>%s</dd>\n", say(page->language, "Command"), command);
+        text_html(&page->out, "<dt>%s</dt><dd>%s</dd>\n", translate(page->language, "Command"),
+                  command);
     text_add(&page->out, "</dl>\n");
     page_fold_end(page);
 }

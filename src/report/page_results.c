@@ -87,15 +87,15 @@ static const struct result_part {
 } result_parts[] = {
 #define ROWS(table, words)                                                                         \
     {                                                                                              \
-        offsetof(bound_tables, table), words, false, NULL, 0, NULL                                 \
+        offsetof(figure_tables, table), words, false, NULL, 0, NULL                                \
     }
 #define KEYS(table, words)                                                                         \
     {                                                                                              \
-        offsetof(bound_tables, table), words, true, NULL, 0, NULL                                  \
+        offsetof(figure_tables, table), words, true, NULL, 0, NULL                                 \
     }
 #define COLUMNS(table, words, list)                                                                \
     {                                                                                              \
-        offsetof(bound_tables, table), words, false, list, COUNT_OF(list), NULL                    \
+        offsetof(figure_tables, table), words, false, list, COUNT_OF(list), NULL                   \
     }
     COLUMNS(modulus_groups, "Modulus by group", group_columns),
     ROWS(modulus_budget, "Error of the modulus by group"),
@@ -126,7 +126,7 @@ static const struct result_part {
     ROWS(moduli_at, "Moduli at temperatures"),
     ROWS(payne, "Softening with strain (Payne effect)"),
     KEYS(roughness, "Counter surface"),
-    {offsetof(bound_tables, friction), NULL, false, NULL, 0, friction_table},
+    {offsetof(figure_tables, friction), NULL, false, NULL, 0, friction_table},
     KEYS(friction, "Conditions of the friction"),
     ROWS(record, "Friction as measured, by the steps of the records"),
     ROWS(wear, "Wear as measured"),
@@ -209,11 +209,11 @@ static void rejected_of(page_writer *page, const table_view *table)
             rows[n++] = row;
         others++;
     }
-    growing_text caption = {.language = page->language};
-    text_say(&caption, "%s: %zu of %zu curves doubtful, %zu rejected", table->suffix, doubtful,
-             table->n_rows, others - doubtful);
+    text_buffer caption = {.language = page->language};
+    text_append_translated(&caption, "%s: %zu of %zu curves doubtful, %zu rejected", table->suffix,
+                           doubtful, table->n_rows, others - doubtful);
     if (others > n)
-        text_say(&caption, ", the first %zu; the result file holds all", n);
+        text_append_translated(&caption, ", the first %zu; the result file holds all", n);
     if (n == 0)
         text_html(&page->out, "<p>%s.</p>\n", text_string(&caption));
     else
@@ -225,11 +225,11 @@ void page_indentation(page_writer *page)
 {
     for (size_t i = 0; i < page->tables->n_indentation; i++) {
         const table_view *table = &page->tables->indentation[i];
-        growing_text caption = {.language = page->language};
+        text_buffer caption = {.language = page->language};
         if (i == 0)
             page_fold(page, "indentation", "Indentation record", PAGE_UNPRINTED);
         rejected_of(page, table);
-        text_say(&caption, "%s: how it was indented", table->suffix);
+        text_append_translated(&caption, "%s: how it was indented", table->suffix);
         page_keys(page, table, text_string(&caption));
         text_done(&caption, &page->out);
     }

@@ -42,7 +42,7 @@ void plot_key(figure_drawing *d, const char *english)
     if (english == NULL)
         text_add(&d->script, " notitle");
     else
-        text_format(&d->script, " title '%s'", say(d->language, english));
+        text_format(&d->script, " title '%s'", translate(d->language, english));
 }
 
 void plot_end(figure_drawing *d)

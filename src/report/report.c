@@ -65,9 +65,9 @@ typedef struct picture {
 /* One report while it is written. */
 typedef struct report {
     wt_report_options options;
-    bound_tables tables;
+    figure_tables tables;
     language *language;
-    growing_text style;
+    text_buffer style;
     report_folder *folder;
     drawn_figure *figures; /* one for each that this library knows */
     picture *pictures;     /* in the order in which they are drawn */
@@ -78,7 +78,7 @@ typedef struct report {
 } report;
 
 /* Tells which figure is being drawn, or the page, the last one; false to stop. */
-static bool tell_progress(const report *r, size_t step)
+static bool notify_progress(const report *r, size_t step)
 {
     const size_t n = wt_figure_count();
     return r->progress == NULL || r->progress->report == NULL ||
@@ -105,14 +105,14 @@ static bool go_on(void *user)
         r->since = wt_time_wall();
     r->late = wt_time_wall() - r->since > r->options.gnuplot_time;
     const size_t drawn = r->next > 0 ? r->next - 1 : 0;
-    return !r->late && tell_progress(r, r->pictures[drawn].figure);
+    return !r->late && notify_progress(r, r->pictures[drawn].figure);
 }
 
 /* What the picture of a figure is made of; nothing if there is nothing to draw. */
 static wt_status write_figure(report *r, size_t i, wt_error *err)
 {
     figure_drawing *d = &r->figures[i].drawing;
-    if (bound_find(&r->tables, figure_find(i)->table)->n_rows == 0)
+    if (figure_tables_find(&r->tables, figure_find(i)->table)->n_rows == 0)
         return WT_OK;
     const wt_status status = drawing_make(d, figure_find(i), &r->tables, r->language, err);
     if (status != WT_OK)
@@ -186,7 +186,7 @@ static wt_status draw_all(report *r, wt_error *err)
     list_pictures(r);
     if (r->n_pictures == 0)
         return WT_OK;
-    if ((status = write_style(r, err)) == WT_OK && !tell_progress(r, r->pictures[0].figure))
+    if ((status = write_style(r, err)) == WT_OK && !notify_progress(r, r->pictures[0].figure))
         status = wt_fail(err, WT_E_CANCELLED, "the report was cancelled");
     if (status == WT_OK)
         status = draw_pictures(r, err);
@@ -228,7 +228,7 @@ static wt_status check_options(const char *place, const wt_report_options *optio
 wt_status wt_report_check(const char *folder, const wt_report_options *options, wt_error *err)
 {
     const wt_report_options chosen = options != NULL ? *options : wt_report_defaults();
-    growing_text style = {0};
+    text_buffer style = {0};
     report_folder *made = NULL;
     wt_status status = check_options(folder, &chosen, err);
     if (status == WT_OK)
@@ -253,7 +253,7 @@ static void report_clear(report *r)
     free(r->pictures);
     text_free(&r->style);
     language_close(r->language);
-    bound_clear(&r->tables);
+    figure_tables_clear(&r->tables);
 }
 
 wt_status wt_report_write(const wt_result *result, const char *folder,
@@ -272,7 +272,7 @@ wt_status wt_report_write(const wt_result *result, const char *folder,
     if (status == WT_OK)
         status = language_open(r.options.language, &r.language, err);
     if (status == WT_OK)
-        status = bound_make(result, &r.tables, err);
+        status = figure_tables_make(result, &r.tables, err);
     if (status == WT_OK)
         status = file_style(r.options.style, &r.style, err);
     if (status == WT_OK)
@@ -281,7 +281,7 @@ wt_status wt_report_write(const wt_result *result, const char *folder,
         status = write_figure(&r, i, err);
     if (status == WT_OK)
         status = draw_all(&r, err);
-    if (status == WT_OK && !tell_progress(&r, n))
+    if (status == WT_OK && !notify_progress(&r, n))
         status = wt_fail(err, WT_E_CANCELLED, "the report was cancelled");
     if (status == WT_OK)
         status = make_page(&r, result, err);
@@ -289,7 +289,7 @@ wt_status wt_report_write(const wt_result *result, const char *folder,
         status = folder_commit(r.folder, err);
         r.folder = NULL;
         if (status == WT_OK)
-            (void)tell_progress(&r, n + 1); // it is there: too late to cancel
+            (void)notify_progress(&r, n + 1); // it is there: too late to cancel
     }
     report_clear(&r);
     return status;

@@ -17,7 +17,7 @@ const char *file_of_library(const char *name)
     return NULL;
 }
 
-wt_status file_read(const char *path, size_t limit, growing_text *text, wt_error *err)
+wt_status file_read(const char *path, size_t limit, text_buffer *text, wt_error *err)
 {
     wt_status status = WT_OK;
     char chunk[8192];
@@ -58,9 +58,9 @@ wt_status file_write(const char *path, const char *bytes, size_t length, wt_erro
     return status;
 }
 
-wt_status file_put(const char *path, const growing_text *text, wt_error *err)
+wt_status file_put(const char *path, const text_buffer *text, wt_error *err)
 {
-    wt_outfile *out = NULL;
+    wt_atomic_file *out = NULL;
     wt_status status = wt_outfile_open(path, &out, err);
     if (status != WT_OK)
         return status;
@@ -73,7 +73,7 @@ wt_status file_put(const char *path, const growing_text *text, wt_error *err)
 }
 
 /* "paper, screen" */
-static void add_style_names(growing_text *names)
+static void add_style_names(text_buffer *names)
 {
     for (const embedded_text *file = report_embedded; file->name != NULL; file++) {
         const char *end = strstr(file->name, ".gp");
@@ -85,7 +85,7 @@ static void add_style_names(growing_text *names)
 
 wt_status style_find(const char *name, const char **text, wt_error *err)
 {
-    growing_text file = {0}, names = {0};
+    text_buffer file = {0}, names = {0};
     text_format(&file, "%s.gp", name);
     *text = file_of_library(text_string(&file));
     text_free(&file);
@@ -100,13 +100,13 @@ wt_status style_find(const char *name, const char **text, wt_error *err)
     return status;
 }
 
-wt_status file_style(const char *style, growing_text *text, wt_error *err)
+wt_status file_style(const char *style, text_buffer *text, wt_error *err)
 {
     enum { STYLE_LIMIT = 1 << 20 };
     const char *name = style != NULL ? style : "paper", *built_in = NULL;
     size_t length = strlen(name);
     if (strchr(name, '/') != NULL || (length > 3 && strcmp(name + length - 3, ".gp") == 0)) {
-        wt_status read = wt_guard_read(name, err);
+        wt_status read = wt_protect_input(name, err);
         return read != WT_OK ? read : file_read(name, STYLE_LIMIT, text, err);
     }
     wt_status status = style_find(name, &built_in, err);

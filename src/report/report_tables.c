@@ -7,7 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-static wt_status bind_indentation(const wt_result *result, bound_tables *tables, wt_error *err)
+static wt_status bind_indentation(const wt_result *result, figure_tables *tables, wt_error *err)
 {
     const char *const prefix = indentation_schema.name;
     const size_t length = strlen(prefix), n = wt_result_n_tables(result);
@@ -27,10 +27,10 @@ static wt_status bind_indentation(const wt_result *result, bound_tables *tables,
     return WT_OK;
 }
 
-wt_status bound_make(const wt_result *result, bound_tables *tables, wt_error *err)
+wt_status figure_tables_make(const wt_result *result, figure_tables *tables, wt_error *err)
 {
     wt_status status = WT_OK;
-    *tables = (bound_tables){.n_indentation = 0};
+    *tables = (figure_tables){.n_indentation = 0};
 #define BIND(table)                                                                                \
     if (status == WT_OK)                                                                           \
         status = table_bind_of(result, &table##_schema, "", &tables->table, err);
@@ -38,13 +38,13 @@ wt_status bound_make(const wt_result *result, bound_tables *tables, wt_error *er
     return status != WT_OK ? status : bind_indentation(result, tables, err);
 }
 
-void bound_clear(bound_tables *tables)
+void figure_tables_clear(figure_tables *tables)
 {
     free(tables->indentation);
-    *tables = (bound_tables){.n_indentation = 0};
+    *tables = (figure_tables){.n_indentation = 0};
 }
 
-const table_view *bound_find(const bound_tables *tables, const table_schema *schema)
+const table_view *figure_tables_find(const figure_tables *tables, const table_schema *schema)
 {
 #define FIND(table)                                                                                \
     if (schema == &table##_schema)                                                                 \
@@ -53,7 +53,7 @@ const table_view *bound_find(const bound_tables *tables, const table_schema *sch
     return NULL;
 }
 
-const table_view *bound_indentation(const bound_tables *tables, const char *group)
+const table_view *figure_tables_indentation(const figure_tables *tables, const char *group)
 {
     for (size_t i = 0; i < tables->n_indentation; i++)
         if (strcmp(tables->indentation[i].suffix, group) == 0)

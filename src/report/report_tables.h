@@ -17,19 +17,20 @@
     X(work_precision) X(directions) X(softening) X(flash) X(anisotropy) X(friction_map) X(friction_decades) X(spot) X(spot_map) X(collection) X(collected_modulus) X(collected_friction) X(collected_force) X(shared_constants) X(shared_members) X(collected_constants) X(shared_pairs) X(ratio_pairs) X(power_spectrum) X(angular_spectrum) X(surfaces) X(height_map) X(height_profile) X(record) X(record_cycles) X(wear) X(validation) X(validation_running_in) X(validation_course) X(validation_choices) X(validation_sources)
 /* clang-format on */
 
-typedef struct bound_tables {
+typedef struct figure_tables {
 #define BOUND_MEMBER(table) table_view table;
     BOUND_TABLES(BOUND_MEMBER)
     table_view *indentation; /* [n_indentation], one for each group, which is the suffix; owned */
     size_t n_indentation;
-} bound_tables;
+} figure_tables;
 
-/* The views borrow from the result. bound_clear also after a failure. */
-wt_status bound_make(const wt_result *result, bound_tables *tables, wt_error *err) WT_NODISCARD;
-void bound_clear(bound_tables *tables);
+/* The views borrow from the result. figure_tables_clear also after a failure. */
+wt_status figure_tables_make(const wt_result *result, figure_tables *tables,
+                             wt_error *err) WT_NODISCARD;
+void figure_tables_clear(figure_tables *tables);
 /* The view of a schema in the list above, NULL for any other. */
-const table_view *bound_find(const bound_tables *tables, const table_schema *schema);
+const table_view *figure_tables_find(const figure_tables *tables, const table_schema *schema);
 /* The indentation of a group, NULL if there is none. */
-const table_view *bound_indentation(const bound_tables *tables, const char *group);
+const table_view *figure_tables_indentation(const figure_tables *tables, const char *group);
 
 #endif

@@ -9,24 +9,24 @@
 #include <stdlib.h>
 #include <string.h>
 
-void text_free(growing_text *text)
+void text_free(text_buffer *text)
 {
     free(text->bytes);
-    *text = (growing_text){0};
+    *text = (text_buffer){0};
 }
 
-void text_done(growing_text *part, growing_text *whole)
+void text_done(text_buffer *part, text_buffer *whole)
 {
     whole->failed = whole->failed || part->failed;
     text_free(part);
 }
 
-const char *text_string(const growing_text *text)
+const char *text_string(const text_buffer *text)
 {
     return text->bytes != NULL ? text->bytes : "";
 }
 
-static bool make_room(growing_text *text, size_t more)
+static bool make_room(text_buffer *text, size_t more)
 {
     if (text->failed)
         return false;
@@ -50,7 +50,7 @@ static bool make_room(growing_text *text, size_t more)
     return true;
 }
 
-void text_bytes(growing_text *text, const char *bytes, size_t length)
+void text_bytes(text_buffer *text, const char *bytes, size_t length)
 {
     if (!make_room(text, length))
         return;
@@ -59,12 +59,12 @@ void text_bytes(growing_text *text, const char *bytes, size_t length)
     text->bytes[text->length] = '\0';
 }
 
-void text_add(growing_text *text, const char *string)
+void text_add(text_buffer *text, const char *string)
 {
     text_bytes(text, string, strlen(string));
 }
 
-void text_vformat(growing_text *text, const char *format, va_list arguments)
+void text_vformat(text_buffer *text, const char *format, va_list arguments)
 {
     va_list again;
     va_copy(again, arguments);
@@ -78,7 +78,7 @@ void text_vformat(growing_text *text, const char *format, va_list arguments)
     va_end(again);
 }
 
-void text_format(growing_text *text, const char *format, ...)
+void text_format(text_buffer *text, const char *format, ...)
 {
     va_list arguments;
     va_start(arguments, format);
@@ -86,7 +86,7 @@ void text_format(growing_text *text, const char *format, ...)
     va_end(arguments);
 }
 
-void text_name(growing_text *text, const char *name, size_t most)
+void text_name(text_buffer *text, const char *name, size_t most)
 {
     const size_t length = strlen(name);
     if (length > most) {
@@ -98,16 +98,16 @@ void text_name(growing_text *text, const char *name, size_t most)
     text_add(text, name);
 }
 
-void text_words(growing_text *text, const char *english)
+void text_append_phrase(text_buffer *text, const char *english)
 {
-    text_add(text, say(text->language, english));
+    text_add(text, translate(text->language, english));
 }
 
-void text_say(growing_text *text, const char *english, ...)
+void text_append_translated(text_buffer *text, const char *english, ...)
 {
     va_list arguments;
     va_start(arguments, english);
-    text_vformat(text, say(text->language, english), arguments);
+    text_vformat(text, translate(text->language, english), arguments);
     va_end(arguments);
 }
 
@@ -135,7 +135,7 @@ static const char *entity_of(char c)
     return mark != NULL ? entities[mark - marks] : NULL;
 }
 
-static void add_escaped(growing_text *text, const char *string)
+static void add_escaped(text_buffer *text, const char *string)
 {
     size_t left = strlen(string);
     for (const char *s = string; left > 0;) {
@@ -150,7 +150,7 @@ static void add_escaped(growing_text *text, const char *string)
     }
 }
 
-void text_html(growing_text *text, const char *markup, ...)
+void text_html(text_buffer *text, const char *markup, ...)
 {
     va_list arguments;
     va_start(arguments, markup);
@@ -165,7 +165,7 @@ void text_html(growing_text *text, const char *markup, ...)
     va_end(arguments);
 }
 
-void text_data_link(growing_text *text, const char *media, const char *bytes, size_t length)
+void text_data_link(text_buffer *text, const char *media, const char *bytes, size_t length)
 {
     static const char digits[] = "0123456789ABCDEF",
                       plain[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789"
@@ -188,7 +188,7 @@ void text_data_link(growing_text *text, const char *media, const char *bytes, si
  * in a row are no way to write one: gnuplot 5.4 fails on them at either end of a string. */
 #define SPECIAL "'\"\\`@"
 
-void text_quoted(growing_text *text, const char *string)
+void text_quoted(text_buffer *text, const char *string)
 {
     const char *quote = strpbrk(string, SPECIAL) == NULL ? "'" : "\"";
     size_t left = strlen(string);
@@ -214,16 +214,16 @@ void text_quoted(growing_text *text, const char *string)
     text_add(text, quote);
 }
 
-void text_tic(growing_text *text, const char *string)
+void text_tic(text_buffer *text, const char *string)
 {
-    growing_text format = {0};
+    text_buffer format = {0};
     for (const char *s = string; *s != '\0'; s++)
         text_bytes(&format, *s == '%' ? "%%" : s, *s == '%' ? 2 : 1);
     text_quoted(text, text_string(&format));
     text_done(&format, text);
 }
 
-void text_comment(growing_text *text, const char *string)
+void text_comment(text_buffer *text, const char *string)
 {
     text_add(text, "# ");
     for (const char *s = string; *s != '\0'; s++) {

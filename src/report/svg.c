@@ -43,7 +43,7 @@ static bool canvas_size(const char *svg, size_t length, double size[2])
     return true;
 }
 
-void svg_sized(growing_text *out, const char *svg, size_t length, double unit)
+void svg_sized(text_buffer *out, const char *svg, size_t length, double unit)
 {
     double size[2];
     const char *begin = memmem(svg, length, "<svg", 4);
@@ -61,7 +61,7 @@ void svg_sized(growing_text *out, const char *svg, size_t length, double unit)
  * page: the same in every picture, and two of the usual width stand beside each other. */
 static const double rem_per_unit = 14.0 / 15 / 16;
 
-bool svg_inline(growing_text *page, const char *svg, size_t length, const char *name,
+bool svg_inline(text_buffer *page, const char *svg, size_t length, const char *name,
                 const char *label)
 {
     static const char *const references[] = {" id='", " id=\"", "href='#", "href=\"#",

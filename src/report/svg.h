@@ -11,10 +11,10 @@
  * prefixed by `name` so that they are unique on the page, without gnuplot's own titles (they would
  * pop up as tool tips), and with `label` as its accessible name; no larger than that its type is
  * that of the page. false if it holds no <svg>. */
-bool svg_inline(growing_text *page, const char *svg, size_t length, const char *name,
+bool svg_inline(text_buffer *page, const char *svg, size_t length, const char *name,
                 const char *label);
 
 /* Appends the picture with its width and height, `unit` millimetres for each unit of its own. */
-void svg_sized(growing_text *out, const char *svg, size_t length, double unit);
+void svg_sized(text_buffer *out, const char *svg, size_t length, double unit);
 
 #endif

@@ -38,7 +38,7 @@ static void end_angular(void *problem)
 static wt_status solve_series(void *problem, double value, wt_error *err)
 {
     angular_problem *p = problem;
-    pool memory = {0};
+    arena memory = {0};
     angular_law *law = NULL;
     wt_status status = angular_new(p->material, 1 / value, &memory, &law, err);
     if (status == WT_OK)
@@ -51,7 +51,7 @@ static wt_status solve_series(void *problem, double value, wt_error *err)
         p->stated = angular_error(law, x[0], x[PLACES - 1], &(size_t){0});
         angular_clear(law);
     }
-    pool_free(&memory);
+    arena_free(&memory);
     return status;
 }
 

@@ -21,7 +21,8 @@ static const friction_key sensitivity_keys[SENSITIVITIES] = {
     FRICTION_KEY_BY_CUTOFF};
 
 wt_status setting_make(const wt_sliding *sliding, const wt_layer_job *layer,
-                       const wt_layer_known *known, const wt_job *work, setting *s, wt_error *err)
+                       const wt_layer_observation *known, const wt_job *work, setting *s,
+                       wt_error *err)
 {
     wt_roughness *law = NULL;
     wt_status status = flow_sliding_check(sliding, work, err);
@@ -56,7 +57,7 @@ wt_status setting_make(const wt_sliding *sliding, const wt_layer_job *layer,
     return WT_OK;
 }
 
-static wt_status compute_layer(const setting *s, const wt_job *work, wt_layer_known *known,
+static wt_status compute_layer(const setting *s, const wt_job *work, wt_layer_observation *known,
                                wt_error *err)
 {
     static const double start = 0; /* the balance alone is asked for */
@@ -71,7 +72,7 @@ static wt_status compute_layer(const setting *s, const wt_job *work, wt_layer_kn
     return status;
 }
 
-static wt_status compute_friction(setting *s, const wt_layer_known *known, const wt_job *work,
+static wt_status compute_friction(setting *s, const wt_layer_observation *known, const wt_job *work,
                                   wt_estimate *number, wt_error *err)
 {
     wt_friction_tables tables = {0};
@@ -96,7 +97,7 @@ static wt_status compute_friction(setting *s, const wt_layer_known *known, const
 
 wt_status setting_compute(setting *s, const wt_job *work, wt_estimate *number, wt_error *err)
 {
-    wt_layer_known known = s->known;
+    wt_layer_observation known = s->known;
     s->sliding.rubber = s->given != NULL ? s->given : &s->rubber;
     s->sliding.surface = &s->surface;
     s->sliding.softness = s->has_softness ? &s->softness : NULL;

@@ -16,11 +16,11 @@ typedef struct setting {
     const wt_rubber *given; /* whose copy `rubber` is; NULL once something of it is changed */
     wt_surface surface;     /* borrowed; its cut-offs are numbers */
     bool has_softness, has_layer_rubber;
-    wt_softness softness;   /* borrowed */
-    wt_rubber layer_rubber; /* likewise, that of the layer */
+    wt_strain_softening softness; /* borrowed */
+    wt_rubber layer_rubber;       /* likewise, that of the layer */
     bool has_layer, has_known;
     wt_layer_job layer;
-    wt_layer_known known;
+    wt_layer_observation known;
     wt_vertical_shift vertical;
     /* after setting_compute: what is to be said of the material, and what share of the hysteresis
      * comes from outside its frequencies (NaN: not asked for) */
@@ -43,7 +43,7 @@ extern const char *const setting_words[SETTING_NUMBERS];
 /* `layer` NULL: no thickness; `known` NULL: no friction with a layer. With both, the thickness is
  * that which `layer` gives. */
 wt_status setting_make(const wt_sliding *sliding, const wt_layer_job *layer,
-                       const wt_layer_known *known, const wt_job *work, setting *s,
+                       const wt_layer_observation *known, const wt_job *work, setting *s,
                        wt_error *err) WT_NODISCARD;
 /* number: [SETTING_NUMBERS]; those that do not apply stay as they are. */
 wt_status setting_compute(setting *s, const wt_job *work, wt_estimate *number,

@@ -323,7 +323,7 @@ static wt_status sweep_isotherms(own_case *o, wt_error *err)
     accuracy_timing time;
     double before = LEAST_ISOTHERMS - 1;
     begin_sweep(o);
-    regenerate_hold(&o->now);
+    bootstrap_fix_inputs(&o->now);
     wt_status status = solve_isotherms(o, all, NULL);
     if (status != WT_OK)
         return status == WT_E_MEMORY ? wt_fail(err, status, "out of memory") : WT_OK;
@@ -347,7 +347,7 @@ static wt_status sweep_isotherms(own_case *o, wt_error *err)
 
 /* ---- the job --------------------------------------------------------------------------------- */
 
-static wt_status tell(const own_case *o, const char *what, wt_error *err)
+static wt_status text_append(const own_case *o, const char *what, wt_error *err)
 {
     const wt_progress *p = &o->asked->progress;
     if (p->report != NULL && !p->report(p->user, what, 0, 0))
@@ -360,7 +360,7 @@ static wt_status sweep_numbers(own_case *o, unsigned first, unsigned last, wt_er
 {
     o->first = first;
     o->last = last;
-    wt_status status = tell(o, "error against run time", err);
+    wt_status status = text_append(o, "error against run time", err);
     if (status == WT_OK)
         status = sweep_tolerance(o, err);
     if (status == WT_OK)
@@ -456,7 +456,7 @@ static void put_answer(const own_case *o, table_writer *t)
 }
 
 wt_status wt_case_precision_make(const wt_sliding *sliding, const wt_layer_job *layer,
-                                 const wt_layer_known *known, const wt_accuracy_job *job,
+                                 const wt_layer_observation *known, const wt_accuracy_job *job,
                                  const wt_job *work, wt_table **table, wt_error *err)
 {
     if (job == NULL || work == NULL || table == NULL)
@@ -496,7 +496,7 @@ wt_status wt_case_precision_make(const wt_sliding *sliding, const wt_layer_job *
         t.status = status;
     status = table_end(&t, table);
     if (status == WT_OK)
-        cost_say(work, (cost_summary){.items = (double)wt_table_n_rows(*table)});
+        cost_report(work, (cost_summary){.items = (double)wt_table_n_rows(*table)});
     wt_rubber_clear(&o->more);
     free(o);
     return status;

@@ -64,7 +64,7 @@ static wt_status take_case(const wt_collected *from, collected_case *c, wt_error
     table_view answer;
     wt_status status = table_bind_of(from->result, &answer_schema, "", &answer, err);
     if (status == WT_OK)
-        status = findings_bind(from->result, &c->tables, err);
+        status = result_values_bind(from->result, &c->tables, err);
     if (status != WT_OK) {
         wt_error_file(err, from->file);
         return status;
@@ -104,7 +104,7 @@ static wt_status check_names(const collected_case *cases, size_t n, wt_error *er
 
 /* ---- tables ---------------------------------------------------------------------------------- */
 
-static wt_interval interval_of(const finding *f)
+static wt_interval interval_of(const result_value *f)
 {
     return (wt_interval){f->number.value, f->number.standard_error, f->low, f->high};
 }
@@ -137,9 +137,10 @@ static wt_status list_cases(const collected_case *cases, size_t n, wt_table **ta
     table_writer w = table_begin(&collection_schema, err);
     for (size_t i = 0; i < n; i++) {
         const collected_case *c = &cases[i];
-        const finding ratio = finding_of_ratio(&c->tables),
-                      thickness = finding_of_thickness(&c->tables),
-                      change = finding_of_friction(&c->tables, FRICTION_KEY_RELATIVE_CHANGE);
+        const result_value ratio = result_value_of_ratio(&c->tables),
+                           thickness = result_value_of_thickness(&c->tables),
+                           change =
+                               result_value_of_friction(&c->tables, FRICTION_KEY_RELATIVE_CHANGE);
         TABLE_ADD(collection, &w, c->sample, c->condition, interval_of(&ratio),
                   short_verdict(comparison_words(&c->tables.comparison, COMPARISON_KEY_DIFFERS)),
                   interval_of(&thickness), interval_of(&change), c->file);
@@ -152,7 +153,7 @@ static wt_status list_cases(const collected_case *cases, size_t n, wt_table **ta
 /* Relative standard error of what all curves of a group share (lever, tip and their like), by the
  * budget of its modulus: 0 where nothing is stated, NaN where what is stated has an unknown effect.
  * Between groups of one case it cancels, between cases it does not. */
-static double shared_error(const finding_tables *tables, const char *group)
+static double shared_error(const result_value_tables *tables, const char *group)
 {
     const table_view *budget = &tables->budget;
     double variance = 0;

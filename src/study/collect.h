@@ -9,7 +9,7 @@
 typedef struct collected_case {
     const char *sample, *condition, *file;
     const wt_result *result;
-    finding_tables tables;
+    result_value_tables tables;
     wt_log_ratio ratio; /* of its moduli; NaN: not known */
 } collected_case;
 

@@ -26,11 +26,11 @@ static wt_status bind_force(const wt_result *result, const char *file, table_vie
 }
 
 /* What stands beside the cases, and of that the one that is added. */
-typedef struct force_beside {
+typedef struct paired_force {
     const collected_case *cases;
     const wt_collected *of;
     size_t n_cases, n, at;
-} force_beside;
+} paired_force;
 
 static bool has_group(const wt_collected *of, const char *group)
 {
@@ -44,7 +44,7 @@ static bool has_group(const wt_collected *of, const char *group)
 }
 
 /* Is there another place of that name? Without --group all that is indented is "bulk". */
-static bool is_taken(const force_beside *b, const char *group)
+static bool is_taken(const paired_force *b, const char *group)
 {
     bool taken = strcmp(group, "bulk") == 0 || strcmp(group, "track") == 0;
     for (size_t i = 0; i < b->n_cases && !taken; i++)
@@ -54,7 +54,7 @@ static bool is_taken(const force_beside *b, const char *group)
     return taken;
 }
 
-static void name_place(const force_beside *beside, const collected_case *c, const char *group,
+static void name_place(const paired_force *beside, const collected_case *c, const char *group,
                        char *place, size_t size)
 {
     if (beside == NULL)
@@ -67,7 +67,7 @@ static void name_place(const force_beside *beside, const collected_case *c, cons
 
 /* The curve of each group; of no case (`beside`) under the sample that it stands beside. */
 static void add_curves(table_writer *w, const collected_case *c, const table_view *force,
-                       const force_beside *beside)
+                       const paired_force *beside)
 {
     const char *before = NULL;
     char place[400] = "";
@@ -84,7 +84,7 @@ static void add_curves(table_writer *w, const collected_case *c, const table_vie
     }
 }
 
-static wt_status add_beside(table_writer *w, force_beside beside, const collected_case *c,
+static wt_status add_beside(table_writer *w, paired_force beside, const collected_case *c,
                             wt_error *err)
 {
     for (beside.at = 0; beside.at < beside.n; beside.at++) {
@@ -101,7 +101,7 @@ static wt_status add_beside(table_writer *w, force_beside beside, const collecte
 wt_status collect_force(const collected_case *cases, size_t n, const wt_collected *beside,
                         size_t n_beside, wt_table **table, wt_error *err)
 {
-    const force_beside all = {cases, beside, n, n_beside, 0};
+    const paired_force all = {cases, beside, n, n_beside, 0};
     table_writer w = table_begin(&collected_force_schema, err);
     wt_status status = WT_OK;
     for (size_t i = 0; status == WT_OK && i < n; i++) {

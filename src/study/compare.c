@@ -223,7 +223,7 @@ static wt_status make_dma_table(const compare_pair *p, const wt_compare_job *job
     const bool no_draws = job->rubber->n_draws == 0, own = !isnan(job->track_temperature.value);
     TABLE_SET(dma_comparison, &t, given[0], own ? given[1] : job->track_temperature,
               "indentation modulus over |E*| of the DMA",
-              no_draws || lacks ? compare_lacks(no_draws, lacks) : NULL, both);
+              no_draws || lacks ? compare_missing_inputs(no_draws, lacks) : NULL, both);
     return table_end(&t, table);
 }
 

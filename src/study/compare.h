@@ -42,7 +42,7 @@ void compare_pair_clear(compare_pair *p);
 wt_group compare_part(const compare_pair *p, int g, size_t bin, size_t offset, bool factors);
 
 /* What ln(E_track / E_bulk) holds beside the difference. */
-typedef struct compare_known {
+typedef struct comparison_inputs {
     wt_estimate offset;
     double shown; /* of it: by loss and bent baselines, which the curves show */
     bool two_levers;
@@ -55,10 +55,11 @@ typedef struct compare_known {
     char includes[256];         /* in words: what the interval has beside the scatter */
     char lacks[160];            /* what belongs into it, and its size is not known */
     char cancels[128];          /* and what it loses, but for what the gains differ by */
-} compare_known;
+} comparison_inputs;
 
-wt_status compare_find_known(const compare_pair *p, const wt_compare_job *job, const wt_job *work,
-                             bool rates_by_dma, compare_known *known, wt_error *err) WT_NODISCARD;
+wt_status comparison_find_inputs(const compare_pair *p, const wt_compare_job *job,
+                                 const wt_job *work, bool rates_by_dma, comparison_inputs *known,
+                                 wt_error *err) WT_NODISCARD;
 
 /* Where a modulus is asked of the material. */
 typedef struct condition {
@@ -76,7 +77,7 @@ wt_status compare_temperature_error(const wt_rubber *rubber, condition at, doubl
                                     const wt_job *work, double *relative,
                                     wt_error *err) WT_NODISCARD;
 
-static inline const char *compare_lacks(bool material, bool temperature)
+static inline const char *compare_missing_inputs(bool material, bool temperature)
 {
     return material && temperature ? "material, temperature"
            : material              ? "material"
@@ -96,15 +97,15 @@ typedef struct compare_row {
 } compare_row;
 
 /* What else than the rubber would make the ratio. */
-typedef struct compare_unsaid {
+typedef struct unstated_errors {
     double log_ratio, least; /* what is to be explained, and what of it takes the answer away */
     char would_explain[640]; /* in words: what each cause would have to be */
     char plausible[480];     /* those that may well be so, "" = none */
     double lower, higher; /* by how much they may make ln(ratio) differ from that of the rubber */
     char settled_by[400]; /* and what would show */
-} compare_unsaid;
+} unstated_errors;
 wt_status compare_find_unsaid(const compare_pair *p, const wt_compare_job *job, const wt_job *work,
-                              const compare_row *row, compare_unsaid *unsaid,
+                              const compare_row *row, unstated_errors *unsaid,
                               wt_error *err) WT_NODISCARD;
 /* Of ln |E*| of the DMA against temperature, at the mean frequency of the bulk [1/K]; 0 where that
  * or the DMA are not known there. */
@@ -119,9 +120,9 @@ typedef struct compare_verdict {
 } compare_verdict;
 
 /* `row` is that of all rates, `rates` those of one each. */
-compare_verdict compare_judge(const compare_pair *p, const wt_compare_job *job,
-                              const compare_known *known, const compare_unsaid *unsaid,
-                              const compare_row *row, const compare_row *rates, size_t n_rates);
+compare_verdict compare_assess(const compare_pair *p, const wt_compare_job *job,
+                               const comparison_inputs *known, const unstated_errors *unsaid,
+                               const compare_row *row, const compare_row *rates, size_t n_rates);
 
 /* Both groups of a job, with their rates. */
 wt_status compare_read(const wt_compare_job *job, compare_pair *p, wt_error *err) WT_NODISCARD;

@@ -176,7 +176,7 @@ wt_status wt_compare_dwells(const wt_compare_job *job, const wt_job *work, wt_ta
     if (job->track == NULL)
         track.value = (double)NAN;
     TABLE_SET(dwell_dma, &t, compare_temperature(job, 0), track,
-              no_draws || lacks ? compare_lacks(no_draws, lacks) : NULL, statement[0],
+              no_draws || lacks ? compare_missing_inputs(no_draws, lacks) : NULL, statement[0],
               statement[1]);
     return table_end(&t, table);
 }

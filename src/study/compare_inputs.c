@@ -18,14 +18,14 @@ static double square_of(double x)
     return x * x;
 }
 
-static void include_error(compare_known *k, const char *sign, const char *words)
+static void include_error(comparison_inputs *k, const char *sign, const char *words)
 {
     const size_t used = strlen(k->includes);
     snprintf(k->includes + used, sizeof k->includes - used, "%s%s", sign, words);
 }
 
 /* Adds a variance to that of the offset; one that is not known is named. */
-static void add_error(compare_known *k, double error, const char *words)
+static void add_error(comparison_inputs *k, double error, const char *words)
 {
     if (isnan(error)) {
         const size_t used = strlen(k->lacks);
@@ -38,7 +38,7 @@ static void add_error(compare_known *k, double error, const char *words)
     include_error(k, ", ", words);
 }
 
-static bool are_two(const compare_pair *p, wt_levers levers)
+static bool are_two(const compare_pair *p, wt_cantilever_sharing levers)
 {
     const double bulk = p->data[0].spring_constant.value, track = p->data[1].spring_constant.value;
     if (levers != WT_LEVERS_AUTO)
@@ -58,7 +58,7 @@ typedef struct calibration {
 } calibration;
 
 static calibration calibration_of(const wt_group_data *d, const wt_compare_job *job,
-                                  wt_common_source source)
+                                  wt_shared_law_source source)
 {
     const double stated[WT_COMMON_SOURCES] = {
         [WT_COMMON_SPRING_CONSTANT] = d->spring_constant.standard_error / d->spring_constant.value};
@@ -81,7 +81,7 @@ static bool has_tip_error(const wt_group_data *d)
     return d->common_error[WT_COMMON_HALF_ANGLE] > 0 || d->common_error[WT_COMMON_RADIUS] > 0;
 }
 
-static void cancel_error(compare_known *k, const char *words)
+static void cancel_error(comparison_inputs *k, const char *words)
 {
     const size_t used = strlen(k->cancels);
     snprintf(k->cancels + used, sizeof k->cancels - used, "%s%s", used > 0 ? ", " : "", words);
@@ -89,8 +89,9 @@ static void cancel_error(compare_known *k, const char *words)
 
 /* One lever and tip: their errors are those of both groups, and what is left is what the gains
  * differ by. The force of a lever is in both moduli to the same power. */
-static void add_source(const compare_pair *p, const wt_compare_job *job, wt_common_source source,
-                       bool separate, const char *words, compare_known *k)
+static void add_source(const compare_pair *p, const wt_compare_job *job,
+                       wt_shared_law_source source, bool separate, const char *words,
+                       comparison_inputs *k)
 {
     const calibration bulk = calibration_of(&p->data[0], job, source),
                       track = calibration_of(&p->data[1], job, source);
@@ -108,7 +109,7 @@ static void add_source(const compare_pair *p, const wt_compare_job *job, wt_comm
         add_error(k, fabs(track.gain - bulk.gain) * error, words);
 }
 
-static void add_calibration(const compare_pair *p, const wt_compare_job *job, compare_known *k)
+static void add_calibration(const compare_pair *p, const wt_compare_job *job, comparison_inputs *k)
 {
     const wt_group_data *bulk = &p->data[0], *track = &p->data[1];
     k->two_levers = are_two(p, job->levers);
@@ -136,7 +137,7 @@ static void add_calibration(const compare_pair *p, const wt_compare_job *job, co
 
 /* What the curves themselves show and no scatter does. One piezo goes on bending in contact in both
  * groups or in none, and one tip is as wrong in both; the spectra of bulk and track may differ. */
-static void add_shown(const compare_pair *p, compare_known *k)
+static void add_shown(const compare_pair *p, comparison_inputs *k)
 {
     double loss[2], bend[2], misfit[2];
     for (int g = 0; g < 2; g++) {
@@ -229,7 +230,7 @@ wt_status compare_temperature_error(const wt_rubber *rubber, condition at, doubl
     return status;
 }
 
-static bool law_reaches(const wt_rubber *rubber, double temperature, compare_known *k)
+static bool law_reaches(const wt_rubber *rubber, double temperature, comparison_inputs *k)
 {
     wt_error why = WT_ERROR_INIT;
     if (rubber == NULL || flow_rubber_reaches(rubber, temperature, &why))
@@ -241,7 +242,8 @@ static bool law_reaches(const wt_rubber *rubber, double temperature, compare_kno
 
 /* By the DMA: from the condition of the bulk to that of the track. */
 static wt_status add_dma(const compare_pair *p, const wt_compare_job *job, const wt_job *work,
-                         bool by_temperature, double step_error, compare_known *k, wt_error *err)
+                         bool by_temperature, double step_error, comparison_inputs *k,
+                         wt_error *err)
 {
     condition at[2];
     for (int g = 0; g < 2; g++) {
@@ -299,7 +301,7 @@ wt_estimate compare_temperature(const wt_compare_job *job, int group)
 }
 
 static wt_status add_conditions(const compare_pair *p, const wt_compare_job *job,
-                                const wt_job *work, compare_known *k, wt_error *err)
+                                const wt_job *work, comparison_inputs *k, wt_error *err)
 {
     const wt_estimate slope = job->temperature_slope;
     wt_estimate bulk = job->temperature;
@@ -332,10 +334,11 @@ static wt_status add_conditions(const compare_pair *p, const wt_compare_job *job
     return WT_OK;
 }
 
-wt_status compare_find_known(const compare_pair *p, const wt_compare_job *job, const wt_job *work,
-                             bool rates_by_dma, compare_known *known, wt_error *err)
+wt_status comparison_find_inputs(const compare_pair *p, const wt_compare_job *job,
+                                 const wt_job *work, bool rates_by_dma, comparison_inputs *known,
+                                 wt_error *err)
 {
-    *known = (compare_known){.offset = {0, 0, 0, "1"}, .rates_by_dma = rates_by_dma};
+    *known = (comparison_inputs){.offset = {0, 0, 0, "1"}, .rates_by_dma = rates_by_dma};
     add_calibration(p, job, known);
     add_shown(p, known);
     return add_conditions(p, job, work, known, err);

@@ -13,8 +13,8 @@ typedef struct comparison_task {
     compare_pair *p;
     const wt_compare_job *job;
     const wt_job *work;
-    compare_known known;
-    compare_unsaid unsaid;
+    comparison_inputs known;
+    unstated_errors unsaid;
     compare_row *rows; /* [1 + n_rates] */
     size_t n_rates;
 } comparison_task;
@@ -95,12 +95,12 @@ static wt_status count_units(const comparison_task *task, compare_row *r, wt_err
 static wt_status compare_rows(comparison_task *task, wt_error *err)
 {
     compare_pair *p = task->p;
-    wt_status status = compare_find_known(p, task->job, task->work, false, &task->known, err);
+    wt_status status = comparison_find_inputs(p, task->job, task->work, false, &task->known, err);
     if (status == WT_OK)
         status = compare_bin(task, COMPARE_ALL_BINS, &task->rows[0], err);
     if (status == WT_OK && task->rows[0].c.unsettled == WT_RATES_APART &&
         (task->job->rubber != NULL || p->by_factor)) {
-        status = compare_find_known(p, task->job, task->work, true, &task->known, err);
+        status = comparison_find_inputs(p, task->job, task->work, true, &task->known, err);
         if (status == WT_OK)
             status = compare_bin(task, COMPARE_ALL_BINS, &task->rows[0], err);
     }
@@ -121,7 +121,7 @@ wt_status compare_as_fitted(const wt_compare_job *job, const wt_job *work, wt_es
     for (int g = 0; g < 2; g++)
         p.data[g].misfit_error = 0;
     if (status == WT_OK && p.data[0].group.n > 0 && p.data[1].group.n > 0) {
-        status = compare_find_known(&p, job, work, false, &task.known, err);
+        status = comparison_find_inputs(&p, job, work, false, &task.known, err);
         if (status == WT_OK)
             status = compare_bin(&task, COMPARE_ALL_BINS, &row, err);
     }
@@ -140,10 +140,10 @@ static void warn_copies(const comparison_task *task)
     for (int g = 0; g < 2; g++) {
         const wt_group_data *d = &task->p->data[g];
         if (d->n_copies > 0)
-            wt_parselog_add(task->work->log, WT_WARNING, NULL, NULL,
-                            "%zu curves of the %s are there twice and count once: %s and %s hold "
-                            "the same",
-                            d->n_copies, compare_group_name[g], d->copy_of[0], d->copy_of[1]);
+            wt_log_add(task->work->log, WT_WARNING, NULL, NULL,
+                       "%zu curves of the %s are there twice and count once: %s and %s hold "
+                       "the same",
+                       d->n_copies, compare_group_name[g], d->copy_of[0], d->copy_of[1]);
     }
 }
 
@@ -156,11 +156,11 @@ static void warn_two_spots(const comparison_task *task)
     if (!c->by_spot || (c->n_bulk == 2) == (c->n_track == 2) || c->n_bulk < 2 || c->n_track < 2)
         return;
     const int g = c->n_track == 2;
-    wt_parselog_add(task->work->log, WT_WARNING, NULL, NULL,
-                    "the two spots of the %s do not tell whether they scatter more than those of "
-                    "the %s; if they do, the interval is too narrow and a difference may be shown "
-                    "where there is none: measure a third spot",
-                    compare_group_name[g], compare_group_name[!g]);
+    wt_log_add(task->work->log, WT_WARNING, NULL, NULL,
+               "the two spots of the %s do not tell whether they scatter more than those of "
+               "the %s; if they do, the interval is too narrow and a difference may be shown "
+               "where there is none: measure a third spot",
+               compare_group_name[g], compare_group_name[!g]);
 }
 
 /* What a single spot does not tell is taken from the others (compare_lone in fit). */
@@ -170,18 +170,17 @@ static void warn_one_spot(const comparison_task *task)
     if (c->unsettled != WT_SETTLED || (c->n_bulk > 1 && c->n_track > 1))
         return;
     if (c->scatter_given) {
-        wt_parselog_add(
-            task->work->log, WT_WARNING, NULL, NULL,
-            "the interval of the ratio rests on spots that scatter by %.3g %%, as given: "
-            "one spot does not tell it; three spots in each group would",
-            100 * task->job->spot_scatter);
+        wt_log_add(task->work->log, WT_WARNING, NULL, NULL,
+                   "the interval of the ratio rests on spots that scatter by %.3g %%, as given: "
+                   "one spot does not tell it; three spots in each group would",
+                   100 * task->job->spot_scatter);
         return;
     }
     const int g = c->n_track == 1;
-    wt_parselog_add(task->work->log, WT_WARNING, NULL, NULL,
-                    "the %s has one spot only: it is taken to scatter up to twice as much as those "
-                    "of the %s; more spots would tell",
-                    compare_group_name[g], compare_group_name[!g]);
+    wt_log_add(task->work->log, WT_WARNING, NULL, NULL,
+               "the %s has one spot only: it is taken to scatter up to twice as much as those "
+               "of the %s; more spots would tell",
+               compare_group_name[g], compare_group_name[!g]);
 }
 
 /* Rates in one group only are left out if there are others. */
@@ -196,17 +195,16 @@ static void warn_rates(const comparison_task *task)
         left_out -= p->by_rate ? r->n[0] + r->n[1] : 0;
         if ((r->n[0] == 0) == (r->n[1] == 0))
             continue;
-        wt_parselog_add(task->work->log, WT_WARNING, NULL, NULL,
-                        "curves at %s m/s are in one group only (bulk %zu, track %zu)%s",
-                        ends_of(r->low, r->high, 3).text, r->n[0], r->n[1],
-                        all->c.rates_by == WT_RATES_COMMON && all->c.unsettled != WT_RATES_APART
-                            ? "; the comparison leaves them out"
-                            : "");
+        wt_log_add(task->work->log, WT_WARNING, NULL, NULL,
+                   "curves at %s m/s are in one group only (bulk %zu, track %zu)%s",
+                   format_range(r->low, r->high, 3).text, r->n[0], r->n[1],
+                   all->c.rates_by == WT_RATES_COMMON && all->c.unsettled != WT_RATES_APART
+                       ? "; the comparison leaves them out"
+                       : "");
     }
     if (left_out > 0)
-        wt_parselog_add(task->work->log, WT_WARNING, NULL, NULL,
-                        "%zu curves tell no indentation rate; the comparison leaves them out",
-                        left_out);
+        wt_log_add(task->work->log, WT_WARNING, NULL, NULL,
+                   "%zu curves tell no indentation rate; the comparison leaves them out", left_out);
 }
 
 /* ---- the table ------------------------------------------------------------------------------- */
@@ -215,7 +213,7 @@ TABLE_ROW_OF(comparison, COMPARISON, compare_row)
 
 /* The interval has room for what the ratio would be without the causes that may well be so. */
 static void add_rows(table_writer *t, const compare_row *rows, size_t n, bool silent, bool interval,
-                     const compare_unsaid *unsaid)
+                     const unstated_errors *unsaid)
 {
     for (size_t i = 0; i < n; i++) {
         compare_row row = rows[i];
@@ -304,8 +302,8 @@ static wt_status write_table(const comparison_task *task, wt_table **table, wt_e
     const compare_pair *p = task->p;
     const wt_comparison *c = &task->rows[0].c;
     const size_t n_rates = task->n_rates;
-    const compare_verdict v = compare_judge(p, task->job, &task->known, &task->unsaid,
-                                            &task->rows[0], task->rows + 1, n_rates);
+    const compare_verdict v = compare_assess(p, task->job, &task->known, &task->unsaid,
+                                             &task->rows[0], task->rows + 1, n_rates);
     const bool interval = c->unsettled == WT_SETTLED && !task->known.lever_not_stated;
     table_writer t = table_begin(&comparison_schema, err);
     add_rows(&t, task->rows, n_rates + 1, v.silent, interval, &task->unsaid);
@@ -347,7 +345,7 @@ wt_status compare_make_table(compare_pair *p, const wt_compare_job *job, const w
         return wt_fail(err, WT_E_MEMORY, "out of memory");
     wt_status status = both ? compare_rows(&task, err) : count_units(&task, task.rows, err);
     if (status == WT_OK && !both)
-        status = compare_find_known(p, job, work, false, &task.known, err);
+        status = comparison_find_inputs(p, job, work, false, &task.known, err);
     if (status == WT_OK && both)
         status = compare_find_unsaid(p, job, work, &task.rows[0], &task.unsaid, err);
     if (status == WT_OK)

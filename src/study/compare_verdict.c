@@ -14,20 +14,20 @@ static const double scatter_assumed = 0.15;
 /* The customary one, and that of the intervals. */
 static const double level = 0.05;
 
-typedef struct verdict_words {
+typedef struct verdict_text {
     char text[48];
-} verdict_words;
+} verdict_text;
 
-static verdict_words percent_words(double share)
+static verdict_text format_percent(double share)
 {
-    verdict_words w;
+    verdict_text w;
     clocale_print(w.text, sizeof w.text, share < 0.0995 ? "%.2g %%" : "%.0f %%", 100 * share);
     return w;
 }
 
-static verdict_words rate_words(double rate)
+static verdict_text format_rate(double rate)
 {
-    verdict_words w;
+    verdict_text w;
     wt_format_si(rate, "m/s", 2, w.text, sizeof w.text);
     return w;
 }
@@ -58,7 +58,7 @@ static void ask_for_spots(const wt_compare_job *job, const wt_comparison *c, com
     SAY(v->settled_by,
         "%s%s in each group would show a difference of %s in four of five trials where spots "
         "scatter by %s%s; more curves on a spot do not help",
-        third, number, percent_words(fabs(expm1(difference))).text, percent_words(scatter).text,
+        third, number, format_percent(fabs(expm1(difference))).text, format_percent(scatter).text,
         measured ? ", as they do here"
         : given  ? ", as given"
                  : " (assumed)");
@@ -76,10 +76,10 @@ static void name_rates(const compare_pair *p, int g, char *text, size_t size)
     if (first == p->n_bins)
         snprintf(text, size, "not known");
     else if (first == last)
-        snprintf(text, size, "%s", rate_words(p->high[last]).text);
+        snprintf(text, size, "%s", format_rate(p->high[last]).text);
     else
-        snprintf(text, size, "%s to %s", rate_words(p->low[first]).text,
-                 rate_words(p->high[last]).text);
+        snprintf(text, size, "%s to %s", format_rate(p->low[first]).text,
+                 format_rate(p->high[last]).text);
 }
 
 static void say_rates_apart(const compare_pair *p, bool twisted, compare_verdict *v)
@@ -157,8 +157,8 @@ static bool judge_empty(const compare_pair *p, compare_verdict *v)
 }
 
 /* What keeps the ratio itself from being known. */
-static bool judge_conditions(const compare_pair *p, const compare_known *k, const compare_row *row,
-                             compare_verdict *v)
+static bool judge_conditions(const compare_pair *p, const comparison_inputs *k,
+                             const compare_row *row, compare_verdict *v)
 {
     const wt_comparison *c = &row->c;
     v->silent = true;
@@ -182,8 +182,8 @@ static bool judge_conditions(const compare_pair *p, const compare_known *k, cons
 }
 
 /* What leaves it without an interval. */
-static bool judge_error(const compare_pair *p, const wt_compare_job *job, const compare_known *k,
-                        const compare_row *row, compare_verdict *v)
+static bool judge_error(const compare_pair *p, const wt_compare_job *job,
+                        const comparison_inputs *k, const compare_row *row, compare_verdict *v)
 {
     const wt_comparison *c = &row->c;
     if (c->unsettled == WT_ONE_SPOT) {
@@ -238,12 +238,12 @@ static void judge_twist(const compare_row *rates, size_t n, double interaction, 
 }
 
 /* An interval that lacks something shows no difference to be small. */
-static void say_lacking(const wt_compare_job *job, const compare_known *k, compare_verdict *v)
+static void say_lacking(const wt_compare_job *job, const comparison_inputs *k, compare_verdict *v)
 {
     SAY(v->differs,
         "cannot say: the interval of the ratio has no room for a difference above %s, but it does "
         "not hold, for it is not known: %s",
-        percent_words(job->margin).text, k->lacks);
+        format_percent(job->margin).text, k->lacks);
     if (k->loss_not_known)
         SAY(v->settled_by, "%s",
             "curves whose samples have times, or a DMA of the rubber: either tells what the loss "
@@ -253,16 +253,16 @@ static void say_lacking(const wt_compare_job *job, const compare_known *k, compa
 }
 
 /* What else may well make the ratio keeps the answer back. */
-static void say_unsaid(const compare_unsaid *unsaid, const char *seems, compare_verdict *v)
+static void say_unsaid(const unstated_errors *unsaid, const char *seems, compare_verdict *v)
 {
     SAY(v->differs, "cannot say: the wear track %s, but this may be as well: %s", seems,
         unsaid->plausible);
     SAY(v->settled_by, "%s", unsaid->settled_by);
 }
 
-compare_verdict compare_judge(const compare_pair *p, const wt_compare_job *job,
-                              const compare_known *known, const compare_unsaid *unsaid,
-                              const compare_row *row, const compare_row *rates, size_t n_rates)
+compare_verdict compare_assess(const compare_pair *p, const wt_compare_job *job,
+                               const comparison_inputs *known, const unstated_errors *unsaid,
+                               const compare_row *row, const compare_row *rates, size_t n_rates)
 {
     const wt_comparison *c = &row->c;
     const double margin = log1p(job->margin);
@@ -291,11 +291,11 @@ compare_verdict compare_judge(const compare_pair *p, const wt_compare_job *job,
             within ? ", by less than the margin" : "");
     } else if (within) {
         SAY(v.differs, "no: the wear track differs from the bulk by less than %s, the margin set",
-            percent_words(job->margin).text);
+            format_percent(job->margin).text);
     } else {
         SAY(v.differs,
             "cannot say: the interval of the ratio has room for no difference and for one above %s",
-            percent_words(job->margin).text);
+            format_percent(job->margin).text);
         const double known_error = known->offset.standard_error;
         if (c->known_share > 0.5 && known->shown * known->shown > 0.5 * known_error * known_error)
             SAY(v.settled_by, "%s",

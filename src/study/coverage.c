@@ -145,7 +145,7 @@ static wt_status try_material(const coverage *c, const wt_rubber *own, const wt_
     double *shift = malloc((truth->n_shifts + 1) * sizeof *shift);
     wt_status status = shift == NULL
                            ? wt_fail(err, WT_E_MEMORY, "out of memory")
-                           : regenerate_sweep(&own->sweep, truth, seed, &sweep, shift, err);
+                           : bootstrap_sweep(&own->sweep, truth, seed, &sweep, shift, err);
     if (status == WT_OK)
         status = flow_rubber_fit(&sweep, &own->fit, own->poisson_ratio, FLOW_STORED_DRAWS, &c->work,
                                  &fit, rubber, err);
@@ -172,8 +172,8 @@ static wt_status try_materials(const coverage *c, uint64_t seed, setting *s, wt_
         s->given = NULL;
     }
     if (status == WT_OK && c->layer_fit.n_shifts > 0) {
-        status =
-            try_material(c, &c->setting.layer_rubber, &c->layer_fit, mix64(seed), layer, NULL, err);
+        status = try_material(c, &c->setting.layer_rubber, &c->layer_fit, splitmix64(seed), layer,
+                              NULL, err);
         s->layer_rubber = *layer;
     }
     return status;
@@ -196,8 +196,9 @@ static wt_status try_curves(const coverage *c, unsigned g, const wt_rubber *rubb
     const wt_prony *fitted = !known ? NULL : rubber != NULL ? &own : &c->spectrum[g];
     for (size_t i = 0; i < *n && status == WT_OK; i++) {
         curve_again again;
-        status = curve_set_try(set, i, modulus[i], known ? &c->spectrum[g] : NULL, fitted,
-                               c->contact[g], mix64(seed + g), c->scratch[worker], &again, err);
+        status =
+            curve_set_try(set, i, modulus[i], known ? &c->spectrum[g] : NULL, fitted, c->contact[g],
+                          splitmix64(seed + g), c->scratch[worker], &again, err);
         if (status != WT_OK || !again.accepted)
             continue;
         add_hit(&sums[OF_CURVES], judge_estimate(again.log_level));
@@ -225,7 +226,7 @@ static wt_status try_groups(const coverage *c, const wt_rubber *rubber, uint64_t
     for (unsigned g = 0; g < 2 && status == WT_OK; g++) {
         double *own = modulus + (g == 0 ? 0 : n[0]);
         long *of = spot + (g == 0 ? 0 : n[0]);
-        regenerate_group(&c->group[g], seed, g, own);
+        bootstrap_group(&c->group[g], seed, g, own);
         group[g] = (wt_group){.modulus = own, .spot = c->group[g].spot, .n = n[g]};
         if (!c->has_curves)
             continue;
@@ -250,13 +251,13 @@ static wt_status try_groups(const coverage *c, const wt_rubber *rubber, uint64_t
  * calibration, which another time would have been off by another share of its error. */
 static void take_ratio(const coverage *c, const wt_comparison *found, uint64_t seed, setting *s)
 {
-    const wt_layer_known *truth = &c->setting.known;
+    const wt_layer_observation *truth = &c->setting.known;
     const double error = truth->modulus_ratio.standard_error / truth->modulus_ratio.value;
     const double calibration = sqrt(truth->calibration_share) * error;
     const double off = found->log_ratio.value - c->log_ratio +
                        calibration * flow_draw_normal(seed, 0, FLOW_DRAW_RATIO);
     const double spread = hypot(found->log_ratio.standard_error, calibration);
-    wt_layer_known *known = &s->known;
+    wt_layer_observation *known = &s->known;
     known->modulus_ratio.value = truth->modulus_ratio.value * exp(off);
     known->modulus_ratio.standard_error = spread * known->modulus_ratio.value;
     known->calibration_share = pow(calibration / spread, 2);
@@ -267,7 +268,7 @@ static void take_ratio(const coverage *c, const wt_comparison *found, uint64_t s
 static wt_status try_once(const coverage *c, size_t trial, unsigned worker, hit *hits,
                           wt_error *err)
 {
-    const uint64_t seed = mix64(mix64(c->work.seed) + 1 + trial);
+    const uint64_t seed = splitmix64(splitmix64(c->work.seed) + 1 + trial);
     wt_estimate number[SETTING_NUMBERS];
     wt_comparison found = {.df = (double)NAN}; /* no ratio is taken without groups */
     wt_rubber rubber = {0}, layer = {0};
@@ -277,7 +278,7 @@ static wt_status try_once(const coverage *c, size_t trial, unsigned worker, hit 
     for (size_t k = 0; k < SETTING_NUMBERS; k++)
         number[k] = (wt_estimate){(double)NAN, (double)NAN, (double)NAN, NULL};
     wt_status status = try_materials(c, seed, &s, &rubber, &layer, hits, err);
-    regenerate_inputs(&s, seed);
+    bootstrap_inputs(&s, seed);
     if (status == WT_OK && c->has_groups)
         status =
             try_groups(c, c->fit.n_shifts > 0 ? &rubber : NULL, seed, worker, hits, &found, err);
@@ -336,7 +337,7 @@ static tally count_hits(const coverage *c, size_t k)
     t.one /= (double)t.n;
     t.both /= (double)t.n;
     t.scatter = sqrt(deviation / variance);
-    t.known = coverage_judge(t.both, t.n);
+    t.known = coverage_assess(t.both, t.n);
     return t;
 }
 
@@ -380,7 +381,7 @@ static void put_verdicts(const coverage *c, table_writer *t)
     setting drawn = c->setting;
     if (takes_ratio(c))
         drawn.known.modulus_ratio.standard_error = 0;
-    regenerate_words(&drawn, inputs, sizeof inputs);
+    bootstrap_describe(&drawn, inputs, sizeof inputs);
     coverage_set_print(
         t, COVERAGE_KEY_ANSWER,
         "in %zu trial%s the 95 %% intervals held the truth: %s%s%s%s%s%s%s%s", c->job->trials,
@@ -454,7 +455,7 @@ static wt_status find_groups(coverage *c, wt_error *err)
         const double *of = factors ? d->spectrum_factor : d->modulus;
         const double error = c->has_curves ? curve_set_variance(c->job->curves[g]) : 0;
         c->has_groups =
-            regenerate_scatter(of, d->spot, d->group.n, error, &c->group[g]) && c->has_groups;
+            bootstrap_scatter(of, d->spot, d->group.n, error, &c->group[g]) && c->has_groups;
         group[g] = (wt_group){.modulus = of, .spot = d->spot, .n = d->group.n};
     }
     if (c->has_groups && wt_compare(&group[0], &group[1], NULL, &found, NULL) == WT_OK)
@@ -558,7 +559,7 @@ wt_status wt_coverage_make(const wt_coverage_job *job, const wt_job *work, wt_ta
     }
     if (status == WT_OK)
         status = make_table(&c, table, err);
-    cost_say(work, (cost_summary){.items = (double)job->trials});
+    cost_report(work, (cost_summary){.items = (double)job->trials});
     for (unsigned i = 0; i < c.n_workers && c.scratch != NULL; i++)
         curve_scratch_free(c.scratch[i]);
     free(c.scratch);

@@ -52,7 +52,7 @@ static coverage_share verdict_of_share(double share, size_t n)
     return s;
 }
 
-coverage_share coverage_judge(double share, size_t n)
+coverage_share coverage_assess(double share, size_t n)
 {
     coverage_share s = verdict_of_share(share, n);
     if (strcmp(s.verdict, "cannot say") != 0)

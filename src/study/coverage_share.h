@@ -15,6 +15,6 @@ typedef struct coverage_share {
  * of a whole number of trials. Too narrow or too wide: it is outside 92 to 98 %, and so many
  * misses, or so few, are a chance of less than one in 400 (binomial). Holds: the share is known to
  * be 90 % or more. */
-coverage_share coverage_judge(double share, size_t n);
+coverage_share coverage_assess(double share, size_t n);
 
 #endif

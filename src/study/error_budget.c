@@ -111,10 +111,10 @@ static bool has_softness(const setting *s)
 
 static bool stated_softness(const setting *s)
 {
-    return s->has_softness && softness_has_errors(&s->softness);
+    return s->has_softness && strain_softening_has_errors(&s->softness);
 }
 
-static void hold_softness(setting *s)
+static void hold_strain_softening(setting *s)
 {
     s->softness.storage_error = s->softness.loss_error = NULL;
 }
@@ -180,7 +180,7 @@ static const source sources[] = {
     {"roughness", "more scans of the counter surface", applies_always, stated_roughness,
      hold_roughness},
     {"softening with strain", "more strain sweeps at the temperature of the contact", has_softness,
-     stated_softness, hold_softness},
+     stated_softness, hold_strain_softening},
     {"shear stress", "more friction runs that give it", has_shear, stated_shear, hold_shear},
     {"specific wear rate", "more or longer wear runs", has_layer, stated_wear, hold_wear},
     {"critical energy", "more layers of known thickness", has_energy, stated_energy, hold_energy},
@@ -433,7 +433,7 @@ static void put_number(const budget *b, setting_number k, const table_view *what
 static void put_ratio(const budget *b, table_writer *t)
 {
     static const char number[] = "modulus ratio";
-    const wt_layer_known *known = &b->setting.known;
+    const wt_layer_observation *known = &b->setting.known;
     const wt_estimate ratio = known->modulus_ratio;
     const bool measured = known->modulus_ratio_df > 0;
     const cost_of_stages curves = cost_stages(b->work.cost, "indentation");
@@ -470,7 +470,7 @@ static void put_ratio(const budget *b, table_writer *t)
 }
 
 wt_status wt_error_budget_make(const wt_sliding *sliding, const wt_layer_job *layer,
-                               const wt_layer_known *known, const wt_table *what_if,
+                               const wt_layer_observation *known, const wt_table *what_if,
                                const wt_job *work, wt_table **table, wt_error *err)
 {
     if (work == NULL || table == NULL)
@@ -498,6 +498,6 @@ wt_status wt_error_budget_make(const wt_sliding *sliding, const wt_layer_job *la
         error_budget_set_text(&t, ERROR_BUDGET_KEY_LACKS, b.lacks);
     status = table_end(&t, table);
     if (status == WT_OK)
-        cost_say(work, (cost_summary){.items = (double)wt_table_n_rows(*table)});
+        cost_report(work, (cost_summary){.items = (double)wt_table_n_rows(*table)});
     return status;
 }

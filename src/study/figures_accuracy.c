@@ -76,7 +76,7 @@ static void draw_part(figure_drawing *d, const char *part)
         return;
     axis_log(d, "x", "Processor time", &field[WORK_PRECISION_SECONDS], time);
     axis_log(d, "y", "Relative error", &field[WORK_PRECISION_TRUE_ERROR], error);
-    plot_heading(d, say(d->language, part));
+    plot_heading(d, translate(d->language, part));
     for (size_t i = 0; i < n; i++) {
         const int style = style_of_method(methods[i]);
         plot_item(d, section[i], "($1*x_unit):($4*y_unit) with lines ls 12");
@@ -110,11 +110,12 @@ static void draw_work_precision(figure_drawing *d)
     begin_legend(d, legend);
     for (size_t i = 0; i < n_methods; i++) {
         plot_other(d, "NaN with linespoints ls %d", style_of_method(methods[i]));
-        plot_title(d, say(d->language, methods[i]));
+        plot_title(d, translate(d->language, methods[i]));
     }
-    plot_other(d, "NaN with linespoints ls 31 pt 6 title '%s'", say(d->language, "what it states"));
+    plot_other(d, "NaN with linespoints ls 31 pt 6 title '%s'",
+               translate(d->language, "what it states"));
     plot_other(d, "NaN with lines ls 12 title '%s'",
-               say(d->language, "what the reference is good to"));
+               translate(d->language, "what the reference is good to"));
     plot_end(d);
     text_add(&d->script, "unset multiplot\n");
 }
@@ -191,7 +192,7 @@ static void put_source(figure_drawing *d, size_t row)
         language_decimals(d->language, time);
     }
     snprintf(words, sizeof words, "%s%s%s",
-             say(d->language, error_budget_text(d->table, row, ERROR_BUDGET_SOURCE)),
+             translate(d->language, error_budget_text(d->table, row, ERROR_BUDGET_SOURCE)),
              time[0] != '\0' ? ", " : "", time);
     text_tic(&d->script, words);
 }
@@ -209,7 +210,7 @@ static void draw_number(figure_drawing *d, const number_panel *p)
     text_add(&d->script, ") noenhanced scale 0\nunset arrow\n");
     draw_floor(d, p, "together");
     draw_floor(d, p, "model");
-    plot_heading(d, say(d->language, p->number));
+    plot_heading(d, translate(d->language, p->number));
     const char *last = "";
     for (size_t row = p->first; row < p->first + p->n; row++) {
         const char *kind = error_budget_text(t, row, ERROR_BUDGET_KIND);
@@ -246,14 +247,14 @@ static void draw_error_budget(figure_drawing *d)
     if (n == 0)
         return;
     begin_legend(d, legend_height / d->height);
-    plot_other(d, "NaN with boxes ls 1 title '%s'", say(d->language, "measured or stated"));
-    plot_other(d, "NaN with boxes ls 2 title '%s'", say(d->language, "choice of the model"));
+    plot_other(d, "NaN with boxes ls 1 title '%s'", translate(d->language, "measured or stated"));
+    plot_other(d, "NaN with boxes ls 2 title '%s'", translate(d->language, "choice of the model"));
     plot_other(d, "NaN with boxes ls 5 title '%s'",
-               say(d->language, "together, draws, arithmetic"));
+               translate(d->language, "together, draws, arithmetic"));
     plot_other(d, "NaN with lines ls %d dt 3 title '%s'", style_of("together"),
-               say(d->language, "floor of what is measured"));
+               translate(d->language, "floor of what is measured"));
     plot_other(d, "NaN with lines ls %d dt 3 title '%s'", style_of("model"),
-               say(d->language, "floor of the model"));
+               translate(d->language, "floor of the model"));
     plot_end(d);
     text_add(&d->script, "unset multiplot\n");
 }
@@ -315,11 +316,11 @@ static void draw_cost(figure_drawing *d)
         axis_log(d, "x", "Relative error", &t->schema->columns[COST_STANDARD_ERROR], error);
         text_add(&d->script, "k=0\nj=0\n");
         plot_item(d, section, "($3>0 ? $3*x_unit : NaN):" AT_STAGE " with points ls 1 title '%s'",
-                  say(d->language, "standard error"));
+                  translate(d->language, "standard error"));
         plot_item(d, section,
                   "($4>0 ? $4*x_unit : NaN):($2>0 ? -(j=j+1) : NaN)"
                   " with points ls 2 pt 6 title '%s'",
-                  say(d->language, "numerical error"));
+                  translate(d->language, "numerical error"));
         plot_end(d);
     }
     text_add(&d->script, "unset multiplot\n");
@@ -347,7 +348,7 @@ static void draw_coverage(figure_drawing *d)
     text_format(&d->script, "set yrange [-0.7:%zu.7]\nset ytics (", t->n_rows - 1);
     for (size_t i = 0; i < t->n_rows; i++) {
         text_add(&d->script, i > 0 ? ", " : "");
-        text_tic(&d->script, say(d->language, coverage_text(t, i, COVERAGE_NUMBER)));
+        text_tic(&d->script, translate(d->language, coverage_text(t, i, COVERAGE_NUMBER)));
         text_format(&d->script, " %zu", t->n_rows - 1 - i);
     }
     text_add(&d->script, ") noenhanced scale 0\n"
@@ -356,9 +357,9 @@ static void draw_coverage(figure_drawing *d)
     plot_item(d, section,
               "($1*x_unit):(%zu-$0):($2*x_unit):($3*x_unit) with xerrorbars ls 13 "
               "title '%s'",
-              t->n_rows - 1, say(d->language, "in the 95 % interval"));
+              t->n_rows - 1, translate(d->language, "in the 95 % interval"));
     plot_item(d, section, "($4*x_unit):(%zu-$0) with points ls 2 title '%s'", t->n_rows - 1,
-              say(d->language, "within one standard error"));
+              translate(d->language, "within one standard error"));
     plot_end(d);
 }
 

@@ -124,7 +124,7 @@ static void draw_grid(figure_drawing *d, grid *g)
         draw_panel(d, g, i);
     text_add(&d->script, "unset multiplot\n");
     if (g->of.too_many)
-        text_say(&d->caption, " The first %d only.", PANELS);
+        text_append_translated(&d->caption, " The first %d only.", PANELS);
 }
 
 static void draw_moduli(figure_drawing *d)
@@ -212,7 +212,7 @@ static void name_members(figure_drawing *d, const constant_panel *panel)
             strcmp(shared_members_text(d->table, row, SHARED_MEMBERS_OF), panel->of) != 0)
             continue;
         text_add(&d->script, before);
-        growing_text name = {0};
+        text_buffer name = {0};
         text_name(&name, shared_members_text(d->table, row, SHARED_MEMBERS_MEMBER), NAME);
         text_tic(&d->script, text_string(&name));
         text_done(&name, &d->script);
@@ -239,10 +239,10 @@ static void draw_constants(figure_drawing *d)
                 lines, columns);
     drawing_axis(d, "y", &d->figure->y[0], NULL, d->y[0]);
     for (size_t i = 0; i < n; i++) {
-        growing_text of = {0};
+        text_buffer of = {0};
         text_name(&of, shown[i].of, HEADING);
         text_add(&d->script, "set title ");
-        text_quoted(&d->script, say(d->language, shown[i].constant));
+        text_quoted(&d->script, translate(d->language, shown[i].constant));
         text_add(&d->script, ".\"\\n\".");
         text_quoted(&d->script, text_string(&of));
         text_add(&d->script, " noenhanced\n");
@@ -256,14 +256,14 @@ static void draw_constants(figure_drawing *d)
     }
     text_add(&d->script, "unset multiplot\n");
     if (too_many)
-        text_say(&d->caption, " The first %d only.", PANELS);
+        text_append_translated(&d->caption, " The first %d only.", PANELS);
 }
 
 static void caption_friction(figure_drawing *d)
 {
     const char *part = collected_friction_words(d->table, COLLECTED_FRICTION_KEY_PART);
     if (part != NULL && strcmp(part, "hysteresis") == 0)
-        text_words(&d->caption, " Of hysteresis alone: not all cases have a shear stress.");
+        text_append_phrase(&d->caption, " Of hysteresis alone: not all cases have a shear stress.");
 }
 
 const figure_description figures_collection[] = {

@@ -131,11 +131,11 @@ static void draw_panel(figure_drawing *d, const panel *p)
     for (size_t i = 0; i < p->n; i++) {
         bar named = p->bars[i];
         language_decimals(d->language, named.tried);
-        name_place(d, i, say(d->language, named.choice), named.tried);
+        name_place(d, i, translate(d->language, named.choice), named.tried);
     }
     if (chance)
-        name_place(d, p->n, say(d->language, "errors that are known"),
-                   say(d->language, "95 % interval"));
+        name_place(d, p->n, translate(d->language, "errors that are known"),
+                   translate(d->language, "95 % interval"));
     text_format(&d->script,
                 ") noenhanced scale 0\nunset arrow\n"
                 "set arrow from %s*x_unit, graph 0 to %s*x_unit, graph 1 nohead ls 12 back\n",

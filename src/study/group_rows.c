@@ -71,7 +71,7 @@ static uint64_t digest_of(const table_view *t, size_t row)
             known++;
             memcpy(&bits, &value, sizeof bits);
         }
-        digest = mix64(digest ^ mix64(bits + i));
+        digest = splitmix64(digest ^ splitmix64(bits + i));
     }
     return known >= 3 ? digest : 0;
 }

@@ -69,8 +69,8 @@ static wt_status add_isotherm(const wt_isotherm *measured, const wt_master *fit,
     return WT_OK;
 }
 
-wt_status regenerate_sweep(const wt_sweep *measured, const wt_master *fit, uint64_t seed,
-                           wt_sweep *sweep, double *shift, wt_error *err)
+wt_status bootstrap_sweep(const wt_sweep *measured, const wt_master *fit, uint64_t seed,
+                          wt_sweep *sweep, double *shift, wt_error *err)
 {
     double at_reference = (double)NAN;
     wt_status status = flow_needs_oscillation(measured, "drawing isotherms anew", err);
@@ -96,8 +96,8 @@ wt_status regenerate_sweep(const wt_sweep *measured, const wt_master *fit, uint6
 
 /* ---- groups of moduli ------------------------------------------------------------------------ */
 
-bool regenerate_scatter(const double *modulus, const long *spot, size_t n, double error,
-                        scattered_group *group)
+bool bootstrap_scatter(const double *modulus, const long *spot, size_t n, double error,
+                       scattered_group *group)
 {
     double sum = 0, squares = 0, inside = 0, inverse = 0;
     *group = (scattered_group){.n = n, .spot = spot};
@@ -129,7 +129,7 @@ bool regenerate_scatter(const double *modulus, const long *spot, size_t n, doubl
     return true;
 }
 
-void regenerate_group(const scattered_group *group, uint64_t seed, unsigned number, double *modulus)
+void bootstrap_group(const scattered_group *group, uint64_t seed, unsigned number, double *modulus)
 {
     for (size_t i = 0; i < group->n; i++) {
         const size_t place = ((size_t)number << 32) + (size_t)group->spot[i];
@@ -170,7 +170,7 @@ static wt_estimate *input_of(setting *s, size_t i)
     return there && e->standard_error > 0 && isfinite(e->value) ? e : NULL;
 }
 
-void regenerate_inputs(setting *s, uint64_t seed)
+void bootstrap_inputs(setting *s, uint64_t seed)
 {
     for (size_t i = 0; i < COUNT_OF(inputs); i++) {
         wt_estimate *e = input_of(s, i);
@@ -188,7 +188,7 @@ void regenerate_inputs(setting *s, uint64_t seed)
     }
 }
 
-void regenerate_hold(setting *s)
+void bootstrap_fix_inputs(setting *s)
 {
     for (size_t i = 0; i < COUNT_OF(inputs); i++) {
         wt_estimate *e = input_of(s, i);
@@ -198,7 +198,7 @@ void regenerate_hold(setting *s)
     s->softness.storage_error = s->softness.loss_error = NULL;
 }
 
-void regenerate_words(const setting *s, char *text, size_t size)
+void bootstrap_describe(const setting *s, char *text, size_t size)
 {
     setting any = *s;
     size_t n = 0;

@@ -9,8 +9,8 @@
 /* Isotherms from the fitted spectrum, with the noise, its correlation and the scatter of the
  * temperatures that the fit found. shift: [n_shifts of the fit] log10 a_T that they were made with,
  * relative to the reference isotherm; NaN where not determined. sweep: cleared by the caller. */
-wt_status regenerate_sweep(const wt_sweep *measured, const wt_master *fit, uint64_t seed,
-                           wt_sweep *sweep, double *shift, wt_error *err) WT_NODISCARD;
+wt_status bootstrap_sweep(const wt_sweep *measured, const wt_master *fit, uint64_t seed,
+                          wt_sweep *sweep, double *shift, wt_error *err) WT_NODISCARD;
 
 /* The logarithm of the moduli of a group as spots that scatter, with curves that scatter on them.
  */
@@ -22,18 +22,17 @@ typedef struct scattered_group {
 
 /* False if fewer than two spots tell the scatter. error: mean square of what the fit leaves open of
  * ln E, which the scatter of the curves then is without. */
-bool regenerate_scatter(const double *modulus, const long *spot, size_t n, double error,
-                        scattered_group *group);
+bool bootstrap_scatter(const double *modulus, const long *spot, size_t n, double error,
+                       scattered_group *group);
 /* modulus: [n]. Two groups of one trial have two numbers. */
-void regenerate_group(const scattered_group *group, uint64_t seed, unsigned number,
-                      double *modulus);
+void bootstrap_group(const scattered_group *group, uint64_t seed, unsigned number, double *modulus);
 
 /* Every input with a stated error as another measurement of it would state it, with the same
  * relative error. */
-void regenerate_inputs(setting *s, uint64_t seed);
+void bootstrap_inputs(setting *s, uint64_t seed);
 /* All of them held as they are, and what softens the rubber. */
-void regenerate_hold(setting *s);
+void bootstrap_fix_inputs(setting *s);
 /* Which those are, in words. */
-void regenerate_words(const setting *s, char *text, size_t size);
+void bootstrap_describe(const setting *s, char *text, size_t size);
 
 #endif

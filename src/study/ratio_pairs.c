@@ -82,7 +82,7 @@ static const char *own_name(const pair *q, const collected_case *c)
 
 /* By how much narrower the interval of a pair must be, its middle as it is: within the margin, or
  * beside 0. */
-static double needed_of(const pair *q, double margin)
+static double required_shear_of(const pair *q, double margin)
 {
     const double half = (q->difference.high - q->difference.low) / 2,
                  off = fabs(q->difference.value), room = log1p(margin) - off;
@@ -96,7 +96,7 @@ static void ask_for_more(const pair_list *list, double margin, char *text, size_
     double least = (double)INFINITY;
     for (size_t i = 0; i < list->n; i++) {
         const pair *q = &list->pairs[i];
-        const double needed = needed_of(q, margin);
+        const double needed = required_shear_of(q, margin);
         if (q->differ == open_ && needed * needed < least) {
             least = needed * needed;
             nearest = q;

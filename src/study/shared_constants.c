@@ -188,7 +188,7 @@ static wt_status judge(shared_rows *list, wt_error *err)
 
 /* By how much smaller errors would settle a row, its values as they are: all of them within the
  * margin, or one beside 0. */
-static double needed_of(const shared_row *row, double margin)
+static double required_shear_of(const shared_row *row, double margin)
 {
     double within = 0, beside = (double)INFINITY;
     for (size_t i = 0; i < row->n; i++) {
@@ -222,7 +222,7 @@ static void ask_for_more(const shared_rows *list, char *text, size_t size)
     double least = (double)INFINITY;
     for (size_t i = 0; i < list->n; i++) {
         const shared_row *row = &list->rows[i];
-        const double needed = needed_of(row, list->margin);
+        const double needed = required_shear_of(row, list->margin);
         if (row->suffices == open_ && partly_known(row) == NULL && needed < least) {
             least = needed;
             nearest = row;

@@ -29,20 +29,20 @@ TABLE_KEYS(shared_pairs, SHARED_PAIRS, const char *one_of_all; double tests;
            const char *left_out, *settled_by; double margin;)
 
 /* What a case knows in one way, a row of its table "identification". */
-typedef struct told_pair {
+typedef struct reported_pair {
     const collected_case *of;
     const char *by, *lacks; /* lacks: "" where its error is whole */
     constant_pair pair;
     wt_interval energy, wear;
     constant_axes axes;
     bool fixed; /* there is a covariance */
-} told_pair;
+} reported_pair;
 
-typedef struct told_pairs {
-    told_pair *of;
+typedef struct reported_pairs {
+    reported_pair *of;
     size_t n;
     char left_out[1000];
-} told_pairs;
+} reported_pairs;
 
 typedef enum common_to { OF_SAMPLE, OF_CONDITION, OF_ALL, COMMONS } common_to;
 static const char *const common_words[COMMONS] = {"sample", "condition", "all cases"};
@@ -54,7 +54,7 @@ enum { OF_ENERGY, OF_WEAR, OF_PAIR_, TESTS };
 typedef struct pair_row {
     const char *by, *of;
     common_to common;
-    const told_pair **members; /* [n] */
+    const reported_pair **members; /* [n] */
     size_t n;
     shared_pair found;
     double p[TESTS], holm_p[TESTS];
@@ -83,14 +83,14 @@ static wt_interval interval_at(const table_view *v, size_t row, unsigned first)
                          identification_get(v, row, first + 3)};
 }
 
-static told_pair pair_at(const collected_case *c, const table_view *v, size_t row)
+static reported_pair pair_at(const collected_case *c, const table_view *v, size_t row)
 {
     const char *lacks = identification_words(v, IDENTIFICATION_KEY_LACKS);
-    told_pair t = {.of = c,
-                   .by = identification_text(v, row, IDENTIFICATION_BY),
-                   .lacks = lacks != NULL ? lacks : "",
-                   .energy = interval_at(v, row, IDENTIFICATION_ENERGY),
-                   .wear = interval_at(v, row, IDENTIFICATION_WEAR)};
+    reported_pair t = {.of = c,
+                       .by = identification_text(v, row, IDENTIFICATION_BY),
+                       .lacks = lacks != NULL ? lacks : "",
+                       .energy = interval_at(v, row, IDENTIFICATION_ENERGY),
+                       .wear = interval_at(v, row, IDENTIFICATION_WEAR)};
     const double of_energy = t.energy.standard_error / t.energy.value,
                  of_wear = t.wear.standard_error / t.wear.value,
                  correlation = identification_get(v, row, IDENTIFICATION_CORRELATION);
@@ -110,7 +110,7 @@ static told_pair pair_at(const collected_case *c, const table_view *v, size_t ro
     return t;
 }
 
-static wt_status add_case(const collected_case *c, told_pairs *to, wt_error *err)
+static wt_status add_case(const collected_case *c, reported_pairs *to, wt_error *err)
 {
     table_view v;
     const wt_status status = table_bind_of(c->result, &identification_schema, "", &v, err);
@@ -119,8 +119,8 @@ static wt_status add_case(const collected_case *c, told_pairs *to, wt_error *err
         return status;
     }
     for (size_t row = 0; row < v.n_rows; row++) {
-        const told_pair t = pair_at(c, &v, row);
-        told_pair *grown = array_grow(to->of, to->n, sizeof *grown);
+        const reported_pair t = pair_at(c, &v, row);
+        reported_pair *grown = array_grow(to->of, to->n, sizeof *grown);
         if (grown == NULL)
             return wt_fail(err, WT_E_MEMORY, "out of memory");
         to->of = grown;
@@ -135,11 +135,11 @@ static wt_status add_case(const collected_case *c, told_pairs *to, wt_error *err
     return WT_OK;
 }
 
-static wt_status list_told(const told_pairs *told, wt_table **table, wt_error *err)
+static wt_status list_told(const reported_pairs *told, wt_table **table, wt_error *err)
 {
     table_writer w = table_begin(&collected_constants_schema, err);
     for (size_t i = 0; i < told->n; i++) {
-        const told_pair *t = &told->of[i];
+        const reported_pair *t = &told->of[i];
         TABLE_ADD(collected_constants, &w, t->of->sample, t->of->condition, t->by, t->energy,
                   t->wear, t->axes);
     }
@@ -148,7 +148,7 @@ static wt_status list_told(const told_pairs *told, wt_table **table, wt_error *e
 
 /* ---- which are set side by side -------------------------------------------------------------- */
 
-static const char *name_of(const told_pair *t, common_to common)
+static const char *name_of(const reported_pair *t, common_to common)
 {
     const char *name = common == OF_SAMPLE      ? t->of->sample
                        : common == OF_CONDITION ? t->of->condition
@@ -156,7 +156,7 @@ static const char *name_of(const told_pair *t, common_to common)
     return common != OF_ALL && name[0] == '\0' ? NULL : name;
 }
 
-static bool same(const told_pair *a, const told_pair *b, common_to common)
+static bool same(const reported_pair *a, const reported_pair *b, common_to common)
 {
     const char *of_a = name_of(a, common), *of_b = name_of(b, common);
     return b->fixed && strcmp(a->by, b->by) == 0 && of_a != NULL && of_b != NULL &&
@@ -164,13 +164,13 @@ static bool same(const told_pair *a, const told_pair *b, common_to common)
 }
 
 /* The row of which this is the first; none if it is alone, or all cases are of one name. */
-static wt_status add_row(const told_pairs *told, size_t first, common_to common, pair_rows *rows,
-                         pool *memory, wt_error *err)
+static wt_status add_row(const reported_pairs *told, size_t first, common_to common,
+                         pair_rows *rows, arena *memory, wt_error *err)
 {
-    const told_pair *t = &told->of[first];
+    const reported_pair *t = &told->of[first];
     pair_row row = {.by = t->by, .common = common, .of = name_of(t, common)};
     size_t others = 0;
-    row.members = pool_alloc(memory, told->n, sizeof *row.members);
+    row.members = arena_alloc(memory, told->n, sizeof *row.members);
     pair_row *grown = array_grow(rows->of, rows->n, sizeof *grown);
     if (grown != NULL)
         rows->of = grown;
@@ -194,12 +194,12 @@ static double part_of(pair_covariance c, int which)
 }
 
 /* One of the two constants by itself. */
-static wt_status fit_one(pair_row *row, const bool *common, int which, pool *memory, wt_error *err)
+static wt_status fit_one(pair_row *row, const bool *common, int which, arena *memory, wt_error *err)
 {
     const size_t n = row->n;
-    wt_log_ratio *of = pool_alloc(memory, n, sizeof *of);
-    double *covariance = pool_numbers(memory, n * n);
-    shared_deviation *deviation = pool_alloc(memory, n, sizeof *deviation);
+    wt_log_ratio *of = arena_alloc(memory, n, sizeof *of);
+    double *covariance = arena_numbers(memory, n * n);
+    shared_deviation *deviation = arena_alloc(memory, n, sizeof *deviation);
     shared_value found;
     if (of == NULL || covariance == NULL || deviation == NULL)
         return wt_fail(err, WT_E_MEMORY, "out of memory");
@@ -219,11 +219,11 @@ static wt_status fit_one(pair_row *row, const bool *common, int which, pool *mem
     return status;
 }
 
-static wt_status fit_row(pair_row *row, pool *memory, wt_error *err)
+static wt_status fit_row(pair_row *row, arena *memory, wt_error *err)
 {
     const size_t n = row->n;
-    constant_pair *pairs = pool_alloc(memory, n, sizeof *pairs);
-    bool *common = pool_alloc(memory, n * n, sizeof *common);
+    constant_pair *pairs = arena_alloc(memory, n, sizeof *pairs);
+    bool *common = arena_alloc(memory, n * n, sizeof *common);
     if (pairs == NULL || common == NULL)
         return wt_fail(err, WT_E_MEMORY, "out of memory");
     for (size_t i = 0; i < n; i++) {
@@ -241,7 +241,7 @@ static wt_status fit_row(pair_row *row, pool *memory, wt_error *err)
 
 /* The first of them whose error is not whole, which makes any verdict one of part of it; or NULL.
  */
-static const told_pair *partly_known(const pair_row *row)
+static const reported_pair *partly_known(const pair_row *row)
 {
     for (size_t i = 0; i < row->n; i++)
         if (row->members[i]->lacks[0] != '\0')
@@ -249,9 +249,9 @@ static const told_pair *partly_known(const pair_row *row)
     return NULL;
 }
 
-static wt_status judge(pair_rows *rows, double margin, pool *memory, wt_error *err)
+static wt_status judge(pair_rows *rows, double margin, arena *memory, wt_error *err)
 {
-    double *p = pool_numbers(memory, 2 * TESTS * rows->n + 1), *corrected = p + TESTS * rows->n;
+    double *p = arena_numbers(memory, 2 * TESTS * rows->n + 1), *corrected = p + TESTS * rows->n;
     if (p == NULL)
         return wt_fail(err, WT_E_MEMORY, "out of memory");
     for (size_t i = 0; i < TESTS * rows->n; i++)
@@ -288,7 +288,7 @@ static void say_settled_by(const pair_rows *rows, char *text, size_t size)
 {
     for (size_t i = 0; i < rows->n; i++) {
         const pair_row *row = &rows->of[i];
-        const told_pair *lacks = partly_known(row);
+        const reported_pair *lacks = partly_known(row);
         const constant_axes axes = constant_axes_of(row->found.covariance);
         if (lacks != NULL) {
             clocale_print(text, size, "the error of %s, %s is not whole before that of %s is known",
@@ -316,7 +316,7 @@ static const char *say_all(const pair_rows *rows)
     return said;
 }
 
-static wt_status list_rows(const pair_rows *rows, const told_pairs *told, double margin,
+static wt_status list_rows(const pair_rows *rows, const reported_pairs *told, double margin,
                            wt_table **table, wt_error *err)
 {
     char settled_by[400] = "";
@@ -339,9 +339,9 @@ static wt_status list_rows(const pair_rows *rows, const told_pairs *told, double
 wt_status collect_layer_constants(const collected_case *cases, size_t n, double margin,
                                   wt_collection_tables *tables, wt_error *err)
 {
-    told_pairs told = {.n = 0};
+    reported_pairs told = {.n = 0};
     pair_rows rows = {NULL, 0};
-    pool memory = {0};
+    arena memory = {0};
     wt_status status = WT_OK;
     for (size_t i = 0; status == WT_OK && i < n; i++)
         status = add_case(&cases[i], &told, err);
@@ -357,7 +357,7 @@ wt_status collect_layer_constants(const collected_case *cases, size_t n, double 
         status = list_told(&told, &tables->collected_constants, err);
     if (status == WT_OK && rows.n > 0)
         status = list_rows(&rows, &told, margin, &tables->shared_pairs, err);
-    pool_free(&memory);
+    arena_free(&memory);
     free(rows.of);
     free(told.of);
     return status;

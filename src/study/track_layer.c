@@ -138,7 +138,7 @@ static wt_status find_other(const wt_compare_job *job, const wt_table *layer, tr
                             wt_error *err)
 {
     const double none = (double)NAN;
-    finding_tables tables = {0};
+    result_value_tables tables = {0};
     *to = (track_other){.thickness = {none, none, none, none}, .from = ""};
     if (job->expected_thickness.value > 0) {
         const wt_estimate *given = &job->expected_thickness;
@@ -154,7 +154,7 @@ static wt_status find_other(const wt_compare_job *job, const wt_table *layer, tr
     const wt_status status = table_bind(layer, &layer_schema, "", &tables.layer, err);
     if (status != WT_OK)
         return status;
-    const finding f = finding_of_thickness(&tables);
+    const result_value f = result_value_of_thickness(&tables);
     to->from = isnan(layer_value(&tables.layer, LAYER_KEY_OBSERVED_THICKNESS).value)
                    ? "the balance of formation and wear"
                    : "the balance, whose critical energy is from an observed thickness";
@@ -179,8 +179,8 @@ static double finite_or_none(double value)
 static void set_keys(table_writer *t, const track_findings *f)
 {
     const wt_layer_profile *p = &f->profile;
-    track_words words;
-    track_words_make(f, &words);
+    track_text words;
+    track_text_make(f, &words);
     const double thickness = p->thickness.value;
     track_layer_keys keys = {.allowed = words.allowed,
                              .agree = words.agree,
@@ -242,7 +242,7 @@ static wt_status make_table(const depth_group group[2], const track_findings *f,
         measured_rows(&t, compare_group_name[g], &group[g].depth);
     if (f->profile.n_steps > 1) {
         const double bulk = group[1].depth.modulus[WT_DEPTHS - 1].value / f->ratio;
-        const wt_layer_allows says = f->profile.says;
+        const wt_layer_bound_kind says = f->profile.says;
         if (says == WT_ALLOWS_BETWEEN)
             layer_rows(&t, "layer of the curves", f, bulk, f->profile.thickness.value);
         if (says == WT_ALLOWS_THICKER || says == WT_ALLOWS_THINNER)

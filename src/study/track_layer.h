@@ -28,9 +28,9 @@ typedef struct track_findings {
     track_obstacle obstacle;
 } track_findings;
 
-typedef struct track_words {
+typedef struct track_text {
     char allowed[480], agree[480], settled_by[400];
-} track_words;
-void track_words_make(const track_findings *found, track_words *words);
+} track_text;
+void track_text_make(const track_findings *found, track_text *words);
 
 #endif

@@ -9,13 +9,13 @@
 #include <math.h>
 #include <string.h>
 
-typedef struct length_words {
+typedef struct length_text {
     char text[32];
-} length_words;
+} length_text;
 
-static length_words metres(double value)
+static length_text metres(double value)
 {
-    length_words w;
+    length_text w;
     wt_format_si(value, "m", 3, w.text, sizeof w.text);
     return w;
 }
@@ -147,8 +147,8 @@ static void say_settled(const track_findings *f, char *text, size_t size)
 static void say_allowed(const track_findings *f, char *text, size_t size)
 {
     const wt_layer_profile *p = &f->profile;
-    const length_words low = metres(p->thickness.low), high = metres(p->thickness.high),
-                       least = metres(p->least), depth = metres(p->depth);
+    const length_text low = metres(p->thickness.low), high = metres(p->thickness.high),
+                      least = metres(p->least), depth = metres(p->depth);
     if (f->obstacle.why != NULL)
         clocale_print(text, size, "cannot say: %s", f->obstacle.why);
     else if (p->says == WT_ALLOWS_BEYOND)
@@ -207,7 +207,7 @@ static void say_agree(const track_findings *f, char *text, size_t size)
         clocale_print(text, size, "cannot say: %s gives no thickness above zero", o->from);
         return;
     }
-    const length_words here = metres(o->thickness.value);
+    const length_text here = metres(o->thickness.value);
     const range_words both = between(f->agreement.low, f->agreement.high);
     if (f->obstacle.why != NULL || p->says == WT_ALLOWS_UNKNOWN || p->says == WT_ALLOWS_BEYOND)
         clocale_print(text, size, "cannot say: the curves do not tell");
@@ -235,7 +235,7 @@ static void say_agree(const track_findings *f, char *text, size_t size)
             here.text, o->from, WT_LAYER_MARGIN, both.text);
 }
 
-void track_words_make(const track_findings *found, track_words *words)
+void track_text_make(const track_findings *found, track_text *words)
 {
     say_allowed(found, words->allowed, sizeof words->allowed);
     say_agree(found, words->agree, sizeof words->agree);

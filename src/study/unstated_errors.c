@@ -79,7 +79,7 @@ static cause_effect effect_in(int group, double effect)
 }
 
 /* A cause that would do it, in words; `plausible` ones are those that keep the answer back. */
-static void add_cause(compare_unsaid *u, bool plausible, cause_effect effect, const char *words,
+static void add_cause(unstated_errors *u, bool plausible, cause_effect effect, const char *words,
                       const char *settled_by)
 {
     add_words(u->would_explain, sizeof u->would_explain, words);
@@ -104,15 +104,15 @@ static wt_status radius_for(const wt_tip *tip, const pressed *at, double effect,
                             double *misfit, wt_error *err)
 {
     double low = tip->radius, high = 10 * worn_radius;
-    wt_worn_tip fit = {0};
-    wt_status status = wt_worn_tip_fit(tip, high, at->depth, at->bending, &fit, err);
+    wt_tip_wear fit = {0};
+    wt_status status = wt_tip_wear_fit(tip, high, at->depth, at->bending, &fit, err);
     *radius = (double)INFINITY;
     *misfit = fit.misfit;
     if (status != WT_OK || !(fit.log_modulus > effect))
         return status;
     for (int i = 0; status == WT_OK && i < 30; i++) { /* to 1e-9 of the bracket */
         *radius = 0.5 * (low + high);
-        status = wt_worn_tip_fit(tip, *radius, at->depth, at->bending, &fit, err);
+        status = wt_tip_wear_fit(tip, *radius, at->depth, at->bending, &fit, err);
         *(fit.log_modulus > effect ? &high : &low) = *radius;
     }
     *misfit = fit.misfit;
@@ -130,7 +130,7 @@ static wt_status misfit_chances(const compare_pair *p, double chance[2], wt_erro
     wt_sign_comparison lack;
     const wt_status status = wt_compare_signs(values, spots, n, &lack, err);
     for (int g = 0; status == WT_OK && g < 2; g++)
-        chance[g] = wt_chance_of_both(lack.larger_chance[g], p->data[g].pooled_misfit_chance);
+        chance[g] = wt_combined_p_value(lack.larger_chance[g], p->data[g].pooled_misfit_chance);
     return status;
 }
 
@@ -157,7 +157,7 @@ static bool shows_wear(const wt_group_data *d, const wt_compare_job *job, double
 
 /* It is blunter in the group that seems stiffer; where none does, in the one with the misfit. */
 static wt_status add_tip(const compare_pair *p, const wt_compare_job *job, bool within,
-                         compare_unsaid *u, wt_error *err)
+                         unstated_errors *u, wt_error *err)
 {
     wt_tip tip;
     double chance[2], needed, least, misfit, ignored;
@@ -177,9 +177,9 @@ static wt_status add_tip(const compare_pair *p, const wt_compare_job *job, bool 
         return status;
     const double largest = largest_radius(d, job, &tip);
     const bool plausible = least <= largest && shows_wear(d, job, misfit, chance[worn]);
-    wt_worn_tip most = {0};
+    wt_tip_wear most = {0};
     if (plausible)
-        status = wt_worn_tip_fit(&tip, largest, at.depth, at.bending, &most, err);
+        status = wt_tip_wear_fit(&tip, largest, at.depth, at.bending, &most, err);
     char words[240], here[32], there[32];
     wt_format_si(tip.radius, "m", 2, here, sizeof here);
     wt_format_si(needed, "m", 2, there, sizeof there);
@@ -228,14 +228,14 @@ static double pull_effect(const wt_tip *tip, double depth, double force, double 
                contact_force(tip, depth));
 }
 
-typedef struct needed_pull {
+typedef struct required_adhesion {
     const wt_tip *tip;
     double depth, force, effect;
-} needed_pull;
+} required_adhesion;
 
 static bool is_too_little(double pull, void *user)
 {
-    const needed_pull *p = user;
+    const required_adhesion *p = user;
     return !(pull_effect(p->tip, p->depth, p->force, pull) > p->effect);
 }
 
@@ -244,13 +244,13 @@ static double pull_for(const wt_tip *tip, double depth, double force, double eff
     double low = 0, high = force;
     if (!(pull_effect(tip, depth, force, high) > effect))
         return (double)INFINITY;
-    needed_pull of = {tip, depth, force, effect};
+    required_adhesion of = {tip, depth, force, effect};
     root_halve(is_too_little, &of, &low, &high, 0, BISECTIONS);
     return high;
 }
 
 /* Where the curves of one group are pulled more than those of the other. */
-static wt_status add_pull(const compare_pair *p, bool within, compare_unsaid *u, wt_error *err)
+static wt_status add_pull(const compare_pair *p, bool within, unstated_errors *u, wt_error *err)
 {
     const double *const values[2] = {p->data[0].pull, p->data[1].pull};
     const long *const spots[2] = {p->data[0].group.spot, p->data[1].group.spot};
@@ -300,7 +300,7 @@ static double slope_of_rubbers(const compare_row *row)
 /* Where no temperature is stated. */
 static wt_status add_temperature(const compare_pair *p, const wt_compare_job *job,
                                  const wt_job *work, const compare_row *row, bool within,
-                                 compare_unsaid *u, wt_error *err)
+                                 unstated_errors *u, wt_error *err)
 {
     const bool stated = !isnan(job->temperature.value) || !isnan(job->track_temperature.value) ||
                         !isnan(job->temperature_slope.value);
@@ -335,10 +335,10 @@ static wt_status add_temperature(const compare_pair *p, const wt_compare_job *jo
 }
 
 wt_status compare_find_unsaid(const compare_pair *p, const wt_compare_job *job, const wt_job *work,
-                              const compare_row *row, compare_unsaid *u, wt_error *err)
+                              const compare_row *row, unstated_errors *u, wt_error *err)
 {
     const wt_comparison *c = &row->c;
-    *u = (compare_unsaid){.log_ratio = c->log_ratio.value};
+    *u = (unstated_errors){.log_ratio = c->log_ratio.value};
     if (!row->valid || isnan(u->log_ratio))
         return WT_OK;
     const double low = log(c->ratio_low), high = log(c->ratio_high);

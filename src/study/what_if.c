@@ -519,7 +519,7 @@ static void say_cost(const what_if *w, const wt_job *work)
             seconds += w->outcomes[k].choice == &choices[i] ? w->outcomes[k].seconds : 0;
         cost_set_part(work->cost, choices[i].words, seconds);
     }
-    cost_say(work, cost);
+    cost_report(work, cost);
 }
 
 /* The series of the material over what any of the settings asks of it, before they are computed at
@@ -542,7 +542,7 @@ static wt_status cover_all(const what_if *w, const setting *used, wt_error *err)
 }
 
 wt_status wt_what_if_make(const wt_sliding *sliding, const wt_layer_job *layer,
-                          const wt_layer_known *known, const wt_job *work, wt_table **table,
+                          const wt_layer_observation *known, const wt_job *work, wt_table **table,
                           wt_error *err)
 {
     if (work == NULL || table == NULL)
@@ -566,10 +566,10 @@ wt_status wt_what_if_make(const wt_sliding *sliding, const wt_layer_job *layer,
         status = compute_outcome(&w.outcomes[0], &w.work, err);
     w.work.left_out = WT_EXTRAS;
     if (status == WT_OK) {
-        drawn_hold(w.work.drawn, true);
+        material_cache_pin(w.work.drawn, true);
         status =
             wt_parallel_for(w.n - 1, work->threads, compute_one, &w, &work->progress, "what if");
-        drawn_hold(w.work.drawn, false);
+        material_cache_pin(w.work.drawn, false);
         if (status != WT_OK)
             wt_fail(err, status, "the choices of the model could not be tried");
     }

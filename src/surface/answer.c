@@ -6,7 +6,7 @@
 #include <math.h>
 
 /* What waves that no scan resolves give, where the spectrum was asked to go on to them. */
-static void tell_beyond(telling *t, const answer_story *story)
+static void tell_beyond(text_builder *t, const answer_context *story)
 {
     const table_view *const what_if = &story->found.what_if;
     const double end = power_spectrum_value(&story->power_spectrum, POWER_SPECTRUM_KEY_TO).value;
@@ -14,15 +14,15 @@ static void tell_beyond(telling *t, const answer_story *story)
                              ? what_if_value(what_if, WHAT_IF_KEY_SHARE_BEYOND).value
                              : (double)NAN;
     if (isfinite(share))
-        tell(
+        text_append(
             t,
             " %s of the hysteresis is of waves shorter than %s, which were not resolved and follow "
             "the self-affine law of the others: errors hold the scatter of its constants, but not "
             "that the surface may leave it.",
-            words_of_share(share).text, words_of(2 * M_PI / end, "m").text);
+            format_share(share).text, format_with_unit(2 * M_PI / end, "m").text);
 }
 
-void answer_surface(const answer_story *story)
+void answer_surface(const answer_context *story)
 {
     const table_view *const spectrum = &story->power_spectrum;
     if (spectrum->table == NULL)
@@ -33,18 +33,19 @@ void answer_surface(const answer_story *story)
     const double places = power_spectrum_value(spectrum, POWER_SPECTRUM_KEY_PLACES_ERROR).value;
     const size_t n = story->surfaces.n_rows;
     char text[900];
-    telling t = {text, sizeof text, 0};
-    tell(&t,
-         "Measured, %zu scan%s: rms height %s, rms slope %s over waves from %s to %s; longer and "
-         "shorter ones are not counted.",
-         n, n == 1 ? "" : "s",
-         words_of_known(power_spectrum_value(spectrum, POWER_SPECTRUM_KEY_RMS_HEIGHT)).text,
-         words_of_known(power_spectrum_value(spectrum, POWER_SPECTRUM_KEY_RMS_SLOPE)).text,
-         words_of(2 * M_PI / first, "m").text, words_of(2 * M_PI / last, "m").text);
+    text_builder t = {text, sizeof text, 0};
+    text_append(
+        &t,
+        "Measured, %zu scan%s: rms height %s, rms slope %s over waves from %s to %s; longer and "
+        "shorter ones are not counted.",
+        n, n == 1 ? "" : "s",
+        format_known_estimate(power_spectrum_value(spectrum, POWER_SPECTRUM_KEY_RMS_HEIGHT)).text,
+        format_known_estimate(power_spectrum_value(spectrum, POWER_SPECTRUM_KEY_RMS_SLOPE)).text,
+        format_with_unit(2 * M_PI / first, "m").text, format_with_unit(2 * M_PI / last, "m").text);
     tell_beyond(&t, story);
-    tell(&t, " The errors of friction and contact area hold the scatter of its spectrum%s.",
-         places > 0    ? " and from place to place"
-         : places == 0 ? "; its places differ by no more than that"
-                       : ", but not what another place of the surface would give");
-    answer_say(story, "What is the counter surface like?", "surface", "%s", text);
+    text_append(&t, " The errors of friction and contact area hold the scatter of its spectrum%s.",
+                places > 0    ? " and from place to place"
+                : places == 0 ? "; its places differ by no more than that"
+                              : ", but not what another place of the surface would give");
+    answer_add_sentence(story, "What is the counter surface like?", "surface", "%s", text);
 }

@@ -207,16 +207,16 @@ static void say_beyond(const wt_job *work, const surface_whole *w, double end)
     char words[32];
     wt_format_si(2 * M_PI / end, "m", 3, words, sizeof words);
     if (w->knots.n > w->knots.n_measured)
-        wt_parselog_add(work->log, WT_WARNING, NULL, NULL,
-                        "beyond the reliable range the spectrum goes on by its self-affine law, "
-                        "to waves of %s: %.0f %% of the squared slope come from there, and "
-                        "errors hold the scatter of its constants, not that the surface may leave "
-                        "it",
-                        words, 100 * w->extrapolated_share);
+        wt_log_add(work->log, WT_WARNING, NULL, NULL,
+                   "beyond the reliable range the spectrum goes on by its self-affine law, "
+                   "to waves of %s: %.0f %% of the squared slope come from there, and "
+                   "errors hold the scatter of its constants, not that the surface may leave "
+                   "it",
+                   words, 100 * w->extrapolated_share);
     if (end > 2 * M_PI / shortest_wave)
-        wt_parselog_add(work->log, WT_WARNING, NULL, NULL,
-                        "the spectrum ends at waves of %s, shorter than 1 nm: that is no roughness",
-                        words);
+        wt_log_add(work->log, WT_WARNING, NULL, NULL,
+                   "the spectrum ends at waves of %s, shorter than 1 nm: that is no roughness",
+                   words);
 }
 
 wt_status surface_end_find(const wt_topography_job *job, const wt_job *work, surface_whole *w,

@@ -61,11 +61,11 @@ static size_t take_scans(figure_drawing *d, unsigned scan, take_rows *take,
         n += scans[n].section >= 0 ? 1 : 0;
     }
     if (undrawn > 0 && n > 0 && d->status == WT_OK)
-        text_say(&d->caption,
-                 " Not drawn: %zu of the scans, whose points are no grid or have no height.",
-                 undrawn);
+        text_append_translated(
+            &d->caption,
+            " Not drawn: %zu of the scans, whose points are no grid or have no height.", undrawn);
     if (end < t->n_rows && d->status == WT_OK)
-        text_say(&d->caption, " Of more scans the first %zu.", n);
+        text_append_translated(&d->caption, " Of more scans the first %zu.", n);
     return d->status == WT_OK ? n : 0;
 }
 
@@ -235,15 +235,17 @@ static void caption_measured(figure_drawing *d)
                       slope = power_spectrum_value(d->table, POWER_SPECTRUM_KEY_RMS_SLOPE),
                       hurst = power_spectrum_value(d->table, POWER_SPECTRUM_KEY_HURST);
     const double share = power_spectrum_value(d->table, POWER_SPECTRUM_KEY_SHARE).value;
-    text_say(&d->caption, " Root-mean-square height %s. Root-mean-square slope %s.",
-             ESTIMATE(d->language, &height), ESTIMATE(d->language, &slope));
+    text_append_translated(&d->caption, " Root-mean-square height %s. Root-mean-square slope %s.",
+                           ESTIMATE(d->language, &height), ESTIMATE(d->language, &slope));
     if (isfinite(hurst.value))
-        text_say(&d->caption, " Self-affine law: H = %s.", ESTIMATE(d->language, &hurst));
+        text_append_translated(&d->caption, " Self-affine law: H = %s.",
+                               ESTIMATE(d->language, &hurst));
     if (isfinite(share))
-        text_say(&d->caption,
-                 " Beyond the points with bars the spectrum is that of the law: %s %% of the "
-                 "squared slope.",
-                 NUMBER(d->language, 100 * share, 2));
+        text_append_translated(
+            &d->caption,
+            " Beyond the points with bars the spectrum is that of the law: %s %% of the "
+            "squared slope.",
+            NUMBER(d->language, 100 * share, 2));
 }
 
 static void caption_angular(figure_drawing *d)
@@ -251,10 +253,11 @@ static void caption_angular(figure_drawing *d)
     const double chance = angular_spectrum_value(d->table, ANGULAR_SPECTRUM_KEY_CHANCE).value,
                  fourth =
                      angular_spectrum_value(d->table, ANGULAR_SPECTRUM_KEY_CHANCE_FOURTH).value;
-    text_say(&d->caption,
-             " Chance that scatter alone makes directions differ as much: %s (half a turn), %s "
-             "(a quarter).",
-             NUMBER(d->language, chance, 2), NUMBER(d->language, fourth, 2));
+    text_append_translated(
+        &d->caption,
+        " Chance that scatter alone makes directions differ as much: %s (half a turn), %s "
+        "(a quarter).",
+        NUMBER(d->language, chance, 2), NUMBER(d->language, fourth, 2));
 }
 
 const figure_description figures_surface[] = {

@@ -157,6 +157,6 @@ void surface_print_profiles(const surface_whole *w, char *to, size_t size)
         clocale_print(to + used, size - used,
                       "%swhere both tell, C by them is %.2g (95 %%: %s) of that by the "
                       "height maps%s",
-                      used > 0 ? "; " : "", r->value, ends_of(r->low, r->high, 2).text,
+                      used > 0 ? "; " : "", r->value, format_range(r->low, r->high, 2).text,
                       surface_profiles_disagree(w) ? ": they disagree" : "");
 }

@@ -81,10 +81,10 @@ static wt_status measure_scan(const wt_topography_job *job, const wt_job *work, 
     to->missing_share = (double)to->heights.missing / (double)to->heights.n;
     to->directions = wt_surface_directions(&to->spectrum, 2);
     if (to->missing_share > some_missing)
-        wt_parselog_add(work->log, WT_WARNING, file->name, NULL,
-                        "%.2g %% of the heights are missing; they are filled smoothly, so that "
-                        "short waves are too low there",
-                        100 * to->missing_share);
+        wt_log_add(work->log, WT_WARNING, file->name, NULL,
+                   "%.2g %% of the heights are missing; they are filled smoothly, so that "
+                   "short waves are too low there",
+                   100 * to->missing_share);
     return WT_OK;
 }
 
@@ -99,7 +99,7 @@ static wt_status measure_scans(const wt_topography_job *job, const wt_job *work,
         status = measure_scan(job, work, files->n, &files->file[i], &scans[*n], &failure);
         if (status == WT_OK) {
             (*n)++;
-        } else if (flow_leave_out(work, &files->file[i], &failure)) {
+        } else if (flow_skip_file(work, &files->file[i], &failure)) {
             status = WT_OK;
         } else {
             n_failed++;
@@ -108,7 +108,7 @@ static wt_status measure_scans(const wt_topography_job *job, const wt_job *work,
     }
     if (status == WT_OK && *n == 0) {
         status = wt_fail(err, WT_E_EMPTY, "no file has heights of a surface");
-        flow_tell_files(files, n_failed, err);
+        flow_error_add_files(files, n_failed, err);
     }
     return status;
 }
@@ -118,36 +118,35 @@ static wt_status measure_scans(const wt_topography_job *job, const wt_job *work,
 static void say_profiles(const surface_whole *w, const wt_job *work)
 {
     if (w->n_profiles > 0 && isnan(w->directions.amplitude))
-        wt_parselog_add(work->log, WT_WARNING, NULL, NULL,
-                        "the spectrum of profiles is told for a surface that is the same in all "
-                        "directions; a height map would tell");
+        wt_log_add(work->log, WT_WARNING, NULL, NULL,
+                   "the spectrum of profiles is told for a surface that is the same in all "
+                   "directions; a height map would tell");
     else if (w->n_profiles > 0 && surface_anisotropic(&w->directions))
-        wt_parselog_add(work->log, WT_WARNING, NULL, NULL,
-                        "what the profiles tell is told for a surface that is the same in all "
-                        "directions, which by the height maps it is not");
+        wt_log_add(work->log, WT_WARNING, NULL, NULL,
+                   "what the profiles tell is told for a surface that is the same in all "
+                   "directions, which by the height maps it is not");
     if (surface_profiles_disagree(w))
-        wt_parselog_add(
-            work->log, WT_WARNING, NULL, NULL,
-            "the profiles and the height maps disagree: where both tell, the density by "
-            "the profiles is %.2g of that by the maps (95 %%: %s); see "
-            "whether they are of one surface, and leave out what is not",
-            w->profiles_ratio.value,
-            ends_of(w->profiles_ratio.low, w->profiles_ratio.high, 2).text);
+        wt_log_add(work->log, WT_WARNING, NULL, NULL,
+                   "the profiles and the height maps disagree: where both tell, the density by "
+                   "the profiles is %.2g of that by the maps (95 %%: %s); see "
+                   "whether they are of one surface, and leave out what is not",
+                   w->profiles_ratio.value,
+                   format_range(w->profiles_ratio.low, w->profiles_ratio.high, 2).text);
 }
 
 static void say_whole(const surface_whole *w, size_t n, const wt_job *work)
 {
     say_profiles(w, work);
     if (n == 1)
-        wt_parselog_add(work->log, WT_WARNING, NULL, NULL,
-                        "one scan: how much places of the surface differ is not known, and no "
-                        "error holds it; scan several places");
+        wt_log_add(work->log, WT_WARNING, NULL, NULL,
+                   "one scan: how much places of the surface differ is not known, and no "
+                   "error holds it; scan several places");
     if (w->directions.amplitude > least_anisotropy && surface_anisotropic(&w->directions))
-        wt_parselog_add(work->log, WT_WARNING, NULL, NULL,
-                        "the surface is not the same in all directions: the density changes by "
-                        "%.0f %% about its mean, which is told; friction depends on the direction "
-                        "of sliding",
-                        100 * w->directions.amplitude);
+        wt_log_add(work->log, WT_WARNING, NULL, NULL,
+                   "the surface is not the same in all directions: the density changes by "
+                   "%.0f %% about its mean, which is told; friction depends on the direction "
+                   "of sliding",
+                   100 * w->directions.amplitude);
 }
 
 wt_status wt_topography_make(const wt_topography_job *job, const wt_job *work,
@@ -181,7 +180,7 @@ wt_status wt_topography_make(const wt_topography_job *job, const wt_job *work,
     if (status == WT_OK)
         status =
             surface_tables_make(wt_topography_job_params(), job, scans, n, &whole, tables, err);
-    cost_say(work, (cost_summary){.items = (double)n, .number = whole.rms_height});
+    cost_report(work, (cost_summary){.items = (double)n, .number = whole.rms_height});
     for (size_t i = 0; i < n; i++) {
         wt_surface_spectrum_clear(&scans[i].spectrum);
         surface_view_clear(&scans[i].view);

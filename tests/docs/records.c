@@ -450,7 +450,7 @@ static void put_results(void)
             schema_name(table_schemas[i]->name, groups[g], called[n]);
             for (size_t k = 0; k < n; k++)
                 is_new = is_new && strcmp(called[k], called[n]) != 0;
-            if (is_new && flow_things_of_table(called[n], &things) && things != 0) {
+            if (is_new && flow_resources_of_table(called[n], &things) && things != 0) {
                 names[n] = called[n];
                 n++;
             }

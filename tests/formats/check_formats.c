@@ -120,15 +120,15 @@ static bool has_status(reading *r, wt_status status, const wt_error *err)
 }
 
 /* The first warning holds the text expected, or there is none. */
-static void check_warning(reading *r, const wt_parselog *log)
+static void check_warning(reading *r, const wt_log *log)
 {
     const char *expected = item(r, "warning"), *found = NULL;
     char wanted[128] = "";
     if (expected != NULL)
         with_blanks(expected, wanted, sizeof wanted);
-    for (size_t i = 0; i < wt_parselog_count(log) && found == NULL; i++)
-        if (wt_parselog_get(log, i).severity == WT_WARNING)
-            found = wt_parselog_get(log, i).text;
+    for (size_t i = 0; i < wt_log_count(log) && found == NULL; i++)
+        if (wt_log_get(log, i).severity == WT_WARNING)
+            found = wt_log_get(log, i).text;
     if (expected == NULL ? found != NULL : found == NULL || strstr(found, wanted) == NULL)
         fail(r, "warning is \"%s\", expected \"%s\" in it", found != NULL ? found : "", wanted);
 }
@@ -181,11 +181,11 @@ static void check_sweep(reading *r, const wt_formats *formats, wt_input *input)
     const wt_isotherm *s = NULL;
     const wt_ramp *ramp = NULL;
     const wt_strain_sweep *strain = NULL;
-    wt_parselog *log = wt_parselog_new();
+    wt_log *log = wt_log_new();
     wt_status status = wt_sweep_read(formats, input, &r->options, log, &sweep, &err);
     if (status == WT_OK)
         check_warning(r, log);
-    wt_parselog_free(log);
+    wt_log_free(log);
     if (!has_status(r, status, &err))
         return;
     for (size_t i = 0; i < r->n; i++) {
@@ -265,7 +265,7 @@ static void check_force(reading *r, const wt_formats *formats, wt_input *input)
     wt_error err = WT_ERROR_INIT;
     int at = -1;
     const wt_segment *s = NULL;
-    wt_parselog *const log = wt_parselog_new();
+    wt_log *const log = wt_log_new();
     wt_status status = wt_force_open(formats, input, &r->options, log, &source, &err);
     if (item(r, "warning") != NULL)
         check_warning(r, log);
@@ -274,7 +274,7 @@ static void check_force(reading *r, const wt_formats *formats, wt_input *input)
     if (!has_status(r, status, &err)) {
         wt_force_close(source);
         wt_force_curve_clear(&curve);
-        wt_parselog_free(log);
+        wt_log_free(log);
         return;
     }
     at = 0;
@@ -295,7 +295,7 @@ static void check_force(reading *r, const wt_formats *formats, wt_input *input)
             check_segment(r, key, value, &curve, s);
         }
     }
-    wt_parselog_free(log);
+    wt_log_free(log);
     wt_force_close(source);
     wt_force_curve_clear(&curve);
 }
@@ -382,11 +382,11 @@ static void check_image(reading *r, const wt_formats *formats, wt_input *input)
     wt_image *images = NULL;
     size_t n = 0;
     wt_error err = WT_ERROR_INIT;
-    wt_parselog *log = wt_parselog_new();
+    wt_log *log = wt_log_new();
     const wt_status status = wt_images_read(formats, input, &r->options, log, &images, &n, &err);
     if (status == WT_OK && item(r, "warning") != NULL)
         check_warning(r, log);
-    wt_parselog_free(log);
+    wt_log_free(log);
     if (!has_status(r, status, &err))
         return;
     for (size_t i = 0; i < r->n; i++) {

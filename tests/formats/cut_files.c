@@ -16,10 +16,10 @@ static int by_value(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
-static bool says(const wt_parselog *log, const char *words)
+static bool says(const wt_log *log, const char *words)
 {
-    for (size_t i = 0; i < wt_parselog_count(log); i++) {
-        const wt_log_entry e = wt_parselog_get(log, i);
+    for (size_t i = 0; i < wt_log_count(log); i++) {
+        const wt_log_entry e = wt_log_get(log, i);
         if (e.severity != WT_NOTE && strstr(e.text, words) != NULL)
             return true;
     }
@@ -40,13 +40,13 @@ static void load(const wt_formats *formats, const char *path, file *f)
     f->bytes = (char *)load_bytes(path, &f->n);
     if (f->bytes == NULL)
         return;
-    wt_parselog *const log = wt_parselog_new();
+    wt_log *const log = wt_log_new();
     f->read = read_any(formats, f->bytes, f->n, log, &f->whole) == WT_OK && f->n > 2;
     if (f->read && says(log, "no line end")) {
         fprintf(stderr, "%s: the whole file is said to be cut\n", path);
         exit(1);
     }
-    wt_parselog_free(log);
+    wt_log_free(log);
     if (f->whole.n > 0)
         qsort(f->whole.values, f->whole.n, sizeof(double), by_value);
 }
@@ -75,7 +75,7 @@ typedef struct tally {
 
 static void try_cut(const wt_formats *formats, const file *f, size_t cut, tally *t)
 {
-    wt_parselog *const log = wt_parselog_new();
+    wt_log *const log = wt_log_new();
     numbers some = {.n = 0};
     char *const bytes = malloc(cut);
     if (bytes == NULL)
@@ -107,7 +107,7 @@ static void try_cut(const wt_formats *formats, const file *f, size_t cut, tally 
                 f->path, cut, f->n, strange, wrong ? "wrong" : "no word of the cut");
     free(bytes);
     free(some.values);
-    wt_parselog_free(log);
+    wt_log_free(log);
 }
 
 int main(int argc, char **argv)

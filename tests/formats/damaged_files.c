@@ -26,7 +26,7 @@ static const char *const outcome_names[] = {"refused", "warned",  "same numbers"
 typedef struct file {
     damageable bytes;
     numbers values;
-    wt_parselog *log;
+    wt_log *log;
 } file;
 
 /* ---- reading --------------------------------------------------------------------------------- */
@@ -43,13 +43,13 @@ static bool same_numbers(const numbers *a, const numbers *b)
 }
 
 /* Whether a warning of the damaged file is none of the whole one. */
-static bool has_news(const wt_parselog *log, const wt_parselog *before)
+static bool has_news(const wt_log *log, const wt_log *before)
 {
-    for (size_t i = 0; i < wt_parselog_count(log); i++) {
-        const wt_log_entry e = wt_parselog_get(log, i);
+    for (size_t i = 0; i < wt_log_count(log); i++) {
+        const wt_log_entry e = wt_log_get(log, i);
         bool old = e.severity == WT_NOTE;
-        for (size_t k = 0; k < wt_parselog_count(before) && !old; k++) {
-            const wt_log_entry o = wt_parselog_get(before, k);
+        for (size_t k = 0; k < wt_log_count(before) && !old; k++) {
+            const wt_log_entry o = wt_log_get(before, k);
             old = strcmp(o.text, e.text) == 0 && o.count == e.count;
         }
         if (!old)
@@ -61,7 +61,7 @@ static bool has_news(const wt_parselog *log, const wt_parselog *before)
 static outcome read_damaged(const wt_formats *formats, const file *f, byte_block b)
 {
     numbers values = {.n = 0};
-    wt_parselog *const log = wt_parselog_new();
+    wt_log *const log = wt_log_new();
     const wt_status status = read_any(formats, b.at, b.n, log, &values);
     outcome o = REFUSED;
     if (status == WT_OK)
@@ -69,7 +69,7 @@ static outcome read_damaged(const wt_formats *formats, const file *f, byte_block
             : same_numbers(&values, &f->values)                           ? SAME
                                                                           : CHANGED;
     free(values.values);
-    wt_parselog_free(log);
+    wt_log_free(log);
     return o;
 }
 
@@ -107,7 +107,7 @@ typedef struct call {
 
 static bool load(const wt_formats *formats, const char *path, file *f)
 {
-    *f = (file){.bytes = damageable_load(path), .log = wt_parselog_new()};
+    *f = (file){.bytes = damageable_load(path), .log = wt_log_new()};
     return f->bytes.whole.n > 0 &&
            read_any(formats, f->bytes.whole.at, f->bytes.whole.n, f->log, &f->values) == WT_OK;
 }
@@ -116,7 +116,7 @@ static void release(file *f)
 {
     damageable_free(&f->bytes);
     free(f->values.values);
-    wt_parselog_free(f->log);
+    wt_log_free(f->log);
 }
 
 static void write_file(const char *path, byte_block b)

@@ -36,7 +36,7 @@ static inline void keep(numbers *all, const double *values, size_t n)
     }
 }
 
-static inline wt_status read_curves(const wt_formats *formats, wt_input *input, wt_parselog *log,
+static inline wt_status read_curves(const wt_formats *formats, wt_input *input, wt_log *log,
                                     numbers *all)
 {
     const wt_read_options options = wt_read_defaults();
@@ -55,7 +55,7 @@ static inline wt_status read_curves(const wt_formats *formats, wt_input *input, 
     return status;
 }
 
-static inline wt_status read_sweep(const wt_formats *formats, wt_input *input, wt_parselog *log,
+static inline wt_status read_sweep(const wt_formats *formats, wt_input *input, wt_log *log,
                                    numbers *all)
 {
     wt_read_options options = wt_read_defaults();
@@ -73,7 +73,7 @@ static inline wt_status read_sweep(const wt_formats *formats, wt_input *input, w
 }
 
 static inline wt_status read_rest(const wt_formats *formats, wt_input *input, unsigned kind,
-                                  wt_parselog *log, numbers *all)
+                                  wt_log *log, numbers *all)
 {
     const wt_read_options options = wt_read_defaults();
     wt_power_spectrum spectrum = {.n = 0};
@@ -108,7 +108,7 @@ static inline wt_status read_rest(const wt_formats *formats, wt_input *input, un
 
 /* Reads the bytes as all kinds that they are; WT_E_FORMAT if they are none. */
 static inline wt_status read_any(const wt_formats *formats, const void *bytes, size_t n,
-                                 wt_parselog *log, numbers *all)
+                                 wt_log *log, numbers *all)
 {
     static const unsigned kinds[] = {WT_KIND_FORCE,    WT_KIND_SWEEP, WT_KIND_IMAGE,
                                      WT_KIND_SPECTRUM, WT_KIND_NOISE, WT_KIND_RECORD};

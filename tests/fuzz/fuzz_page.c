@@ -25,7 +25,7 @@ static wt_result *read_result(const uint8_t *data, size_t size)
     return result;
 }
 
-static void draw(const wt_result *result, const bound_tables *tables)
+static void draw(const wt_result *result, const figure_tables *tables)
 {
     wt_error err = WT_ERROR_INIT;
     const size_t n = wt_figure_count();
@@ -33,7 +33,7 @@ static void draw(const wt_result *result, const bound_tables *tables)
     if (figures == NULL)
         abort();
     for (size_t i = 0; i < n; i++)
-        if (bound_find(tables, figure_find(i)->table)->n_rows > 0 &&
+        if (figure_tables_find(tables, figure_find(i)->table)->n_rows > 0 &&
             drawing_make(&figures[i].drawing, figure_find(i), tables, NULL, &err) != WT_OK &&
             err.message[0] == '\0')
             abort();
@@ -53,13 +53,13 @@ static void draw(const wt_result *result, const bound_tables *tables)
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
 {
     wt_error err = WT_ERROR_INIT;
-    bound_tables tables = {0};
+    figure_tables tables = {0};
     if (size == 0)
         return 0;
     wt_result *const result = read_result(data, size);
-    if (bound_make(result, &tables, &err) == WT_OK)
+    if (figure_tables_make(result, &tables, &err) == WT_OK)
         draw(result, &tables);
-    bound_clear(&tables);
+    figure_tables_clear(&tables);
     wt_result_free(result);
     return 0;
 }

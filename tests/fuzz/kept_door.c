@@ -49,8 +49,8 @@ const char *__asan_default_options(void)  // NOLINT(bugprone-reserved-identifier
 }
 
 typedef struct shared {
-    door_call door;
-    door_limits limits;
+    sandbox_call door;
+    sandbox_limits limits;
     const void *with; /* what door.with points to; all that any reading is given */
     wt_error said;
     size_t length; /* of the answer */
@@ -63,7 +63,7 @@ static pid_t reader = -1;
 static int ask, hear;
 static unsigned done;
 
-struct door_flow {
+struct sandbox_stream {
     const char *what;
     char *bytes;
     size_t length, at;
@@ -82,7 +82,7 @@ static void close_hdf5(void)
 
 static void read_one(void)
 {
-    door_call door = between->door;
+    sandbox_call door = between->door;
     door.bytes = between->bytes;
     door.with = door.with != NULL ? &between->with : NULL;
     between->said = (wt_error)WT_ERROR_INIT;
@@ -187,12 +187,12 @@ static void start_reader(void)
     done = 0;
 }
 
-door_limits door_limits_of(size_t size)
+sandbox_limits sandbox_limits_for(size_t size)
 {
-    return (door_limits){.memory = (size_t)256 << 20,
-                         .answer = ((size_t)16 << 20) + 8 * size,
-                         .cpu_time = 10,
-                         .wall_time = 15};
+    return (sandbox_limits){.memory = (size_t)256 << 20,
+                            .answer = ((size_t)16 << 20) + 8 * size,
+                            .cpu_time = 10,
+                            .wall_time = 15};
 }
 
 /* False if it ended or took too long. */
@@ -207,7 +207,7 @@ static bool have_read(void)
     return false;
 }
 
-static bool give(const door_call *door, const door_limits *limits)
+static bool give(const sandbox_call *door, const sandbox_limits *limits)
 {
     between->door = *door;
     between->limits = *limits;
@@ -268,8 +268,8 @@ static const answered *keep_answer(const void *reading, bool read_it)
     return one;
 }
 
-wt_status door_begin(const door_call *door, const door_limits *limits, door_flow **begun,
-                     wt_error *err)
+wt_status sandbox_start(const sandbox_call *door, const sandbox_limits *limits,
+                        sandbox_stream **begun, wt_error *err)
 {
     const void *reading = NULL;
     memcpy(&reading, &door->reading, sizeof reading);
@@ -290,24 +290,24 @@ wt_status door_begin(const door_call *door, const door_limits *limits, door_flow
             finish_reader();
         answer = keep_answer(reading, read_it);
     }
-    door_flow *const flow = calloc(1, sizeof *flow);
+    sandbox_stream *const flow = calloc(1, sizeof *flow);
     if (flow == NULL)
         abort();
-    *flow = (door_flow){door->what, copy_of(answer->answer, answer->length), answer->length, 0,
-                        answer->said};
+    *flow = (sandbox_stream){door->what, copy_of(answer->answer, answer->length), answer->length, 0,
+                             answer->said};
     *begun = flow;
     return WT_OK;
 }
 
 /* As the error was said, once all is taken. */
-static wt_status end_of(const door_flow *flow, wt_error *err)
+static wt_status end_of(const sandbox_stream *flow, wt_error *err)
 {
     if (flow->said.status != WT_OK && err != NULL)
         *err = flow->said;
     return flow->said.status;
 }
 
-wt_status door_take(door_flow *flow, void *to, size_t n, wt_error *err)
+wt_status sandbox_receive(sandbox_stream *flow, void *to, size_t n, wt_error *err)
 {
     if (n > flow->length - flow->at) {
         const wt_status status = end_of(flow, err);
@@ -318,7 +318,7 @@ wt_status door_take(door_flow *flow, void *to, size_t n, wt_error *err)
     return WT_OK;
 }
 
-wt_status door_pour(door_flow *flow, door_sink *sink, void *user, wt_error *err)
+wt_status sandbox_drain(sandbox_stream *flow, sandbox_sink *sink, void *user, wt_error *err)
 {
     const size_t n = flow->length - flow->at;
     const wt_status status = n > 0 ? sink(user, flow->bytes + flow->at, n, err) : WT_OK;
@@ -326,7 +326,7 @@ wt_status door_pour(door_flow *flow, door_sink *sink, void *user, wt_error *err)
     return status == WT_OK ? end_of(flow, err) : status;
 }
 
-wt_status door_end(door_flow *flow, wt_error *err)
+wt_status sandbox_finish(sandbox_stream *flow, wt_error *err)
 {
     const wt_status status = end_of(flow, err);
     return status == WT_OK && flow->at < flow->length
@@ -334,7 +334,7 @@ wt_status door_end(door_flow *flow, wt_error *err)
                : status;
 }
 
-void door_close(door_flow *flow)
+void sandbox_close(sandbox_stream *flow)
 {
     if (flow == NULL)
         return;
@@ -342,11 +342,11 @@ void door_close(door_flow *flow)
     free(flow);
 }
 
-wt_status door_read(const door_call *door, const door_limits *limits, char **answer, size_t *length,
-                    wt_error *err)
+wt_status sandbox_read(const sandbox_call *door, const sandbox_limits *limits, char **answer,
+                       size_t *length, wt_error *err)
 {
-    door_flow *flow = NULL;
-    wt_status status = door_begin(door, limits, &flow, err);
+    sandbox_stream *flow = NULL;
+    wt_status status = sandbox_start(door, limits, &flow, err);
     if (status == WT_OK)
         status = end_of(flow, err);
     if (status == WT_OK) {
@@ -354,12 +354,12 @@ wt_status door_read(const door_call *door, const door_limits *limits, char **ans
         *length = flow->length;
         flow->bytes = NULL;
     }
-    door_close(flow);
+    sandbox_close(flow);
     return status;
 }
 
 /* No process of these is shut in, as it is said here. */
-const char *wt_door_gaps(void)
+const char *wt_sandbox_limitations(void)
 {
     return "the doors of a fuzz target stand open";
 }

@@ -36,7 +36,7 @@ static inline void read_curves(const file_reader *reader, const uint8_t *data, s
     wt_input *input = NULL;
     wt_force_source *source = NULL;
     wt_force_curve curve = {0};
-    wt_parselog *log = wt_parselog_new();
+    wt_log *log = wt_log_new();
     wt_error err = WT_ERROR_INIT;
     if (wt_input_open_memory(data, size, "fuzz", &input, NULL) != WT_OK)
         abort();
@@ -50,7 +50,7 @@ static inline void read_curves(const file_reader *reader, const uint8_t *data, s
     }
     wt_force_close(source);
     wt_force_curve_clear(&curve);
-    wt_parselog_free(log);
+    wt_log_free(log);
     wt_input_close(input);
 }
 

@@ -92,7 +92,8 @@ static int write_truth(const wt_rubber *rubber, const char *folder, const char *
     status = wt_layer_make(&sliding, &c->layer, &job, &layer, &err);
     if (status != WT_OK)
         goto done;
-    wt_layer_known known = {.thickness = layer.thickness, .modulus_ratio = {ratio, 0, 0, "1"}};
+    wt_layer_observation known = {.thickness = layer.thickness,
+                                  .modulus_ratio = {ratio, 0, 0, "1"}};
     status = wt_friction_make(&sliding, &known, &job, &friction, &err);
     out = status != WT_OK || path == NULL ? NULL : fopen(path, "w");
     if (out == NULL)

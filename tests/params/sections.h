@@ -25,7 +25,7 @@ static const struct {
     {"spectrum", {flow_spectrum_params, NULL}},
     {"measured", {wt_topography_job_params, NULL}},
     {"sliding", {wt_sliding_params, NULL}},
-    {"layer", {wt_layer_job_params, wt_layer_known_params}},
+    {"layer", {wt_layer_job_params, wt_layer_observation_params}},
     {"identify", {wt_identify_job_params}},
     {"record", {wt_record_job_params, wt_validation_job_params, NULL}},
 };

@@ -82,7 +82,7 @@ static const struct {
     {"master", "absent", {wt_master_options_params}},
     {"friction",
      "--material absent --roughness absent --strain-softening absent",
-     {wt_sliding_params, wt_layer_known_params, wt_job_params, wt_master_job_params,
+     {wt_sliding_params, wt_layer_observation_params, wt_job_params, wt_master_job_params,
       wt_transverse_params, wt_rubber_options_params}},
     {"layer",
      "--material absent --roughness absent --strain-softening absent",
@@ -370,7 +370,7 @@ static const struct {
     {wt_compare_job_params, call_compare},
     {wt_materials_job_params, call_materials},
     {wt_sliding_params, call_sliding},
-    {wt_layer_known_params, call_layer_known},
+    {wt_layer_observation_params, call_layer_known},
     {wt_layer_job_params, call_layer},
     {wt_run_params, call_run},
 };

@@ -75,7 +75,7 @@ typedef struct layer_truth {
     settling settling;
 } layer_truth;
 
-static layer_truth solve(const layer_scene *s, const contact *c, const rubber_state *state,
+static layer_truth solve(const layer_context *s, const contact *c, const rubber_state *state,
                          double ratio)
 {
     slide *slides = malloc((LOADS_MAX + 1) * sizeof *slides);
@@ -113,7 +113,7 @@ static layer_truth solve(const layer_scene *s, const contact *c, const rubber_st
 
 /* ---- the command ----------------------------------------------------------------------------- */
 
-static void read_found(const layer_scene *s, const layer_truth *truth, const char *path, trial *t)
+static void read_found(const layer_context *s, const layer_truth *truth, const char *path, trial *t)
 {
     stream *found = stream_read(path);
     if (found == NULL) {
@@ -131,7 +131,7 @@ static void read_found(const layer_scene *s, const layer_truth *truth, const cha
 }
 
 /* The loads, of which the last one is looked at at its end. */
-static void say_loads(const layer_scene *s, char *loads, size_t size, char *times, size_t n)
+static void say_loads(const layer_context *s, char *loads, size_t size, char *times, size_t n)
 {
     double end = 0;
     loads[0] = '\0';
@@ -154,7 +154,7 @@ typedef struct words {
 } words;
 
 /* What is measured of the truth, with the errors that are stated. */
-static void say_inputs(const layer_scene *s, const contact *truth, double ratio,
+static void say_inputs(const layer_context *s, const contact *truth, double ratio,
                        random_source *random, words *w)
 {
     snprintf(w->surface, sizeof w->surface,
@@ -180,7 +180,7 @@ static void say_inputs(const layer_scene *s, const contact *truth, double ratio,
 }
 
 /* Of the loads at one time, of running-in at the times that the command chooses. */
-static bool run_command(const layer_scene *s, const words *w, const char *material,
+static bool run_command(const layer_context *s, const words *w, const char *material,
                         const char *made, const char *grown, trial *t)
 {
     const char *const slope = s->own.slope != 0 && !s->as_one ? "--ratio-slope" : NULL;
@@ -248,7 +248,7 @@ static bool join(const char *to, const char *from)
 
 static void observe(int scene, const void *prepared, random_source *random, trial *t)
 {
-    const layer_scene *s = &layer_scenes[scene];
+    const layer_context *s = &layer_scenes[scene];
     const char *material = trial_file(t, "material.tsv"), *made = trial_file(t, "made.tsv"),
                *grown = trial_file(t, "grown.tsv");
     const rubber lines = rubber_make(RUBBER_LINES);

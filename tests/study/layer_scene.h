@@ -12,7 +12,7 @@ typedef struct layer_load {
 } layer_load;
 
 /* Relative errors, which are stated. */
-typedef struct layer_scene {
+typedef struct layer_context {
     facts facts;
     double of_load, of_surface, of_wear, of_energy, of_shear, of_ratio;
     double wear_rate, critical_energy, ratio; /* nominal, times e^(0.1 z) */
@@ -22,9 +22,9 @@ typedef struct layer_scene {
     bool as_one;     /* the command is told of one ratio all the same */
     int loads;
     layer_load load[LOADS_MAX];
-} layer_scene;
+} layer_context;
 
-extern const layer_scene layer_scenes[];
+extern const layer_context layer_scenes[];
 extern const int n_layer_scenes;
 
 #endif

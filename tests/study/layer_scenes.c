@@ -2,7 +2,7 @@
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "layer_scene.h"
 
-const layer_scene layer_scenes[] = {
+const layer_context layer_scenes[] = {
     {NAMED("Y1", "a mild, a severe and a mild load"), .facts.intervals_promised = true,
      .of_load = 0.02, .of_surface = 0.05, .of_wear = 0.1, .of_energy = 0.1, .of_shear = 0.1,
      .of_ratio = 0.05, .wear_rate = 1e-12, .critical_energy = 2e10, .ratio = 0.6, .loads = 3,

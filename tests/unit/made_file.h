@@ -36,14 +36,14 @@ static inline int clean(void **state)
 typedef struct reading {
     wt_input *input;
     wt_force_source *source;
-    wt_parselog *log;
+    wt_log *log;
     wt_force_curve curve;
     wt_error err;
 } reading;
 
 static inline void open_input(reading *r, const char *name)
 {
-    *r = (reading){.log = wt_parselog_new()};
+    *r = (reading){.log = wt_log_new()};
     assert_int_equal(wt_input_open(name, &r->input, &r->err), WT_OK);
 }
 
@@ -54,8 +54,7 @@ static inline wt_status open_force(reading *r, const char *name, const wt_read_o
 }
 
 static inline wt_status read_images_of(const void *bytes, size_t length, const char *name,
-                                       wt_parselog *log, wt_image **images, size_t *n,
-                                       wt_error *err)
+                                       wt_log *log, wt_image **images, size_t *n, wt_error *err)
 {
     wt_input *input = NULL;
     *images = NULL;
@@ -77,14 +76,14 @@ static inline void close_all(reading *r)
 {
     wt_force_close(r->source);
     wt_input_close(r->input);
-    wt_parselog_free(r->log);
+    wt_log_free(r->log);
     wt_force_curve_clear(&r->curve);
 }
 
 static inline bool logged(const reading *r, const char *words)
 {
-    for (size_t i = 0; i < wt_parselog_count(r->log); i++)
-        if (strstr(wt_parselog_get(r->log, i).text, words) != NULL)
+    for (size_t i = 0; i < wt_log_count(r->log); i++)
+        if (strstr(wt_log_get(r->log, i).text, words) != NULL)
             return true;
     return false;
 }
@@ -128,7 +127,7 @@ static inline size_t read_bytes(unsigned char *bytes, size_t size)
 
 static inline wt_status open_bytes(const unsigned char *bytes, size_t n)
 {
-    reading r = {.log = wt_parselog_new()};
+    reading r = {.log = wt_log_new()};
     assert_int_equal(wt_input_open_memory(bytes, n, "made", &r.input, NULL), WT_OK);
     wt_status status = wt_force_open(formats, r.input, NULL, r.log, &r.source, &r.err);
     while (status == WT_OK && wt_force_next(r.source, &r.curve, NULL) != WT_END)

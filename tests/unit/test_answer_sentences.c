@@ -71,7 +71,7 @@ __attribute__((format(printf, 2, 3))) static void says(const char *kind, const c
     fail_msg("no answer (%s): %s", kind, sentence);
 }
 
-#define WORDS(value, unit) words_of(value, unit).text
+#define WORDS(value, unit) format_with_unit(value, unit).text
 
 static const char *chance(double p)
 {

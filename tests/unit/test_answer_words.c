@@ -27,14 +27,14 @@ static void test_values(void **state)
         {1234, "s", "1230 s"},
     };
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
-        assert_string_equal(words_of(cases[i].value, cases[i].unit).text, cases[i].words);
+        assert_string_equal(format_with_unit(cases[i].value, cases[i].unit).text, cases[i].words);
         const wt_estimate e = {cases[i].value, 0.1, 0.2, cases[i].unit};
-        assert_string_equal(words_of_value(e).text, cases[i].words);
+        assert_string_equal(format_value(e).text, cases[i].words);
     }
-    assert_string_equal(words_of_celsius(306.15).text, "33.0 \xc2\xb0"
-                                                       "C");
-    assert_string_equal(words_of_celsius(263.04).text, "-10.1 \xc2\xb0"
-                                                       "C");
+    assert_string_equal(format_celsius(306.15).text, "33.0 \xc2\xb0"
+                                                     "C");
+    assert_string_equal(format_celsius(263.04).text, "-10.1 \xc2\xb0"
+                                                     "C");
 }
 
 static void test_errors(void **state)
@@ -60,7 +60,7 @@ static void test_errors(void **state)
     };
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         const wt_estimate e = {cases[i].value, cases[i].error, 0, cases[i].unit};
-        assert_string_equal(words_of_estimate(e).text, cases[i].words);
+        assert_string_equal(format_estimate(e).text, cases[i].words);
     }
 }
 
@@ -68,12 +68,12 @@ static void test_errors(void **state)
 static void test_ends(void **state)
 {
     (void)state;
-    assert_string_equal(ends_of(0.56651, 0.84118, 3).text, "0.567 to 0.841");
-    assert_string_equal(ends_of(0.99962, 1.0014, 3).text, "0.9996 to 1.001");
-    assert_string_equal(ends_of(-1e6, -1.00001e6, 2).text, "-1e+06 to -1.00001e+06");
-    assert_string_equal(ends_of(2, 2, 3).text, "2 to 2");
-    assert_string_equal(words_of_pair(0.799, 1.2186, 4).text, "from 0.799 to 1.219");
-    assert_string_equal(words_of_pair(0.80001, 0.80004, 4).text, "from 0.80001 to 0.80004");
+    assert_string_equal(format_range(0.56651, 0.84118, 3).text, "0.567 to 0.841");
+    assert_string_equal(format_range(0.99962, 1.0014, 3).text, "0.9996 to 1.001");
+    assert_string_equal(format_range(-1e6, -1.00001e6, 2).text, "-1e+06 to -1.00001e+06");
+    assert_string_equal(format_range(2, 2, 3).text, "2 to 2");
+    assert_string_equal(format_pair(0.799, 1.2186, 4).text, "from 0.799 to 1.219");
+    assert_string_equal(format_pair(0.80001, 0.80004, 4).text, "from 0.80001 to 0.80004");
 }
 
 /* Further apart than the factor, to either side. */
@@ -108,7 +108,7 @@ static void test_rejected(void **state)
     if (table_end(&t, &table) != WT_OK)
         fail_msg("%s", err.message);
     assert_int_equal(table_bind(table, &indentation_schema, "bulk", &view, NULL), WT_OK);
-    assert_int_equal(words_of_rejected(&view, words, sizeof words), 4);
+    assert_int_equal(format_rejected_curves(&view, words, sizeof words), 4);
     /* in the order of the verdicts */
     snprintf(expected, sizeof expected, "1 %s, 2 %s, 1 %s",
              wt_curve_verdict_text(WT_CURVE_NO_CONTACT), wt_curve_verdict_text(WT_CURVE_POOR_FIT),

@@ -27,7 +27,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-static const door_limits usual = {(size_t)64 << 20, (size_t)1 << 20, 20, 60};
+static const sandbox_limits usual = {(size_t)64 << 20, (size_t)1 << 20, 20, 60};
 static char victim[] = "/tmp/weartrack-door-XXXXXX";
 static char *const words[] = {"true", NULL};
 
@@ -191,7 +191,7 @@ static const struct {
     {takes_another_filter, {"seccomp"}},
 };
 
-static wt_status does(const door_call *door, FILE *answer, wt_error *err)
+static wt_status does(const sandbox_call *door, FILE *answer, wt_error *err)
 {
     long (*const *deed)(void) = door->with;
     (void)err;
@@ -200,10 +200,10 @@ static wt_status does(const door_call *door, FILE *answer, wt_error *err)
 }
 
 /* A door with a file that may be written, as a mistake might leave it. */
-static door_call door_to(wt_status (*reading)(const door_call *, FILE *, wt_error *),
-                         const void *with, int file)
+static sandbox_call door_to(wt_status (*reading)(const sandbox_call *, FILE *, wt_error *),
+                            const void *with, int file)
 {
-    return (door_call){.what = "made", .reading = reading, .with = with, .file = file};
+    return (sandbox_call){.what = "made", .reading = reading, .with = with, .file = file};
 }
 
 static volatile sig_atomic_t signalled;
@@ -232,8 +232,8 @@ static void nothing_but_reading(void **state)
         struct stat after;
         wt_error err = WT_ERROR_INIT;
         const int fd = open(victim, O_RDWR | O_CLOEXEC);
-        const door_call door = door_to(does, &forbidden[which].deed, fd);
-        const wt_status status = door_read(&door, &usual, &answer, &length, &err);
+        const sandbox_call door = door_to(does, &forbidden[which].deed, fd);
+        const wt_status status = sandbox_read(&door, &usual, &answer, &length, &err);
         if (status != WT_E_CORRUPT || !names_one(err.message, forbidden[which].calls))
             fail_msg("%s: %d, \"%s\", answer \"%.*s\"", forbidden[which].calls[0], (int)status,
                      err.message, (int)length, answer != NULL ? answer : "");
@@ -250,7 +250,7 @@ static void nothing_but_reading(void **state)
 
 /* ---- what may be ----------------------------------------------------------------------------- */
 
-static wt_status looks(const door_call *door, FILE *answer, wt_error *err)
+static wt_status looks(const sandbox_call *door, FILE *answer, wt_error *err)
 {
     struct stat there;
     (void)door;
@@ -261,7 +261,7 @@ static wt_status looks(const door_call *door, FILE *answer, wt_error *err)
     return WT_OK;
 }
 
-static wt_status ends_itself(const door_call *door, FILE *answer, wt_error *err)
+static wt_status ends_itself(const sandbox_call *door, FILE *answer, wt_error *err)
 {
     (void)door;
     (void)answer;
@@ -270,7 +270,7 @@ static wt_status ends_itself(const door_call *door, FILE *answer, wt_error *err)
 }
 
 /* As the scanner of UDUNITS does where it gets no memory. */
-static wt_status exits(const door_call *door, FILE *answer, wt_error *err)
+static wt_status exits(const sandbox_call *door, FILE *answer, wt_error *err)
 {
     (void)door;
     (void)answer;
@@ -279,12 +279,12 @@ static wt_status exits(const door_call *door, FILE *answer, wt_error *err)
 }
 
 /* A unit is taken for an unknown one for want of memory, and reading goes on without it. */
-static wt_status goes_without(const door_call *door, FILE *answer, wt_error *err)
+static wt_status goes_without(const sandbox_call *door, FILE *answer, wt_error *err)
 {
     (void)door;
     (void)answer;
     (void)err;
-    shortage_note(ENOMEM);
+    resource_error_note(ENOMEM);
     return WT_OK;
 }
 
@@ -292,13 +292,13 @@ static wt_status goes_without(const door_call *door, FILE *answer, wt_error *err
 static void memory_runs_out(void **state)
 {
     (void)state;
-    wt_status (*const readings[])(const door_call *, FILE *, wt_error *) = {exits, goes_without};
+    wt_status (*const readings[])(const sandbox_call *, FILE *, wt_error *) = {exits, goes_without};
     for (size_t i = 0; i < sizeof readings / sizeof *readings; i++) {
         char *answer = NULL;
         size_t length = 0;
         wt_error err = WT_ERROR_INIT;
-        const door_call door = door_to(readings[i], NULL, -1);
-        assert_int_equal(door_read(&door, &usual, &answer, &length, &err), WT_E_MEMORY);
+        const sandbox_call door = door_to(readings[i], NULL, -1);
+        assert_int_equal(sandbox_read(&door, &usual, &answer, &length, &err), WT_E_MEMORY);
         assert_string_equal(err.message, "reading the made file takes more than 64 MiB of memory");
         assert_null(answer);
     }
@@ -311,16 +311,16 @@ static void reading_goes_on(void **state)
     size_t length = 0;
     wt_error err = WT_ERROR_INIT;
     const int fd = open(victim, O_RDONLY | O_CLOEXEC);
-    door_call door = door_to(looks, NULL, fd);
-    assert_int_equal(door_read(&door, &usual, &answer, &length, &err), WT_OK);
+    sandbox_call door = door_to(looks, NULL, fd);
+    assert_int_equal(sandbox_read(&door, &usual, &answer, &length, &err), WT_OK);
     assert_memory_equal(answer, "1 1 1 1 1.", length);
     free(answer);
     answer = NULL;
     door = door_to(ends_itself, NULL, fd);
-    assert_int_equal(door_read(&door, &usual, &answer, &length, &err), WT_E_CORRUPT);
+    assert_int_equal(sandbox_read(&door, &usual, &answer, &length, &err), WT_E_CORRUPT);
     assert_non_null(strstr(err.message, "SIGABRT"));
     assert_int_equal(close(fd), 0);
-    assert_null(wt_door_gaps());
+    assert_null(wt_sandbox_limitations());
 }
 
 /* ---- systems that do not let it -------------------------------------------------------------- */
@@ -358,9 +358,10 @@ static bool without_filter(int file)
 {
     char *answer = NULL;
     size_t length = 0;
-    const door_call door = door_to(looks, NULL, file);
-    return refuse_filters() && door_read(&door, &usual, &answer, &length, NULL) == WT_OK &&
-           answer[0] == '1' && wt_door_gaps() != NULL && strstr(wt_door_gaps(), "seccomp") != NULL;
+    const sandbox_call door = door_to(looks, NULL, file);
+    return refuse_filters() && sandbox_read(&door, &usual, &answer, &length, NULL) == WT_OK &&
+           answer[0] == '1' && wt_sandbox_limitations() != NULL &&
+           strstr(wt_sandbox_limitations(), "seccomp") != NULL;
 }
 
 /* Either it is read or it is said that too few files may be open: never that the file is bad. */
@@ -372,9 +373,9 @@ static bool with_few_files(int file)
         char *answer = NULL;
         size_t length = 0;
         wt_error err = WT_ERROR_INIT;
-        const door_call door = door_to(looks, NULL, file);
+        const sandbox_call door = door_to(looks, NULL, file);
         good = setrlimit(RLIMIT_NOFILE, &few) == 0;
-        const wt_status status = door_read(&door, &usual, &answer, &length, &err);
+        const wt_status status = sandbox_read(&door, &usual, &answer, &length, &err);
         read_once |= status == WT_OK;
         refused_once |= status == WT_E_IO;
         good = good &&

@@ -132,7 +132,7 @@ static void complete_or_not_at_all(void **state)
     (void)state;
     char path[256];
     struct stat info;
-    wt_outfile *file = NULL;
+    wt_atomic_file *file = NULL;
     path_of("out.txt", path);
     const mode_t before = umask(027);
     assert_int_equal(wt_outfile_open(path, &file, NULL), WT_OK);
@@ -172,7 +172,7 @@ static void outfile_memory(void **state)
     (void)state;
     enum { ROUNDS = 2000, LEAST = 16 /* bytes of a block of the allocator */ };
     char path[256];
-    wt_outfile *file = NULL;
+    wt_atomic_file *file = NULL;
     path_of("again.txt", path);
     size_t before = 0;
     for (int i = 0; i < ROUNDS + 10; i++) {
@@ -187,7 +187,7 @@ static void outfile_memory(void **state)
 
 static void write_over(const char *path, const char *text)
 {
-    wt_outfile *file = NULL;
+    wt_atomic_file *file = NULL;
     assert_int_equal(wt_outfile_open(path, &file, NULL), WT_OK);
     (void)fputs(text, wt_outfile_stream(file));
     assert_int_equal(wt_outfile_commit(file, NULL), WT_OK);
@@ -294,14 +294,14 @@ static void guarded(void **state)
     (void)state;
     char path[256], other[256], pdf[256];
     wt_error err = WT_ERROR_INIT;
-    wt_outfile *file = NULL;
+    wt_atomic_file *file = NULL;
     path_of("read.txt", path);
     path_of("hard.txt", other);
     write_file("read.txt", "mine");
-    assert_int_equal(wt_guard_read(path, &err), WT_OK);
-    assert_int_equal(wt_guard_write(path, &err), WT_OK); /* not yet started */
-    wt_guard_start();
-    assert_int_equal(wt_guard_read(path, &err), WT_OK);
+    assert_int_equal(wt_protect_input(path, &err), WT_OK);
+    assert_int_equal(wt_check_overwrite(path, &err), WT_OK); /* not yet started */
+    wt_protect_begin();
+    assert_int_equal(wt_protect_input(path, &err), WT_OK);
     assert_int_equal(link(path, other), 0);
     assert_int_equal(wt_outfile_open(path, &file, &err), WT_E_ARG);
     assert_string_equal(err.file, path);
@@ -309,21 +309,21 @@ static void guarded(void **state)
     /* A file that is there now: a later one might get the number of one that was read. */
     path_of("sheets.pdf", pdf);
     write_file("sheets.pdf", "%PDF\1\n%%EOF\n");
-    assert_int_equal(wt_guard_write(pdf, &err), WT_E_ARG); /* of another program */
+    assert_int_equal(wt_check_overwrite(pdf, &err), WT_E_ARG); /* of another program */
     write_file("sheets.pdf", "%PDF\1\n%%EOF\n%weartrack sheets\n");
-    assert_int_equal(wt_guard_write(pdf, &err), WT_OK);
+    assert_int_equal(wt_check_overwrite(pdf, &err), WT_OK);
     assert_int_equal(unlink(pdf), 0);
     write_database(pdf, "GP10");
-    assert_int_equal(wt_guard_write(pdf, &err), WT_E_ARG); /* a GeoPackage */
+    assert_int_equal(wt_check_overwrite(pdf, &err), WT_E_ARG); /* a GeoPackage */
     write_database(pdf, "wtrk");
-    assert_int_equal(wt_guard_write(pdf, &err), WT_OK);
+    assert_int_equal(wt_check_overwrite(pdf, &err), WT_OK);
     assert_int_equal(unlink(pdf), 0);
     assert_int_equal(unlink(path) + unlink(other), 0);
     for (int i = 0; i < 300; i++) /* many */
-        assert_int_equal(wt_guard_read("/proc/self/exe", &err), WT_OK);
-    assert_int_equal(wt_guard_write("/proc/self/exe", &err), WT_E_ARG);
-    assert_int_equal(wt_guard_read(folder, &err), WT_OK);
-    assert_int_equal(wt_guard_write(folder, &err), WT_OK);
+        assert_int_equal(wt_protect_input("/proc/self/exe", &err), WT_OK);
+    assert_int_equal(wt_check_overwrite("/proc/self/exe", &err), WT_E_ARG);
+    assert_int_equal(wt_protect_input(folder, &err), WT_OK);
+    assert_int_equal(wt_check_overwrite(folder, &err), WT_OK);
 }
 
 static void outfile_failures(void **state)
@@ -331,7 +331,7 @@ static void outfile_failures(void **state)
     (void)state;
     char path[256];
     wt_error err = WT_ERROR_INIT;
-    wt_outfile *file = NULL;
+    wt_atomic_file *file = NULL;
     path_of("none/out.txt", path);
     assert_int_equal(wt_outfile_open(path, &file, &err), WT_E_IO);
     assert_string_equal(err.file, path);
@@ -387,7 +387,7 @@ static void mixed_numbers(void **state)
     static const uint64_t known[] = {UINT64_C(6457827717110365317), UINT64_C(3203168211198807973),
                                      UINT64_C(9817491932198370423)};
     for (uint64_t i = 0; i < sizeof known / sizeof *known; i++)
-        assert_true(mix64(1234567 + i * UINT64_C(0x9e3779b97f4a7c15)) == known[i]);
+        assert_true(splitmix64(1234567 + i * UINT64_C(0x9e3779b97f4a7c15)) == known[i]);
 }
 
 static void digests(void **state)

@@ -119,29 +119,29 @@ static void utf8(void **state)
 static void parse_log(void **state)
 {
     (void)state;
-    wt_parselog *const log = wt_parselog_new();
+    wt_log *const log = wt_log_new();
     assert_non_null(log);
     for (int i = 0; i < 500; i++)
-        wt_parselog_add(log, WT_WARNING, "a.txt", i == 0 ? "line 1" : "line 2", "value %s", "odd");
-    wt_parselog_add(log, WT_NOTE, "a.txt", NULL, "value odd");
-    wt_parselog_add(log, WT_WARNING, NULL, NULL, "value odd");
-    wt_parselog_add(log, WT_WARNING, "a.txt", "line 9", "value odd");
-    wt_parselog_add(log, WT_WARNING, "b.txt", "line 9", "value\nodd");
-    assert_int_equal(wt_parselog_count(log), 4);
-    const wt_log_entry first = wt_parselog_get(log, 0);
+        wt_log_add(log, WT_WARNING, "a.txt", i == 0 ? "line 1" : "line 2", "value %s", "odd");
+    wt_log_add(log, WT_NOTE, "a.txt", NULL, "value odd");
+    wt_log_add(log, WT_WARNING, NULL, NULL, "value odd");
+    wt_log_add(log, WT_WARNING, "a.txt", "line 9", "value odd");
+    wt_log_add(log, WT_WARNING, "b.txt", "line 9", "value\nodd");
+    assert_int_equal(wt_log_count(log), 4);
+    const wt_log_entry first = wt_log_get(log, 0);
     assert_int_equal(first.severity, WT_WARNING);
     assert_string_equal(first.file, "a.txt");
     assert_string_equal(first.place, "line 1");
     assert_string_equal(first.text, "value odd");
     assert_int_equal(first.count, 501);
-    assert_string_equal(wt_parselog_get(log, 2).file, "");
-    assert_string_equal(wt_parselog_get(log, 3).text, "value odd");
-    assert_int_equal(wt_parselog_lost(log), 0);
-    wt_parselog_free(log);
-    wt_parselog_free(NULL);
-    wt_parselog_add(NULL, WT_NOTE, NULL, NULL, "nobody listens");
-    assert_int_equal(wt_parselog_count(NULL), 0);
-    assert_int_equal(wt_parselog_lost(NULL), 0);
+    assert_string_equal(wt_log_get(log, 2).file, "");
+    assert_string_equal(wt_log_get(log, 3).text, "value odd");
+    assert_int_equal(wt_log_dropped(log), 0);
+    wt_log_free(log);
+    wt_log_free(NULL);
+    wt_log_add(NULL, WT_NOTE, NULL, NULL, "nobody listens");
+    assert_int_equal(wt_log_count(NULL), 0);
+    assert_int_equal(wt_log_dropped(NULL), 0);
 }
 
 static void check_number(const char *text, char decimal, bool good, double expected)
@@ -372,9 +372,9 @@ static void nearest_names(void **state)
                  {"ran", "run"},       {"ram", "ramp"},     {"plot", NULL}, {"x", NULL},
                  {"", NULL},           {"rm", NULL}};
     for (size_t i = 0; i < sizeof words / sizeof *words; i++) {
-        nearest_name near = nearest_to(words[i].word, strlen(words[i].word));
+        spell_suggestion near = nearest_to(words[i].word, strlen(words[i].word));
         for (size_t k = 0; k < sizeof names / sizeof *names; k++)
-            nearest_try(&near, names[k], strlen(names[k]));
+            spell_suggestion_try(&near, names[k], strlen(names[k]));
         if (words[i].name == NULL)
             assert_null(near.name);
         else

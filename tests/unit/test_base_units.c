@@ -380,12 +380,12 @@ static int ask_without(const char *database, rlim_t files, const char *message, 
         const struct rlimit few = {files, files};
         bool good = database == NULL || setenv("UDUNITS2_XML_PATH", database, 1) == 0;
         good = good && (files == 0 || setrlimit(RLIMIT_NOFILE, &few) == 0);
-        shortage_forget();
+        resource_error_clear();
         good = good &&
                wt_unit_to_si("furlong", WT_Q_LENGTH, &factor, &offset, &err) == WT_E_INTERNAL &&
                strstr(err.message, message) != NULL && strstr(err.advice, advice) != NULL;
         /* Whoever took it for an unknown unit is told at the end. */
-        good = good && shortage_end(WT_E_FORMAT, &end) == WT_E_INTERNAL &&
+        good = good && resource_error_finish(WT_E_FORMAT, &end) == WT_E_INTERNAL &&
                strcmp(end.message, err.message) == 0;
         _exit(good ? 0 : 1);
     }

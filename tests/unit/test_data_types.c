@@ -291,7 +291,7 @@ static void sweep_copies(void **state)
 {
     (void)state;
     wt_sweep sweep = {0};
-    wt_parselog *log = wt_parselog_new();
+    wt_log *log = wt_log_new();
     add_measured(&sweep, 300, 5, "a.csv");
     add_measured(&sweep, 300, 5, "b.csv");
     add_measured(&sweep, 300, nextafter(5, 6), "c.csv");
@@ -315,11 +315,11 @@ static void sweep_copies(void **state)
         assert_near(t->strain[0], 3, 0);
         assert_near(t->strain[3], 0, 0);
     }
-    assert_int_equal(wt_parselog_count(log), 5);
+    assert_int_equal(wt_log_count(log), 5);
     assert_non_null(
-        strstr(wt_parselog_get(log, 4).text,
+        strstr(wt_log_get(log, 4).text,
                "1 isotherm is a copy of another and left out; the first: b.csv is a.csv"));
-    wt_parselog_free(log);
+    wt_log_free(log);
     wt_sweep_clear(&sweep);
 }
 
@@ -328,7 +328,7 @@ static void ramps(void **state)
 {
     static const double frequency[] = {10, 1, 1};
     wt_sweep sweep = {0};
-    wt_parselog *log = wt_parselog_new();
+    wt_log *log = wt_log_new();
     (void)state;
     for (size_t i = 0; i < 3; i++) {
         wt_ramp *ramp = wt_sweep_add_ramp(&sweep, 6, 0);
@@ -353,8 +353,8 @@ static void ramps(void **state)
         assert_near(ramp->storage_modulus[k], 2 * ramp->temperature[k], 0);
         assert_near(ramp->loss_modulus[k], 3 * ramp->temperature[k], 0);
     }
-    assert_non_null(strstr(wt_parselog_get(log, 0).text, "a copy of that of 1.txt"));
-    wt_parselog_free(log);
+    assert_non_null(strstr(wt_log_get(log, 0).text, "a copy of that of 1.txt"));
+    wt_log_free(log);
     wt_sweep_clear(&sweep);
 }
 
@@ -363,7 +363,7 @@ static void strain_sweeps(void **state)
 {
     static const double temperature[] = {300, 280, 280, 280}, frequency[] = {1, 10, 1, 1};
     wt_sweep sweep = {0};
-    wt_parselog *log = wt_parselog_new();
+    wt_log *log = wt_log_new();
     (void)state;
     for (size_t i = 0; i < 4; i++) {
         wt_strain_sweep *s = wt_sweep_add_strain_sweep(&sweep, 6);
@@ -390,8 +390,8 @@ static void strain_sweeps(void **state)
         assert_near(s->storage_modulus[k], 2 * s->strain[k], 0);
         assert_near(s->loss_modulus[k], 3 * s->strain[k], 0);
     }
-    assert_non_null(strstr(wt_parselog_get(log, 0).text, "a copy of that of 2.txt"));
-    wt_parselog_free(log);
+    assert_non_null(strstr(wt_log_get(log, 0).text, "a copy of that of 2.txt"));
+    wt_log_free(log);
     wt_sweep_clear(&sweep);
 }
 

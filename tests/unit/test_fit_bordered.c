@@ -18,17 +18,17 @@ static double draw(uint64_t *state)
 }
 
 struct whole {
-    pool memory;
+    arena memory;
     gsl_matrix *matrix, *factor, *inverse, *scratch;
 };
 
 /* Of as many unknowns: border, then blocks. */
 static void make_whole(struct whole *w, size_t n)
 {
-    w->matrix = pool_matrix(&w->memory, n, n);
-    w->factor = pool_matrix(&w->memory, n, n);
-    w->inverse = pool_matrix(&w->memory, n, n);
-    w->scratch = pool_matrix(&w->memory, n, n);
+    w->matrix = arena_matrix(&w->memory, n, n);
+    w->factor = arena_matrix(&w->memory, n, n);
+    w->inverse = arena_matrix(&w->memory, n, n);
+    w->scratch = arena_matrix(&w->memory, n, n);
 }
 
 /* A positive matrix of this form: rows that each touch the border and one block. */
@@ -94,7 +94,7 @@ static void test_as_whole(void **state)
         bordered b = bordered_new(&w.memory, MOST_BORDER, BLOCKS),
                  factor = bordered_new(&w.memory, MOST_BORDER, BLOCKS),
                  inverse = bordered_new(&w.memory, MOST_BORDER, BLOCKS);
-        gsl_matrix *scratch = pool_matrix(&w.memory, MOST_BORDER, MOST_BORDER);
+        gsl_matrix *scratch = arena_matrix(&w.memory, MOST_BORDER, MOST_BORDER);
         assert_false(w.memory.failed);
         b.m = m;
         fill(&b, &w, 11 + m);
@@ -125,7 +125,7 @@ static void test_as_whole(void **state)
                 sum += gsl_matrix_get(w.factor, u, v) * y[v];
             assert_near_abs(sum, draw(&random), 1e-12);
         }
-        pool_free(&w.memory);
+        arena_free(&w.memory);
     }
 }
 
@@ -144,7 +144,7 @@ static void test_not_positive(void **state)
         if (where == 2)
             gsl_matrix_set(b.border, 7, 7, 0.0);
         assert_false(bordered_factor(&b));
-        pool_free(&w.memory);
+        arena_free(&w.memory);
     }
 }
 

@@ -48,7 +48,7 @@ static void draw_sample(const truth *t, size_t k, uint64_t *seed, wt_sweep *swee
     wt_sweep_sort(sweep);
 }
 
-static wt_status find(const truth *t, wt_common how, uint64_t seed, wt_common_law *law,
+static wt_status find(const truth *t, wt_common how, uint64_t seed, wt_shared_shift_law *law,
                       wt_error *err)
 {
     wt_master fit[SAMPLES] = {{0}};
@@ -63,7 +63,7 @@ static wt_status find(const truth *t, wt_common how, uint64_t seed, wt_common_la
         of[k] = &fit[k];
         wt_sweep_clear(&sweep);
     }
-    const wt_status status = wt_common_law_fit(of, SAMPLES, how, reference, law, err);
+    const wt_status status = wt_shared_shift_law_fit(of, SAMPLES, how, reference, law, err);
     for (size_t k = 0; k < SAMPLES; k++)
         wt_master_clear(&fit[k]);
     return status;
@@ -82,7 +82,7 @@ static shares count(const truth *t, wt_common how)
 {
     shares s = {0};
     for (uint64_t i = 0; i < DRAWS; i++) {
-        wt_common_law law = {0};
+        wt_shared_shift_law law = {0};
         wt_error err = WT_ERROR_INIT;
         if (find(t, how, 1000 + 7919 * i, &law, &err) != WT_OK)
             continue; /* a sample whose own law is not WLF by chance may leave too few */
@@ -93,7 +93,7 @@ static shares count(const truth *t, wt_common how)
         s.moved += held(law.members[1].moved, t->moved[1]);
         double of_law = 0, of_difference = 0, n = 0;
         for (size_t p = 0; p < law.n; p++) {
-            const wt_common_point *point = &law.points[p];
+            const wt_shared_law_point *point = &law.points[p];
             const double real = point->temperature - t->moved[point->sample];
             of_law += held(point->law, -t->c1 * (real - reference) / (t->c2 + real - reference));
             of_difference += held(point->difference, 0);
@@ -101,7 +101,7 @@ static shares count(const truth *t, wt_common how)
         }
         s.law += of_law / n;
         s.difference += of_difference / n;
-        wt_common_law_clear(&law);
+        wt_shared_shift_law_clear(&law);
     }
     double *const all[] = {&s.c1, &s.c2, &s.law, &s.moved, &s.difference, &s.alarms};
     for (size_t i = 0; i < sizeof all / sizeof *all; i++)
@@ -150,11 +150,11 @@ static void test_moved(void **state)
 static void test_other(void **state)
 {
     (void)state;
-    wt_common_law law = {0};
+    wt_shared_shift_law law = {0};
     wt_error err = WT_ERROR_INIT;
     assert_int_equal(find(&other, WT_COMMON_SAME, 5, &law, &err), WT_OK);
     assert_true(law.p < 1e-3);
-    wt_common_law_clear(&law);
+    wt_shared_shift_law_clear(&law);
 }
 
 /* Few and rough: no alarm, and intervals as wide as that is. */
@@ -175,10 +175,12 @@ static void test_too_few(void **state)
 {
     (void)state;
     const wt_master *none[2] = {NULL, NULL};
-    wt_common_law law = {0};
+    wt_shared_shift_law law = {0};
     wt_error err = WT_ERROR_INIT;
-    assert_int_equal(wt_common_law_fit(none, 2, WT_COMMON_SAME, reference, &law, &err), WT_E_RANGE);
-    assert_int_equal(wt_common_law_fit(none, 2, WT_COMMON_NONE, reference, &law, &err), WT_E_ARG);
+    assert_int_equal(wt_shared_shift_law_fit(none, 2, WT_COMMON_SAME, reference, &law, &err),
+                     WT_E_RANGE);
+    assert_int_equal(wt_shared_shift_law_fit(none, 2, WT_COMMON_NONE, reference, &law, &err),
+                     WT_E_ARG);
     assert_null(law.members);
 }
 

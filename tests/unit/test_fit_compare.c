@@ -250,18 +250,18 @@ static void signs(void **state)
     assert_int_equal(wt_compare_signs(flat, no_spots, one, &c, NULL), WT_OK);
     assert_true(isnan(c.larger_chance[1]) && c.mean[0] == 0 && c.mean[1] == 1);
     /* -2 ln(0.05^2) = 11.98 of chi^2 with 4 degrees */
-    assert_near(wt_chance_of_both(0.05, 0.05), 0.0174786613677699, 1e-12);
-    assert_near(wt_chance_of_both(0.3, (double)NAN), 0.3, 0);
+    assert_near(wt_combined_p_value(0.05, 0.05), 0.0174786613677699, 1e-12);
+    assert_near(wt_combined_p_value(0.3, (double)NAN), 0.3, 0);
     /* By an independent fit with baseline and lever (0.5 N/m, 5 MPa, 70 nm deep): 0.238, 0.661. */
     wt_tip tip;
-    wt_worn_tip worn;
+    wt_tip_wear worn;
     assert_int_equal(wt_tip_parse("pyramid:half-angle=35deg,radius=20nm", &tip, NULL), WT_OK);
-    assert_int_equal(wt_worn_tip_fit(&tip, 40e-9, 70e-9, 0, &worn, NULL), WT_OK);
+    assert_int_equal(wt_tip_wear_fit(&tip, 40e-9, 70e-9, 0, &worn, NULL), WT_OK);
     assert_near(worn.log_modulus, 0.238, 0.05);
     assert_near(worn.misfit, 0.0112, 0.06);
-    assert_int_equal(wt_worn_tip_fit(&tip, 80e-9, 70e-9, 0, &worn, NULL), WT_OK);
+    assert_int_equal(wt_tip_wear_fit(&tip, 80e-9, 70e-9, 0, &worn, NULL), WT_OK);
     assert_near(worn.log_modulus, 0.661, 0.02);
-    assert_int_equal(wt_worn_tip_fit(&tip, 20e-9, 70e-9, 50e-9, &worn, NULL), WT_OK);
+    assert_int_equal(wt_tip_wear_fit(&tip, 20e-9, 70e-9, 50e-9, &worn, NULL), WT_OK);
     assert_true(fabs(worn.log_modulus) < 1e-5 && worn.misfit < 1e-5);
 }
 

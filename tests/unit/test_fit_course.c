@@ -26,19 +26,19 @@ typedef struct scene {
     double factor, ratio, each, white, slow;
 } scene;
 
-static course_series series_of(const scene *s, const course *c, uint64_t *seed)
+static running_in_series series_of(const scene *s, const course *c, uint64_t *seed)
 {
     const double memory = exp(-1 / 8.0);
-    course_series made;
+    running_in_series made;
     double slow = truth_normal(seed);
-    assert_int_equal(course_series_new(CYCLES, &made, NULL), WT_OK);
+    assert_int_equal(running_in_series_new(CYCLES, &made, NULL), WT_OK);
     for (size_t i = 0; i < CYCLES; i++)
         made.end[i] = s->each * (double)(i + 1);
     for (size_t i = 0; i < CYCLES; i++) {
         double mean = 0;
         for (int k = 0; k < WITHIN; k++) {
             const double time = s->each * ((double)i + (k + 0.5) / WITHIN);
-            mean += course_at(c, log(time / s->factor)) / WITHIN;
+            mean += running_in_curve_at(c, log(time / s->factor)) / WITHIN;
         }
         slow = memory * slow + sqrt(1 - memory * memory) * truth_normal(seed);
         made.friction[i] = 0.5 + s->ratio * mean + s->white * truth_normal(seed) + s->slow * slow;
@@ -46,14 +46,15 @@ static course_series series_of(const scene *s, const course *c, uint64_t *seed)
     return made;
 }
 
-static course_fit fitted(const scene *s, double height, uint64_t *seed)
+static running_in_curve_fit fitted(const scene *s, double height, uint64_t *seed)
 {
     const course c = exponential(height);
-    course_series made = series_of(s, &c, seed);
-    course_fit fit;
-    assert_int_equal(course_fit_make(&(course_pair){&made, &c}, 1, fraction, 0.1, &fit, NULL),
+    running_in_series made = series_of(s, &c, seed);
+    running_in_curve_fit fit;
+    assert_int_equal(running_in_curve_fit_make(&(running_in_curve_pair){&made, &c}, 1, fraction,
+                                               0.1, &fit, NULL),
                      WT_OK);
-    course_series_clear(&made);
+    running_in_series_clear(&made);
     return fit;
 }
 
@@ -62,11 +63,11 @@ static void test_course(void **state)
 {
     (void)state;
     const course c = exponential(-0.2);
-    assert_near(course_settled(&c, fraction), log(1 / fraction), 5e-3);
-    assert_near(course_height(&c), 0.2, 1e-3);
-    assert_near(course_at(&c, 0), -0.2 * exp(-1), 1e-3);
-    assert_true(course_at(&c, log(2 * last)) == 0);
-    assert_true(isnan(course_settled(&c, 0)));
+    assert_near(running_in_curve_settled(&c, fraction), log(1 / fraction), 5e-3);
+    assert_near(running_in_curve_height(&c), 0.2, 1e-3);
+    assert_near(running_in_curve_at(&c, 0), -0.2 * exp(-1), 1e-3);
+    assert_true(running_in_curve_at(&c, log(2 * last)) == 0);
+    assert_true(isnan(running_in_curve_settled(&c, 0)));
 }
 
 /* Without scatter that counts the factor and the ratio are those that were put in. */
@@ -77,7 +78,7 @@ static void test_exact(void **state)
         {1, 1, 0.05, 1e-6, 0}, {2.5, 0.4, 0.1, 1e-6, 0}, {0.3, -1.5, 0.05, 1e-6, 0}};
     uint64_t seed = 11;
     for (size_t i = 0; i < sizeof scenes / sizeof *scenes; i++) {
-        const course_fit fit = fitted(&scenes[i], 0.2, &seed);
+        const running_in_curve_fit fit = fitted(&scenes[i], 0.2, &seed);
         assert_true(fit.seen);
         assert_near(exp(fit.log_factor), scenes[i].factor, 2e-3);
         assert_near(fit.ratio, scenes[i].ratio, 2e-3);
@@ -91,17 +92,17 @@ static void test_another_course(void **state)
     const scene s = {2, 1, 0.1, 1e-5, 0};
     uint64_t seed = 5;
     const course c = exponential(0.2);
-    course_series made = series_of(&s, &c, &seed);
+    running_in_series made = series_of(&s, &c, &seed);
     course slower = c;
     slower.log_first += log(2);
     const scatter_law law = {0.5, 0.2};
-    const course_place place = course_place_find(&made, &slower, law, 0.1, 0.5),
-                       held = course_place_find(&made, &c, law, log(2), 0);
+    const running_in_optimum place = running_in_optimum_find(&made, &slower, law, 0.1, 0.5),
+                             held = running_in_optimum_find(&made, &c, law, log(2), 0);
     assert_near_abs(place.log_factor, 0, 1e-2);
     assert_near(place.ratio, 1, 1e-2);
     assert_true(held.log_factor == log(2));
     assert_near(held.ratio, 1, 1e-2);
-    course_series_clear(&made);
+    running_in_series_clear(&made);
 }
 
 /* All of it within the first cycle, whose mean is not to be missed for that. */
@@ -111,10 +112,11 @@ static void test_first_cycle(void **state)
     const scene s = {1, 1, 10, 1e-7, 0};
     uint64_t seed = 6;
     const course c = exponential(0.2);
-    course_series made = series_of(&s, &c, &seed);
-    const course_place held = course_place_find(&made, &c, (scatter_law){0.5, 0.2}, 0, 0);
+    running_in_series made = series_of(&s, &c, &seed);
+    const running_in_optimum held =
+        running_in_optimum_find(&made, &c, (scatter_law){0.5, 0.2}, 0, 0);
     assert_near(held.ratio, 1, 2e-4);
-    course_series_clear(&made);
+    running_in_series_clear(&made);
 }
 
 static void test_ends(void **state)
@@ -123,7 +125,7 @@ static void test_ends(void **state)
     uint64_t seed = 3;
     const scene flat = {1, 0, 0.05, 0.01, 0}, brief = {1, 1, 0.004, 0.01, 0},
                 quick = {1, 1, 20, 0.002, 0};
-    course_fit fit = fitted(&flat, 0.2, &seed);
+    running_in_curve_fit fit = fitted(&flat, 0.2, &seed);
     assert_false(fit.seen);
     assert_true(isnan(fit.log_factor));
     assert_true(fabs(fit.ratio) < 3 * fit.ratio_error && fit.ratio_error < 0.1);
@@ -142,7 +144,7 @@ static void test_coverage(void **state)
     uint64_t seed = 20;
     int factor = 0, ratio = 0;
     for (int i = 0; i < DRAWS; i++) {
-        const course_fit fit = fitted(&s, 0.2, &seed);
+        const running_in_curve_fit fit = fitted(&s, 0.2, &seed);
         assert_true(fit.seen);
         factor += fit.low < log(s.factor) && log(s.factor) < fit.high;
         ratio += fabs(fit.ratio - s.ratio) < 1.96 * fit.ratio_error;
@@ -157,18 +159,20 @@ static void test_refused(void **state)
 {
     (void)state;
     const course c = exponential(0.2), none = exponential(0);
-    course_series made;
-    course_fit fit;
-    assert_int_equal(course_series_new(COURSE_FEWEST - 1, &made, NULL), WT_OK);
-    assert_int_equal(course_fit_make(&(course_pair){&made, &c}, 1, fraction, 0.1, &fit, NULL),
+    running_in_series made;
+    running_in_curve_fit fit;
+    assert_int_equal(running_in_series_new(COURSE_FEWEST - 1, &made, NULL), WT_OK);
+    assert_int_equal(running_in_curve_fit_make(&(running_in_curve_pair){&made, &c}, 1, fraction,
+                                               0.1, &fit, NULL),
                      WT_E_RANGE);
-    course_series_clear(&made);
+    running_in_series_clear(&made);
     uint64_t seed = 1;
     const scene s = {1, 1, 0.05, 0.01, 0};
     made = series_of(&s, &none, &seed);
-    assert_int_equal(course_fit_make(&(course_pair){&made, &none}, 1, fraction, 0.1, &fit, NULL),
+    assert_int_equal(running_in_curve_fit_make(&(running_in_curve_pair){&made, &none}, 1, fraction,
+                                               0.1, &fit, NULL),
                      WT_E_RANGE);
-    course_series_clear(&made);
+    running_in_series_clear(&made);
 }
 
 int main(void)

@@ -24,7 +24,7 @@ static wt_master_options at(double celsius, wt_vertical_shift vertical)
     return options;
 }
 
-static wt_master fit_good(const wt_sweep *sweep, const wt_master_options *options, wt_parselog *log)
+static wt_master fit_good(const wt_sweep *sweep, const wt_master_options *options, wt_log *log)
 {
     wt_master master = {0};
     wt_error err = WT_ERROR_INIT;
@@ -202,11 +202,11 @@ static void soft_polymer_with_compliance_limit(void **state)
 
     /* One of the points the instrument could not measure: the loss modulus was negative. */
     sweep.isotherms[0].loss_modulus[sweep.isotherms[0].n - 1] = -3.1e6;
-    wt_parselog *log = wt_parselog_new();
+    wt_log *log = wt_log_new();
     master = fit_good(&sweep, &options, log);
-    assert_true(wt_parselog_count(log) >= 1);
-    assert_non_null(strstr(wt_parselog_get(log, 0).text, "1 of 16 points left out"));
-    wt_parselog_free(log);
+    assert_true(wt_log_count(log) >= 1);
+    assert_non_null(strstr(wt_log_get(log, 0).text, "1 of 16 points left out"));
+    wt_log_free(log);
     wt_master_clear(&master);
     wt_sweep_clear(&sweep);
 }

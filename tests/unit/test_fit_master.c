@@ -659,7 +659,7 @@ static void a_flat_middle_is_no_reference(void **state)
     wt_sweep sweep = {0};
     wt_master m = {0};
     wt_error err = WT_ERROR_INIT;
-    wt_parselog *log = wt_parselog_new();
+    wt_log *log = wt_log_new();
     wt_master_options options = wt_master_options_defaults();
     uint64_t seed = 5;
     size_t said = 0, left_out = 0;
@@ -679,8 +679,8 @@ static void a_flat_middle_is_no_reference(void **state)
     assert_true(m.reference_temperature > 243);
     for (size_t i = 10; i < m.n_shifts; i++)
         assert_true(m.shifts[i].determined);
-    for (size_t i = 0; i < wt_parselog_count(log); i++) {
-        const wt_log_entry e = wt_parselog_get(log, i);
+    for (size_t i = 0; i < wt_log_count(log); i++) {
+        const wt_log_entry e = wt_log_get(log, i);
         said += strstr(e.text, "too flat to shift others onto it") != NULL;
         left_out += strstr(e.text, "1 of 13 points left out") != NULL ? e.count : 0;
     }
@@ -691,7 +691,7 @@ static void a_flat_middle_is_no_reference(void **state)
     assert_int_equal(wt_master_fit(&sweep, &options, NULL, &m, &err), WT_E_NO_OVERLAP);
     assert_non_null(strstr(err.message, "the isotherm of the reference is flat"));
     assert_non_null(strstr(err.advice, "choose a reference temperature in the transition"));
-    wt_parselog_free(log);
+    wt_log_free(log);
     wt_sweep_clear(&sweep);
 }
 

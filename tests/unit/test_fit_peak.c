@@ -318,20 +318,20 @@ static void slopes(void **state)
     (void)state;
     enum { POINTS = 21 };
     double x[POINTS], y[POINTS];
-    smooth s;
+    gaussian_process s;
     for (int i = 0; i < POINTS; i++) {
         x[i] = -2 + 0.5 * i;
         y[i] = 0.4 * x[i] * x[i] - x[i] + 7 + 1e-6 * (i % 2 == 0 ? 1 : -1);
     }
-    assert_int_equal(smooth_new(x, y, POINTS, true, &s, NULL), WT_OK);
+    assert_int_equal(gaussian_process_new(x, y, POINTS, true, &s, NULL), WT_OK);
     for (double at = -2; at <= 8; at += 1.25) {
         const double slope = 0.8 * at - 1;
-        assert_near_abs(smooth_mean(&s, at, SMOOTH_VALUE), 0.4 * at * at - at + 7, 1e-5);
-        assert_near_abs(smooth_mean(&s, at, SMOOTH_SLOPE), slope, 1e-5);
+        assert_near_abs(gaussian_process_mean(&s, at, SMOOTH_VALUE), 0.4 * at * at - at + 7, 1e-5);
+        assert_near_abs(gaussian_process_mean(&s, at, SMOOTH_SLOPE), slope, 1e-5);
         assert_true(smooth_below(&s, at, SMOOTH_SLOPE, slope + 1e-4) > 0.999);
         assert_true(smooth_below(&s, at, SMOOTH_SLOPE, slope - 1e-4) < 0.001);
     }
-    smooth_free(&s);
+    gaussian_process_free(&s);
 }
 
 /* Two rubbers in a blend, the second one lower: where their sum has its maxima. */
@@ -362,7 +362,7 @@ static void lower_peaks_are_told(void **unused)
             x[n] = t;
             y[n++] = blend(t, share) * exp(0.01 * dma_normal(&state));
         }
-        assert_int_equal(wt_peaks_beside(x, y, n, 4, peaks, &n_peaks, NULL), WT_OK);
+        assert_int_equal(wt_secondary_peaks(x, y, n, 4, peaks, &n_peaks, NULL), WT_OK);
         const double truth = true_top(-10, 20, share);
         for (size_t i = 0; i < n_peaks; i++)
             wrong += fabs(peaks[i].at.value - truth) > 5;
@@ -392,7 +392,7 @@ static void no_lower_peak(void **unused)
         wt_peak peaks[4];
         size_t n_peaks = 0;
         const size_t n = measure(draw, draw % 2 == 0, x, y, &state, &r);
-        assert_int_equal(wt_peaks_beside(x, y, n, 4, peaks, &n_peaks, NULL), WT_OK);
+        assert_int_equal(wt_secondary_peaks(x, y, n, 4, peaks, &n_peaks, NULL), WT_OK);
         wrong += n_peaks;
     }
     print_message("no lower peak: %zu in %zu sweeps\n", wrong, (size_t)DRAWS);

@@ -100,7 +100,7 @@ static void check_reference(const char *file, const char *quantity, wt_cycle_kin
                    step = reference_row(file, quantity, "LS1"),
                    mser = reference_row(file, quantity, "MSER-5");
     check_kept(y, cycles.n, 0, &all, true);
-    check_kept(y, cycles.n, wt_change_of_mean(y, cycles.n), &step, raw);
+    check_kept(y, cycles.n, wt_step_detect(y, cycles.n), &step, raw);
     check_kept(y, cycles.n, wt_mser_5(y, cycles.n), &mser, raw);
     free(y);
     wt_cycles_clear(&cycles);
@@ -126,19 +126,19 @@ static void test_of_the_ends_of_a_step(void **state)
     double y[CYCLES];
     for (size_t i = 0; i < CYCLES; i++)
         y[i] = i < STEP ? 0 : 1;
-    assert_int_equal(wt_change_of_mean(y, CYCLES), STEP);
+    assert_int_equal(wt_step_detect(y, CYCLES), STEP);
     y[0] = 8;
-    assert_int_equal(wt_change_of_mean(y, CYCLES), STEP);
+    assert_int_equal(wt_step_detect(y, CYCLES), STEP);
     y[0] = 0;
     y[CYCLES - 1] = -8;
-    assert_int_equal(wt_change_of_mean(y, CYCLES), STEP);
+    assert_int_equal(wt_step_detect(y, CYCLES), STEP);
     y[CYCLES - 1] = 1;
     for (size_t i = 0; i < CYCLES; i++)
         y[i] = i < EDGE ? 1 : 0;
-    assert_int_equal(wt_change_of_mean(y, CYCLES), EDGE);
+    assert_int_equal(wt_step_detect(y, CYCLES), EDGE);
     for (size_t i = 0; i < CYCLES; i++)
         y[i] = i < CYCLES - EDGE ? 0 : 1;
-    assert_int_equal(wt_change_of_mean(y, CYCLES), CYCLES - EDGE);
+    assert_int_equal(wt_step_detect(y, CYCLES), CYCLES - EDGE);
 }
 
 /* 3 N in every row, 7.6 samples in a lap, and a running-in that ends where the rules say, too. */

@@ -8,7 +8,7 @@
 #include "dma/numerics/isotherm.h"
 #include "dma_data.h"
 
-static wt_master fit_good(const wt_sweep *sweep, const wt_master_options *options, wt_parselog *log)
+static wt_master fit_good(const wt_sweep *sweep, const wt_master_options *options, wt_log *log)
 {
     wt_master master = {0};
     wt_error err = WT_ERROR_INIT;
@@ -146,7 +146,7 @@ static void an_isotherm_without_overlap_has_no_shift(void **state)
     (void)dma_add(&sweep, &dma_rubber, 243.15, 1.0, 30.0, 12, true, 0.005, &noise);
     wt_sweep_sort(&sweep);
     const wt_master_options at = at_reference(293.15, WT_VERTICAL_FREE);
-    wt_parselog *log = wt_parselog_new();
+    wt_log *log = wt_log_new();
     wt_master master = fit_good(&sweep, &at, log);
     assert_false(master.shifts[0].determined);
     assert_near(master.shifts[0].log_a.value, (double)NAN, 0.0);
@@ -154,13 +154,13 @@ static void an_isotherm_without_overlap_has_no_shift(void **state)
     assert_near(master.shifts[0].log_b.value, (double)NAN, 0.0);
     assert_non_null(strstr(master.shifts[0].note, "no overlap"));
     assert_near(master.shifts[0].overlap, 0.0, 0.0);
-    assert_true(wt_parselog_count(log) > 0);
+    assert_true(wt_log_count(log) > 0);
     for (size_t i = 1; i < 5; i++)
         assert_true(master.shifts[i].determined);
     assert_int_equal(master.n, 4 * 12); /* its points are not in the master curve */
     for (size_t k = 0; k < master.n; k++)
         assert_int_not_equal(master.isotherm[k], 0);
-    wt_parselog_free(log);
+    wt_log_free(log);
     wt_master_clear(&master);
     wt_sweep_clear(&sweep);
 }
@@ -278,13 +278,13 @@ static void points_without_positive_modulus_are_left_out_and_named(void **state)
     sweep.isotherms[0].loss_modulus[14] = 0.0;
     sweep.isotherms[3].storage_modulus[2] = (double)NAN;
     const wt_master_options at = at_reference(293.15, WT_VERTICAL_PHYSICAL);
-    wt_parselog *log = wt_parselog_new();
+    wt_log *log = wt_log_new();
     wt_master master = fit_good(&sweep, &at, log);
     assert_int_equal(master.n, 11 * 16 - 3);
-    assert_true(wt_parselog_count(log) >= 2);
-    assert_non_null(strstr(wt_parselog_get(log, 0).text, "2 of 16 points left out"));
-    assert_non_null(strstr(wt_parselog_get(log, 0).text, "loss 0 Pa"));
-    assert_non_null(strstr(wt_parselog_get(log, 1).text, "storage nan Pa"));
+    assert_true(wt_log_count(log) >= 2);
+    assert_non_null(strstr(wt_log_get(log, 0).text, "2 of 16 points left out"));
+    assert_non_null(strstr(wt_log_get(log, 0).text, "loss 0 Pa"));
+    assert_non_null(strstr(wt_log_get(log, 1).text, "storage nan Pa"));
     assert_non_null(strstr(master.shifts[0].note, "2 points"));
     for (size_t i = 0; i < master.n_shifts; i++)
         assert_near_abs(master.shifts[i].log_a.value, truth_at(master.shifts[i].temperature), 0.05);
@@ -297,7 +297,7 @@ static void points_without_positive_modulus_are_left_out_and_named(void **state)
     assert_non_null(strstr(err.message, "30.00 °C"));
     assert_non_null(strstr(err.place, "synthetic 303.15 K"));
     assert_null(master.shifts);
-    wt_parselog_free(log);
+    wt_log_free(log);
     wt_sweep_clear(&sweep);
 }
 
@@ -414,11 +414,11 @@ static void failing_superposition_is_said(void **state)
                16 * sizeof *wrong->loss_modulus);
     }
     const wt_master_options at = at_reference(293.15, WT_VERTICAL_PHYSICAL);
-    wt_parselog *log = wt_parselog_new();
+    wt_log *log = wt_log_new();
     wt_master master = fit_good(&sweep, &at, log);
     assert_int_equal(master.superposition, WT_SUPERPOSITION_FAILS);
-    assert_true(wt_parselog_count(log) > 0);
-    wt_parselog_free(log);
+    assert_true(wt_log_count(log) > 0);
+    wt_log_free(log);
     wt_master_clear(&master);
     wt_sweep_clear(&sweep);
     wt_sweep_clear(&other);
@@ -435,13 +435,13 @@ static void mixed_strain_amplitudes_are_said(void **state)
             sweep.isotherms[i].strain[k] = i < 3 ? 7e-5 : 5e-2;
     }
     const wt_master_options at = at_reference(293.15, WT_VERTICAL_PHYSICAL);
-    wt_parselog *log = wt_parselog_new();
+    wt_log *log = wt_log_new();
     wt_master master = fit_good(&sweep, &at, log);
     bool said = false;
-    for (size_t i = 0; i < wt_parselog_count(log); i++)
-        said = said || strstr(wt_parselog_get(log, i).text, "amplitudes from 7e-05 to 0.05");
+    for (size_t i = 0; i < wt_log_count(log); i++)
+        said = said || strstr(wt_log_get(log, i).text, "amplitudes from 7e-05 to 0.05");
     assert_true(said);
-    wt_parselog_free(log);
+    wt_log_free(log);
     wt_master_clear(&master);
     wt_sweep_clear(&sweep);
 }
@@ -485,13 +485,13 @@ static void lines_between_the_terms_pull_nothing(void **state)
             }
         }
         const wt_master_options at = at_reference(293.15, WT_VERTICAL_NONE);
-        wt_parselog *log = wt_parselog_new();
+        wt_log *log = wt_log_new();
         wt_master master = fit_good(&sweep, &at, log);
         bool named = false;
-        for (size_t i = 0; i < wt_parselog_count(log); i++)
-            named = named || strstr(wt_parselog_get(log, i).text, "few sharp processes") != NULL;
+        for (size_t i = 0; i < wt_log_count(log); i++)
+            named = named || strstr(wt_log_get(log, i).text, "few sharp processes") != NULL;
         assert_true(named);
-        wt_parselog_free(log);
+        wt_log_free(log);
         double square = 0.0;
         for (size_t i = 0; i < master.n_shifts; i++) {
             const wt_interval a = master.shifts[i].log_a;
@@ -631,7 +631,7 @@ static size_t points_of(size_t near)
     enum { STEPS = 31 };
     wt_sweep sweep = {0};
     shift_set set = {0};
-    pool memory = {0};
+    arena memory = {0};
     wt_error err = WT_ERROR_INIT;
     wt_isotherm *t = wt_sweep_add(&sweep, STEPS * near, 0);
     assert_non_null(t);
@@ -646,7 +646,7 @@ static size_t points_of(size_t near)
         fail_msg("%s", err.message);
     const size_t n = set.curves[0].n;
     assert_int_equal(set.curves[0].n_together, n < t->n ? t->n : 0);
-    pool_free(&memory);
+    arena_free(&memory);
     wt_sweep_clear(&sweep);
     return n;
 }

@@ -252,14 +252,14 @@ static void steps_have_their_limits(void **state)
     wt_master_options options = wt_master_options_defaults();
     draw_sweep(WT_CREEP, 1, &sweep);
     options.liquid = true;
-    wt_parselog *log = wt_parselog_new(); /* what flows is fitted as a solid, and said to be */
+    wt_log *log = wt_log_new(); /* what flows is fitted as a solid, and said to be */
     bool said = false;
     assert_int_equal(wt_master_fit(&sweep, &options, log, &m, &err), WT_OK);
-    for (size_t i = 0; i < wt_parselog_count(log); i++)
-        said = said || strstr(wt_parselog_get(log, i).text, "creep of a liquid") != NULL;
+    for (size_t i = 0; i < wt_log_count(log); i++)
+        said = said || strstr(wt_log_get(log, i).text, "creep of a liquid") != NULL;
     assert_true(said && m.equilibrium.value > 0);
     wt_master_clear(&m);
-    wt_parselog_free(log);
+    wt_log_free(log);
     options.liquid = false;
     options.shift_by = WT_BY_LOSS;
     assert_int_equal(wt_master_fit(&sweep, &options, NULL, &m, &err), WT_E_MISSING);

@@ -173,11 +173,11 @@ static void test_sader(void **state)
     const double by_width = other.value / k.value - 1;
     assert_near(k.standard_error / k.value, sqrt(2e-4 + by_width * by_width), 0.01);
     /* air and water of the tables */
-    assert_near(wt_fluid_at(WT_MEDIUM_AIR, 298.15).density, 1.184, 0.002);
-    assert_near(wt_fluid_at(WT_MEDIUM_AIR, 298.15).viscosity, 1.845e-5, 0.01);
-    assert_near(wt_fluid_at(WT_MEDIUM_WATER, 298.15).density, 997.047, 1e-5);
-    assert_near(wt_fluid_at(WT_MEDIUM_WATER, 298.15).viscosity, 890.0e-6, 1e-3);
-    assert_true(isnan(wt_fluid_at(WT_MEDIUM_WATER, 260).density));
+    assert_near(wt_medium_properties(WT_MEDIUM_AIR, 298.15).density, 1.184, 0.002);
+    assert_near(wt_medium_properties(WT_MEDIUM_AIR, 298.15).viscosity, 1.845e-5, 0.01);
+    assert_near(wt_medium_properties(WT_MEDIUM_WATER, 298.15).density, 997.047, 1e-5);
+    assert_near(wt_medium_properties(WT_MEDIUM_WATER, 298.15).viscosity, 890.0e-6, 1e-3);
+    assert_true(isnan(wt_medium_properties(WT_MEDIUM_WATER, 260).density));
 }
 
 int main(void)

@@ -87,7 +87,7 @@ static agreement_verdict judged(double level, double slope, double error)
 {
     set_up(level, slope, error, 0);
     agreement a = fitted(N, 0);
-    agreement_judge(&a, 0.2);
+    agreement_assess(&a, 0.2);
     const agreement_verdict verdict = a.verdict;
     if (verdict == AGREEMENT_NO && slope < 0)
         assert_int_equal(a.where, 0);

@@ -328,8 +328,8 @@ static void test_nothing_stated(void **state)
 static void test_exact_ratio(void **state)
 {
     (void)state;
-    const wt_layer_known known = {.thickness = {5e-6, 0, 0, "m"},
-                                  .modulus_ratio = {0.6, 0, 0, "1"}};
+    const wt_layer_observation known = {.thickness = {5e-6, 0, 0, "m"},
+                                        .modulus_ratio = {0.6, 0, 0, "1"}};
     sliding_set_up_uncertain();
     wt_table *table = NULL;
     assert_int_equal(wt_error_budget_make(&sliding, NULL, &known, NULL, &work, &table, NULL),
@@ -349,9 +349,9 @@ static void test_calibration(void **state)
 {
     (void)state;
     static const char number[] = "friction coefficient with layer";
-    const wt_layer_known known = {.thickness = {5e-6, 0, 0, "m"},
-                                  .modulus_ratio = {0.6, 0.06, 0, "1"},
-                                  .calibration_share = 0.36};
+    const wt_layer_observation known = {.thickness = {5e-6, 0, 0, "m"},
+                                        .modulus_ratio = {0.6, 0.06, 0, "1"},
+                                        .calibration_share = 0.36};
     sliding_set_up_uncertain();
     wt_table *table = NULL;
     assert_int_equal(wt_error_budget_make(&sliding, NULL, &known, NULL, &work, &table, NULL),
@@ -369,15 +369,15 @@ static void test_calibration(void **state)
     wt_table_free(table);
 }
 
-static wt_layer_known with_slope(double slope, double error)
+static wt_layer_observation with_slope(double slope, double error)
 {
-    return (wt_layer_known){.thickness = {5e-6, 0, 0, "m"},
-                            .modulus_ratio = {0.6, 0, 0, "1"},
-                            .ratio_slope = {slope, error, 0, "1"},
-                            .ratio_frequency = 1e3,
-                            .ratio_lowest = 10,
-                            .ratio_highest = 1e5,
-                            .ratio_temperature = (double)NAN};
+    return (wt_layer_observation){.thickness = {5e-6, 0, 0, "m"},
+                                  .modulus_ratio = {0.6, 0, 0, "1"},
+                                  .ratio_slope = {slope, error, 0, "1"},
+                                  .ratio_frequency = 1e3,
+                                  .ratio_lowest = 10,
+                                  .ratio_highest = 1e5,
+                                  .ratio_temperature = (double)NAN};
 }
 
 /* A slope is a source by itself, and no other row has its error. */
@@ -386,7 +386,7 @@ static void test_slope(void **state)
     (void)state;
     static const char number[] = "friction coefficient with layer",
                       slope[] = "slope of the modulus ratio";
-    wt_layer_known known = with_slope(0.1, 0);
+    wt_layer_observation known = with_slope(0.1, 0);
     wt_table *exact = NULL, *table = NULL;
     sliding_set_up_uncertain();
     work.replicates = 16;
@@ -404,7 +404,7 @@ static void test_slope(void **state)
 
 /* ---- coverage -------------------------------------------------------------------------------- */
 
-static const wt_layer_known *covered; /* of the layer, or NULL */
+static const wt_layer_observation *covered; /* of the layer, or NULL */
 
 static wt_table *cover(size_t trials, unsigned threads)
 {
@@ -421,7 +421,7 @@ static wt_table *cover(size_t trials, unsigned threads)
 static void test_cover_slope(void **state)
 {
     (void)state;
-    const wt_layer_known known = with_slope(0.1, 0.05);
+    const wt_layer_observation known = with_slope(0.1, 0.05);
     sliding_set_up_uncertain();
     sliding.pressure.standard_error = sliding.shear_stress.standard_error = 0;
     work.replicates = 8;
@@ -487,13 +487,13 @@ static void test_verdicts_of_shares(void **state)
                  {801, 10000, "too narrow"}};
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         const double n = (double)cases[i].n;
-        const coverage_share s = coverage_judge(1 - cases[i].misses / n, cases[i].n);
+        const coverage_share s = coverage_assess(1 - cases[i].misses / n, cases[i].n);
         if (strcmp(s.verdict, cases[i].verdict) != 0)
             fail_msg("%g of %g: %s", cases[i].misses, n, s.verdict);
         assert_int_equal(isnan(s.trials), strcmp(s.verdict, "cannot say") != 0);
         if (!isnan(s.trials)) /* they do tell */
             assert_string_not_equal(
-                coverage_judge(1 - cases[i].misses / n, (size_t)s.trials).verdict, "cannot say");
+                coverage_assess(1 - cases[i].misses / n, (size_t)s.trials).verdict, "cannot say");
     }
 }
 
@@ -540,7 +540,7 @@ static void test_isotherms_again(void **state)
     if (wt_master_fit(&sweep, &options, NULL, &fit, &err) != WT_OK)
         fail_msg("%s %s", err.message, err.found);
     assert_int_equal(fit.n_shifts, ISOTHERMS);
-    assert_int_equal(regenerate_sweep(&sweep, &fit, 4, &again, shift, NULL), WT_OK);
+    assert_int_equal(bootstrap_sweep(&sweep, &fit, 4, &again, shift, NULL), WT_OK);
     assert_int_equal(again.n_isotherms, ISOTHERMS);
     for (int i = 0; i < ISOTHERMS; i++) {
         const wt_isotherm *was = &sweep.isotherms[i], *is = &again.isotherms[i];
@@ -558,7 +558,7 @@ static void test_isotherms_again(void **state)
     wt_sweep moved = {0};
     for (int i = 0; i < ISOTHERMS; i++)
         fit.shifts[i].log_b.value = 0.1 * i - 0.15;
-    assert_int_equal(regenerate_sweep(&sweep, &fit, 4, &moved, shift, NULL), WT_OK);
+    assert_int_equal(bootstrap_sweep(&sweep, &fit, 4, &moved, shift, NULL), WT_OK);
     for (int i = 0; i < ISOTHERMS; i++)
         for (int j = 0; j < POINTS; j++)
             assert_near(moved.isotherms[i].storage_modulus[j] * pow(10, 0.1 * i - 0.15),
@@ -581,13 +581,13 @@ static void test_scatter_of_a_group(void **state)
     group.within = 0.05;
     for (int i = 0; i < N; i++)
         spot[i] = i / CURVES;
-    regenerate_group(&group, 7, 0, modulus);
-    assert_true(regenerate_scatter(modulus, spot, N, 0, &found));
+    bootstrap_group(&group, 7, 0, modulus);
+    assert_true(bootstrap_scatter(modulus, spot, N, 0, &found));
     assert_int_equal(found.n_spots, SPOTS);
     assert_true(fabs(found.mean - group.mean) < 0.1);
     assert_true(fabs(found.between - 0.2) < 0.07);
     assert_true(fabs(found.within - 0.05) < 0.007);
-    assert_false(regenerate_scatter(modulus, same, 3, 0, &found));
+    assert_false(bootstrap_scatter(modulus, same, 3, 0, &found));
 }
 
 int main(void)

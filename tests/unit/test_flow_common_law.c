@@ -52,7 +52,7 @@ static double own_law(size_t sample, double temperature)
 
 static wt_table *make(wt_common how, const wt_master *const *fits, size_t n, double margin)
 {
-    wt_common_law_job job = wt_common_law_job_defaults();
+    wt_shared_shift_law_job job = wt_shared_shift_law_job_defaults();
     wt_table *table = NULL;
     wt_error err = WT_ERROR_INIT;
     job.common = how;
@@ -60,7 +60,7 @@ static wt_table *make(wt_common how, const wt_master *const *fits, size_t n, dou
     job.fits = fits;
     job.n = n;
     job.margin = margin;
-    if (wt_common_law_make(&job, &table, &err) != WT_OK)
+    if (wt_shared_shift_law_make(&job, &table, &err) != WT_OK)
         fail_msg("%s", err.message);
     return table;
 }

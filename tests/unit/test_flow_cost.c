@@ -327,7 +327,7 @@ static void test_shared_or_not(void **state)
     work.replicates = REPLICATES;
     assert_true(wt_table_estimate(layer, "balance_thickness", &thickness));
     thickness.numerical_error = 0;
-    const wt_layer_known known = {.thickness = thickness, .modulus_ratio = {0.6, 0, 0, "1"}};
+    const wt_layer_observation known = {.thickness = thickness, .modulus_ratio = {0.6, 0, 0, "1"}};
     assert_int_equal(wt_friction_make(&sliding, &known, &work, &alone, NULL), WT_OK);
     for (size_t i = 0; i < COUNT_OF(velocity); i++) {
         static const char *const columns[] = {"friction", "friction_standard_error",

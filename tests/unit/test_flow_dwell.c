@@ -453,7 +453,7 @@ static void test_free_of_the_neck(void **state)
                                 .spring_constant = 1,
                                 .poisson_ratio = 0.5,
                                 .modulus = 1e6};
-    pool memory = {0};
+    arena memory = {0};
     dwell_nodes nodes;
     assert_string_equal(dwell_nodes_make(&h, 1e-3, &memory, &nodes), "");
     assert_true(nodes.n > nodes.first_free);
@@ -461,7 +461,7 @@ static void test_free_of_the_neck(void **state)
         assert_true(nodes.position[i] < -4e-6);
         assert_near_abs(nodes.force[i], 0, 1e-12);
     }
-    pool_free(&memory);
+    arena_free(&memory);
 }
 
 int main(void)

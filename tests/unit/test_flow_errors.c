@@ -85,8 +85,8 @@ static void make(int way)
     wt_surface surface = {.self_affine = true, .q0 = 2e3, .qr = 4e3, .q1 = 2e4, .hurst = 0.8};
     wt_sliding sliding = wt_sliding_defaults();
     wt_job work = wt_job_defaults();
-    wt_layer_known known = {.thickness = stated(3e-6, "m", all),
-                            .modulus_ratio = stated(0.6, "1", all)};
+    wt_layer_observation known = {.thickness = stated(3e-6, "m", all),
+                                  .modulus_ratio = stated(0.6, "1", all)};
     wt_layer_job job = wt_layer_job_defaults();
     wt_error err = WT_ERROR_INIT;
     fixture_check(fixture_rubber(result, &rubber[way], NULL));
@@ -366,13 +366,13 @@ static void test_not_shown(void **state)
         wt_indent_job job = wt_indent_job_defaults();
         char text[512];
         fixture_check(wt_tip_parse(cases[i].tip, &job.tip, NULL));
-        indent_not_shown(&job, 100e-9, text, sizeof text);
+        indent_systematic_errors(&job, 100e-9, text, sizeof text);
         if (strstr(text, cases[i].has) == NULL || strstr(text, cases[i].lacks) != NULL)
             fail_msg("%s: %s", cases[i].tip, text);
         job.tip.sample_thickness = 1e-6;
-        indent_not_shown(&job, 100e-9, text, sizeof text);
+        indent_systematic_errors(&job, 100e-9, text, sizeof text);
         assert_null(strstr(text, "thinner"));
-        indent_not_shown(&job, 0, text, sizeof text);
+        indent_systematic_errors(&job, 0, text, sizeof text);
         assert_string_equal(text, "");
     }
 }

@@ -29,7 +29,7 @@ static void set_up(void)
     work.replicates = 0;
 }
 
-static const wt_layer_known *layer; /* NULL: none */
+static const wt_layer_observation *layer; /* NULL: none */
 
 static wt_table *make_map(void)
 {
@@ -103,7 +103,7 @@ static void map_is_friction(void **state)
     check_map();
     /* opening cracks costs friction on the bare surface, too */
     const wt_layer_shear cracks = {.exponent = 1, .crack_energy = 1, .spacing = 1e-5};
-    const wt_layer_known cracked = {
+    const wt_layer_observation cracked = {
         .thickness = {1e-6, 0, 0, "m"}, .modulus_ratio = {0.6, 0, 0, "1"}, .shear = &cracks};
     layer = &cracked;
     check_map();
@@ -202,7 +202,7 @@ static void decades_have_the_cracks(void **state)
     (void)state;
     set_up();
     const wt_layer_shear shear = {1, 0, 1, 1e-5};
-    const wt_layer_known cracked = {
+    const wt_layer_observation cracked = {
         .thickness = {0, 0, 0, "m"}, .modulus_ratio = {1, 0, 0, "1"}, .shear = &shear};
     sliding.shear_stress.value = 5e6;
     wt_table *table = NULL, *plain = NULL, *friction = make_friction((double)NAN, 0.4e6);

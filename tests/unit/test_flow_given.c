@@ -152,7 +152,7 @@ static void runs_at_one_temperature_keep_their_shifts(void **unused)
     for (int run = 0; run < 2; run++) {
         wt_sweep sweep = {0};
         wt_error err = WT_ERROR_INIT;
-        wt_parselog *log = wt_parselog_new();
+        wt_log *log = wt_log_new();
         wt_table *table = wt_table_new("shifts", "");
         uint64_t state = 1;
         size_t said = 0;
@@ -173,11 +173,11 @@ static void runs_at_one_temperature_keep_their_shifts(void **unused)
             assert_true(sweep.isotherms[i].shift_given);
             assert_near_abs(sweep.isotherms[i].given_log_a, log_a[i], 0);
         }
-        for (size_t i = 0; i < wt_parselog_count(log); i++)
-            said += strstr(wt_parselog_get(log, i).text, "1 of the 4 given shifts are of no") != 0;
+        for (size_t i = 0; i < wt_log_count(log); i++)
+            said += strstr(wt_log_get(log, i).text, "1 of the 4 given shifts are of no") != 0;
         assert_int_equal(said, run == 0);
         wt_table_free(table);
-        wt_parselog_free(log);
+        wt_log_free(log);
         wt_sweep_clear(&sweep);
     }
 }

@@ -58,19 +58,19 @@ static void test_material_without_a_spectrum(void **state)
     wt_job work = common_job();
     wt_indent_tables plain = {0}, given = {0};
     wt_error err = WT_ERROR_INIT;
-    work.log = wt_parselog_new();
+    work.log = wt_log_new();
     assert_int_equal(wt_indent_group(&job, &work, &plain, NULL), WT_OK);
-    const size_t notes = wt_parselog_count(work.log);
+    const size_t notes = wt_log_count(work.log);
     job.rubber = &zener;
     if (wt_indent_group(&job, &work, &given, &err) != WT_OK)
         fail_msg("%s", err.message);
-    assert_true(wt_parselog_count(work.log) > notes);
+    assert_true(wt_log_count(work.log) > notes);
     assert_int_equal(wt_table_n_rows(given.indentation), wt_table_n_rows(plain.indentation));
     for (size_t i = 0; i < wt_table_n_rows(plain.indentation); i++)
         assert_near(number_cell(given.indentation, i, "modulus"),
                     number_cell(plain.indentation, i, "modulus"), 0);
     assert_null(wt_table_key(given.indentation, "spectrum_temperature"));
-    wt_parselog_free(work.log);
+    wt_log_free(work.log);
     wt_indent_tables_clear(&plain);
     wt_indent_tables_clear(&given);
 }
@@ -99,7 +99,7 @@ static void test_bad_files(void **state)
     err = (wt_error)WT_ERROR_INIT;
 
     common.failures = wt_failures_new();
-    common.log = wt_parselog_new();
+    common.log = wt_log_new();
     common.provenance = wt_provenance_new();
     assert_int_equal(wt_indent_group(&job, &common, &tables, &err), WT_OK);
     assert_int_equal(wt_table_n_rows(common.failures), 2);
@@ -110,9 +110,9 @@ static void test_bad_files(void **state)
     assert_int_equal(tables.n_failed, 1); /* read and failed; the other one is not there */
     static const char *const said[] = {"taken once", "24 of 24 accepted curves lose work",
                                        "the mean residual of 24 accepted curves"};
-    assert_int_equal(wt_parselog_count(common.log), 3);
+    assert_int_equal(wt_log_count(common.log), 3);
     for (size_t i = 0; i < 3; i++)
-        assert_non_null(strstr(wt_parselog_get(common.log, i).text, said[i]));
+        assert_non_null(strstr(wt_log_get(common.log, i).text, said[i]));
     assert_int_equal(wt_provenance_n_inputs(common.provenance), 2);
     assert_string_equal(wt_provenance_get_input(common.provenance, 1)->path,
                         "bulk-2.jpk-force-map");
@@ -122,7 +122,7 @@ static void test_bad_files(void **state)
         assert_near(number_cell(tables.indentation, i, "curve"), (double)(i % 12), 0);
     }
     wt_provenance_free(common.provenance);
-    wt_parselog_free(common.log);
+    wt_log_free(common.log);
     wt_table_free(common.failures);
     wt_indent_tables_clear(&tables);
 }

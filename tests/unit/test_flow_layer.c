@@ -190,7 +190,7 @@ static void running_in_joins_both(void **state)
     wt_layer_job job = job_of();
     wt_table *running = NULL, *balances = NULL;
     wt_error err = WT_ERROR_INIT;
-    wt_layer_known known = {.modulus_ratio = {0.5, 0, 0, "1"}};
+    wt_layer_observation known = {.modulus_ratio = {0.5, 0, 0, "1"}};
     wt_table *layer = layer_of(&job);
     assert_int_equal(wt_running_in_make(&sliding, &job, &known, &work, &running, &err), WT_OK);
     const size_t n = wt_table_n_rows(running);
@@ -236,8 +236,8 @@ static void one_shear_stress(void **state)
     job.shear = (wt_layer_shear){2, 3e-6, 1, 1e-5};
     wt_table *running = NULL, *layer = layer_of(&job);
     wt_error err = WT_ERROR_INIT;
-    wt_layer_known known = {.thickness = {key_number(layer, "balance_thickness"), 0, 0, "m"},
-                            .modulus_ratio = {0.5, 0, 0, "1"}};
+    wt_layer_observation known = {.thickness = {key_number(layer, "balance_thickness"), 0, 0, "m"},
+                                  .modulus_ratio = {0.5, 0, 0, "1"}};
     assert_int_equal(wt_running_in_make(&sliding, &job, &known, &work, &running, &err), WT_OK);
     static const char *const of_running[] = {"bare_friction", "balance_friction"},
                              *const of_friction[] = {"friction_at_reference",
@@ -265,7 +265,7 @@ static void shearing_the_layer(void **state)
 {
     (void)state;
     sliding_set_up(velocity, VELOCITIES);
-    const wt_layer_known known = {.modulus_ratio = {0.5, 0, 0, "1"}};
+    const wt_layer_observation known = {.modulus_ratio = {0.5, 0, 0, "1"}};
     wt_error err = WT_ERROR_INIT;
     wt_table *balances = NULL, *running = NULL;
     double thickness[2];
@@ -305,7 +305,7 @@ static void threshold_of_a_stiff_layer(void **state)
 {
     (void)state;
     sliding_set_up(velocity, VELOCITIES);
-    const wt_layer_known known = {.modulus_ratio = {4, 0, 0, "1"}};
+    const wt_layer_observation known = {.modulus_ratio = {4, 0, 0, "1"}};
     wt_error err = WT_ERROR_INIT;
     wt_table *balances = NULL;
     wt_layer_job job = job_of();
@@ -338,7 +338,7 @@ static void existence_ends_where_it_says(void **state)
 {
     (void)state;
     sliding_set_up(velocity, VELOCITIES);
-    const wt_layer_known known = {.modulus_ratio = {0.5, 0, 0, "1"}};
+    const wt_layer_observation known = {.modulus_ratio = {0.5, 0, 0, "1"}};
     wt_layer_job job = job_of();
     wt_table *existence = NULL;
     wt_error err = WT_ERROR_INIT;
@@ -380,7 +380,7 @@ static void existence_of_two_ranges(void **state)
     rubber.prony.relaxation_time = tau;
     rubber.prony.modulus = term;
     surface.q1 = 2e4;
-    const wt_layer_known known = {.modulus_ratio = {0.5, 0, 0, "1"}};
+    const wt_layer_observation known = {.modulus_ratio = {0.5, 0, 0, "1"}};
     wt_layer_job job = job_of();
     wt_table *existence = NULL;
     wt_error err = WT_ERROR_INIT;
@@ -422,10 +422,10 @@ static void refuses(void **state)
     wt_layer_tables tables = {0};
     wt_table *table = NULL;
     wt_error err = WT_ERROR_INIT;
-    const wt_layer_known unknown = {.modulus_ratio = {(double)NAN, 0, 0, "1"}};
+    const wt_layer_observation unknown = {.modulus_ratio = {(double)NAN, 0, 0, "1"}};
     assert_int_equal(wt_running_in_make(&sliding, &job, &unknown, &work, &table, &err),
                      WT_E_MISSING);
-    const wt_layer_known given = {.modulus_ratio = {0.5, 0, 0, "1"}};
+    const wt_layer_observation given = {.modulus_ratio = {0.5, 0, 0, "1"}};
     job.acts_back = true;
     job.start_thickness = 1e-6;
     assert_int_equal(wt_running_in_make(&sliding, &job, &given, &work, &table, &err), WT_E_ARG);

@@ -33,7 +33,7 @@ static wt_table *bands_of(const wt_layer_job *job)
     return table;
 }
 
-static wt_table *running_of(const wt_layer_job *job, const wt_layer_known *known)
+static wt_table *running_of(const wt_layer_job *job, const wt_layer_observation *known)
 {
     wt_table *table = NULL;
     wt_error err = WT_ERROR_INIT;
@@ -42,7 +42,7 @@ static wt_table *running_of(const wt_layer_job *job, const wt_layer_known *known
     return table;
 }
 
-static wt_table *balances_of(const wt_layer_job *job, const wt_layer_known *known)
+static wt_table *balances_of(const wt_layer_job *job, const wt_layer_observation *known)
 {
     wt_table *table = NULL;
     wt_error err = WT_ERROR_INIT;
@@ -51,7 +51,7 @@ static wt_table *balances_of(const wt_layer_job *job, const wt_layer_known *know
     return table;
 }
 
-static wt_table *existence_of(const wt_layer_job *job, const wt_layer_known *known)
+static wt_table *existence_of(const wt_layer_job *job, const wt_layer_observation *known)
 {
     wt_table *table = NULL;
     wt_error err = WT_ERROR_INIT;
@@ -71,7 +71,7 @@ static void set_up(size_t replicates)
 static void one_error_of_the_thickness(void **state)
 {
     (void)state;
-    const wt_layer_known known = {.modulus_ratio = {0.6, 0.03, 0, "1"}};
+    const wt_layer_observation known = {.modulus_ratio = {0.6, 0.03, 0, "1"}};
     for (int calibrated = 0; calibrated < 2; calibrated++) {
         set_up(48);
         sliding.pressure.standard_error = 0.05 * sliding.pressure.value;
@@ -121,7 +121,7 @@ static void one_error_of_the_friction(void **state)
     sliding.pressure.standard_error = 0.05 * sliding.pressure.value;
     sliding.shear_stress.standard_error = 0.1 * sliding.shear_stress.value;
     const wt_layer_job job = job_of(0, 0);
-    wt_layer_known known = {.modulus_ratio = {0.6, 0.03, 0, "1"}};
+    wt_layer_observation known = {.modulus_ratio = {0.6, 0.03, 0, "1"}};
     wt_table *running = running_of(&job, &known);
     known.thickness = (wt_estimate){key_number(running, "balance_thickness"), 0, 0, "m"};
     wt_friction_tables friction = {0};
@@ -145,7 +145,7 @@ static void errors_are_slopes(void **state)
     static const char *const loads[] = {"time=30s", "time=300s,specific-wear-rate=2e-12m^2/N",
                                         "velocity=0.02m/s"};
     const double share = 0.02;
-    const wt_layer_known known = {.modulus_ratio = {0.6, 0, 0, "1"}};
+    const wt_layer_observation known = {.modulus_ratio = {0.6, 0, 0, "1"}};
     set_up(64);
     wt_layer_job job = job_of(share, 0);
     job.severity_power = 1e4;
@@ -227,7 +227,7 @@ static void ends_do_not_hang_on_the_seed(void **state)
 static void balances_that_may_be_others(void **state)
 {
     (void)state;
-    const wt_layer_known known = {.modulus_ratio = {4, 0, 0, "1"}};
+    const wt_layer_observation known = {.modulus_ratio = {4, 0, 0, "1"}};
     for (int near = 0; near < 2; near++) {
         set_up(32);
         wt_layer_job job = job_of(0, 0);
@@ -305,7 +305,7 @@ static void a_layer_that_may_not_come(void **state)
 static void nothing_to_draw(void **state)
 {
     (void)state;
-    const wt_layer_known known = {.modulus_ratio = {0.6, 0, 0, "1"}};
+    const wt_layer_observation known = {.modulus_ratio = {0.6, 0, 0, "1"}};
     set_up(16);
     wt_layer_job job = job_of(0, 0);
     wt_table *running = running_of(&job, &known);

@@ -175,8 +175,8 @@ COUNTED(wt_status, wt_indent_force_curve, CURVES,
          wt_error *err),
         (contact, options, curve, workspace, fit, err))
 COUNTED(wt_status, wt_master_fit, MASTERS,
-        (const wt_sweep *sweep, const wt_master_options *options, wt_parselog *log,
-         wt_master *master, wt_error *err),
+        (const wt_sweep *sweep, const wt_master_options *options, wt_log *log, wt_master *master,
+         wt_error *err),
         (sweep, options, log, master, err))
 COUNTED(wt_status, wt_master_draw, DRAWS,
         (const wt_master *master, uint64_t seed, size_t draw, wt_prony *prony, wt_shift_law *law,
@@ -348,7 +348,7 @@ static void release(ran *r)
     wt_case_free(r->c);
 }
 
-static bool runs(const ran *r, flow_thing given)
+static bool runs(const ran *r, flow_resource given)
 {
     for (size_t i = 0; i < FLOW_N_STAGES; i++)
         if (r->plan.chosen[i] && (flow_stages[i].gives & FLOW_BIT(given)) != 0)
@@ -356,7 +356,7 @@ static bool runs(const ran *r, flow_thing given)
     return false;
 }
 
-static bool shown(const ran *r, flow_thing table)
+static bool shown(const ran *r, flow_resource table)
 {
     return (r->plan.required & FLOW_BIT(table)) != 0;
 }
@@ -535,7 +535,7 @@ static void check_asked(const char *element, const char *name, size_t replicates
 static bool is_of_run(const char *table)
 {
     flow_things things;
-    return flow_things_of_table(table, &things) && things == 0;
+    return flow_resources_of_table(table, &things) && things == 0;
 }
 
 static void check_tables(size_t replicates)
@@ -566,7 +566,7 @@ static void test_figures(void **state)
     for (size_t i = 0; i < wt_figure_count(); i++) {
         const wt_figure_info figure = wt_figure_get(i);
         flow_things things;
-        if (flow_things_of_figure(figure.name, &things) && !is_of_run(figure.table))
+        if (flow_resources_of_figure(figure.name, &things) && !is_of_run(figure.table))
             check_asked("figure", figure.name, 0);
     }
 }

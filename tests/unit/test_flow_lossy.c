@@ -13,10 +13,10 @@ static double error_of(size_t known, size_t unknown)
     wt_indent_job job = wt_indent_job_defaults();
     wt_job work = wt_job_defaults();
     wt_error err = WT_ERROR_INIT;
-    indent_together together = {0};
+    indent_summary together = {0};
     table_writer rows = table_begin(&indentation_schema, &err);
     job.group = "bulk";
-    work.log = wt_parselog_new();
+    work.log = wt_log_new();
     for (size_t i = 0; i < CURVES; i++) {
         wt_indent_fit fit = {.modulus = {1e6, 1e4, 0, "Pa"},
                              .loss = i < known + unknown ? 0.3 : 0.01,
@@ -24,13 +24,13 @@ static double error_of(size_t known, size_t unknown)
                              .loss_error = i < known ? 0.04 : (double)NAN,
                              .spectrum_factor = {(double)NAN, (double)NAN, 0, "1"},
                              .misfit = {(double)NAN}};
-        assert_int_equal(indent_together_add(&together, &fit, &job.options, &err), WT_OK);
+        assert_int_equal(indent_summary_add(&together, &fit, &job.options, &err), WT_OK);
     }
-    assert_int_equal(indent_say_together(&together, &job, &work, &rows, &err), WT_OK);
+    assert_int_equal(indent_summary_report(&together, &job, &work, &rows, &err), WT_OK);
     wt_estimate error = {0};
     assert_true(wt_table_estimate(rows.table, "loss_error", &error));
-    indent_together_clear(&together);
-    wt_parselog_free(work.log);
+    indent_summary_clear(&together);
+    wt_log_free(work.log);
     wt_table_free(rows.table);
     return error.value;
 }

@@ -234,7 +234,7 @@ static void test_table_of_things(void **state)
 {
     (void)state;
     for (unsigned i = 0; i < FLOW_N_THINGS; i++) {
-        const flow_thing_row *thing = &flow_thing_rows[i];
+        const flow_resource_row *thing = &flow_thing_rows[i];
         char name[SCHEMA_NAME_SIZE];
         flow_things things = 0;
         assert_non_null(thing->words);
@@ -243,7 +243,7 @@ static void test_table_of_things(void **state)
             continue;
         schema_name(thing->schema->name, thing->suffix, name);
         assert_string_equal(thing->words, name);
-        assert_true(flow_things_of_table(name, &things) && things == FLOW_BIT(i));
+        assert_true(flow_resources_of_table(name, &things) && things == FLOW_BIT(i));
     }
 }
 

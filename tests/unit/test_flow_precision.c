@@ -155,9 +155,9 @@ static void test_isotherms(void **state)
     options.precision.part = "layer-history";
     options.precision.repeats = 1;
     assert_int_equal(wt_case_read(WT_SOURCE_DIR "/fixtures/case/case.xml", &c, NULL), WT_OK);
-    assert_int_equal(wt_case_ask(c, "work_precision cost", NULL), WT_E_NOT_FOUND);
-    assert_int_equal(wt_case_ask(c, "", NULL), WT_E_NOT_FOUND);
-    assert_int_equal(wt_case_ask(c, "what_if work_precision", NULL), WT_OK);
+    assert_int_equal(wt_case_request(c, "work_precision cost", NULL), WT_E_NOT_FOUND);
+    assert_int_equal(wt_case_request(c, "", NULL), WT_E_NOT_FOUND);
+    assert_int_equal(wt_case_request(c, "what_if work_precision", NULL), WT_OK);
     assert_int_equal(wt_run(c, &options, NULL, &result, &failed, NULL), WT_OK);
     assert_int_equal(failed, 0);
     assert_non_null(wt_result_find(result, "what_if"));

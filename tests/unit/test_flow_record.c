@@ -15,8 +15,8 @@
 #define RECORDS WT_SOURCE_DIR "/fixtures/record/"
 #define FIXTURES WT_SOURCE_DIR "/fixtures/formats/"
 
-static wt_status make(const wt_record_job *options, const char *const *paths, size_t n,
-                      wt_parselog *log, wt_record_tables *tables, wt_error *err)
+static wt_status make(const wt_record_job *options, const char *const *paths, size_t n, wt_log *log,
+                      wt_record_tables *tables, wt_error *err)
 {
     wt_file_set set = {.patterns = paths, .n_patterns = n, .read = wt_read_defaults()};
     wt_record_job job = *options;
@@ -28,7 +28,7 @@ static wt_status make(const wt_record_job *options, const char *const *paths, si
     return wt_record_make(&job, &work, tables, err);
 }
 
-static wt_record_tables made(const wt_record_job *job, const char *path, wt_parselog *log)
+static wt_record_tables made(const wt_record_job *job, const char *path, wt_log *log)
 {
     wt_record_tables tables = {0};
     wt_error err = WT_ERROR_INIT;
@@ -242,7 +242,7 @@ static void test_length_by_laps(void **state)
     (void)state;
     char path[] = "laps-XXXXXX";
     wt_record_job job = disc_job();
-    wt_parselog *log = wt_parselog_new();
+    wt_log *log = wt_log_new();
     FILE *out = truth_file(path);
     fputs("time (s)\tdistance (m)\tlaps\tmu\n", out);
     for (int i = 0; i < 400; i++)
@@ -252,11 +252,11 @@ static void test_length_by_laps(void **state)
     job.track_area = (wt_estimate){1e-9, 0, 0, "m^2"};
     wt_record_tables t = made(&job, path, log);
     assert_near(number_cell(t.wear, 0, "volume"), 1e-10, 1e-9);
-    const size_t n = wt_parselog_count(log);
+    const size_t n = wt_log_count(log);
     assert_true(n > 0);
-    assert_non_null(strstr(wt_parselog_get(log, n - 1).text, "100 mm long by distance and laps"));
+    assert_non_null(strstr(wt_log_get(log, n - 1).text, "100 mm long by distance and laps"));
     wt_record_tables_clear(&t);
-    wt_parselog_free(log);
+    wt_log_free(log);
     assert_int_equal(remove(path), 0);
 }
 
@@ -299,7 +299,7 @@ static void test_pause(void **state)
     for (int by_laps = 0; by_laps < 2; by_laps++) {
         char path[] = "pause-XXXXXX";
         wt_record_job job = disc_job();
-        wt_parselog *log = wt_parselog_new();
+        wt_log *log = wt_log_new();
         FILE *out = truth_file(path);
         fprintf(out, "time (s),%s,mu\n", by_laps ? "laps" : "velocity (mm/s)");
         for (int i = 0, slid = 0; i < 4600; i++) {
@@ -322,11 +322,11 @@ static void test_pause(void **state)
         assert_near(number_cell(t.wear, 0, "distance"), by_laps ? 400 * 2 * M_PI * 0.012 : 8, 2e-3);
         assert_non_null(strstr(text_cell(t.record, 0, "note"), "1 pause of 60 s left out"));
         bool said = false;
-        for (size_t i = 0; i < wt_parselog_count(log); i++)
-            said = said || strstr(wt_parselog_get(log, i).text, "1 pause of 60 s in mid-record");
+        for (size_t i = 0; i < wt_log_count(log); i++)
+            said = said || strstr(wt_log_get(log, i).text, "1 pause of 60 s in mid-record");
         assert_true(said);
         wt_record_tables_clear(&t);
-        wt_parselog_free(log);
+        wt_log_free(log);
         assert_int_equal(remove(path), 0);
     }
 }
@@ -479,16 +479,16 @@ static void test_a_contradiction(void **state)
     for (int i = 0; i < 100; i++)
         fprintf(out, "%d,%g,%g,10\n", i, 0.5 + 0.001 * (i % 7), 6 + 0.01 * (i % 7));
     fclose(out);
-    wt_parselog *log = wt_parselog_new();
+    wt_log *log = wt_log_new();
     wt_record_tables t = made(&job, path, log);
     bool said = false;
-    for (size_t i = 0; i < wt_parselog_count(log); i++)
-        said = said || strstr(wt_parselog_get(log, i).text, "differ by up to 0.1") != NULL;
+    for (size_t i = 0; i < wt_log_count(log); i++)
+        said = said || strstr(wt_log_get(log, i).text, "differ by up to 0.1") != NULL;
     assert_true(said);
     assert_near(number_cell(t.record, 0, "difference"), 0.1, 1e-9);
     assert_near(number_cell(t.record, 0, "friction_coefficient"), 0.503, 1e-3);
     wt_record_tables_clear(&t);
-    wt_parselog_free(log);
+    wt_log_free(log);
     (void)remove(path);
 }
 

@@ -19,7 +19,7 @@ static double grown[(1 + DRAWS) * STRIDE], courses[(1 + DRAWS) * TIMES];
 static growth layer[MOST];
 static recorded record = {.at = {.velocity = 0.3}, .running_in = (double)NAN, .note = ""};
 static double values[MOST][(1 + DRAWS) * RUN_NUMBERS];
-static course_run run[MOST];
+static run_fit run[MOST];
 static run_set all;
 
 /* A prediction whose change is 0.1 in each draw. */
@@ -39,19 +39,19 @@ static void begin(void)
 
 /* One more run: a time that is exp(at) times the predicted one, within 10 %; its ends; the draws
  * scatter by 2 %. The change is as predicted. */
-static course_run *add(double at, bool low, bool high)
+static run_fit *add(double at, bool low, bool high)
 {
-    course_run *const r = &run[all.n];
+    run_fit *const r = &run[all.n];
     double *const value = values[all.n];
     uint64_t seed = 3 + all.n;
-    *r = (course_run){.rec = &record, .growth = &layer[all.n], .value = value};
-    r->fit = (course_fit){.seen = true,
-                          .log_factor = at,
-                          .error = 0.05,
-                          .low = low ? at - 0.1 : (double)NAN,
-                          .high = high ? at + 0.1 : (double)NAN,
-                          .ratio = 1,
-                          .ratio_error = 0.05};
+    *r = (run_fit){.rec = &record, .growth = &layer[all.n], .value = value};
+    r->fit = (running_in_curve_fit){.seen = true,
+                                    .log_factor = at,
+                                    .error = 0.05,
+                                    .low = low ? at - 0.1 : (double)NAN,
+                                    .high = high ? at + 0.1 : (double)NAN,
+                                    .ratio = 1,
+                                    .ratio_error = 0.05};
     for (size_t k = 0; k <= DRAWS; k++) {
         const double off = k > 0 ? 0.02 * truth_normal(&seed) : 0;
         for (size_t m = 0; m < RUN_NUMBERS; m++)
@@ -68,7 +68,7 @@ static run_verdict judged(void)
 {
     for (size_t k = 0; k < RUN_NUMBERS; k++)
         assert_int_equal(run_level_make(run, all.n, (run_number)k, &all.level[k], NULL), WT_OK);
-    const run_verdict said = run_set_judge(&all);
+    const run_verdict said = run_set_assess(&all);
     for (size_t k = 0; k < RUN_NUMBERS; k++)
         run_level_clear(&all.level[k]);
     return said;
@@ -194,7 +194,7 @@ static void test_share_of_variance(void **state)
 {
     (void)state;
     begin();
-    course_run *const wide = add(0, true, true);
+    run_fit *const wide = add(0, true, true);
     layer[0].line[0] = FLOW_DRAW_WEAR;
     layer[0].n_lines = 1;
     for (size_t k = 1; k <= DRAWS; k++)
@@ -205,10 +205,10 @@ static void test_share_of_variance(void **state)
     check(said.settled_by, "known better");
     check(said.settled_by, " % of the variance");
     check_not(said.settled_by, "nan");
-    course_run *const untold = add(0, true, true);
+    run_fit *const untold = add(0, true, true);
     *untold = *wide;
     untold->value = values[1];
-    *wide = (course_run){.rec = &record, .growth = &layer[1], .value = values[2]};
+    *wide = (run_fit){.rec = &record, .growth = &layer[1], .value = values[2]};
     for (size_t k = 0; k < (1 + DRAWS) * RUN_NUMBERS; k++) {
         values[1][k] = values[0][k];
         values[2][k] = (double)NAN;
@@ -223,7 +223,7 @@ static void test_change_untold(void **state)
 {
     (void)state;
     begin();
-    course_run *const r = add(2, true, false);
+    run_fit *const r = add(2, true, false);
     r->value[RUN_RATIO] = r->value[RUN_MORE] = r->value[RUN_LESS] = (double)NAN;
     const run_verdict said = judged();
     check(said.verdict, "does not: ");
@@ -251,12 +251,12 @@ static void test_short_change(void **state)
     }
     const recorded fast = {
         .at = {.velocity = 0.3}, .n = CYCLES, .end = end, .friction = friction, .note = ""};
-    course_run r = {.rec = &fast, .growth = &layer[0]};
-    assert_int_equal(course_run_fit(&r, 1, NULL), WT_OK);
+    run_fit r = {.rec = &fast, .growth = &layer[0]};
+    assert_int_equal(run_fit_compute(&r, 1, NULL), WT_OK);
     assert_string_equal(r.note, "a change as the layer makes it is over within the first cycles");
     assert_non_null(r.value);
     assert_true(r.fit.seen && r.fit.high < 0);
-    course_run_clear(&r);
+    run_fit_clear(&r);
 }
 
 /* ---- records together ------------------------------------------------------------------------ */
@@ -280,7 +280,7 @@ static void add_records(const double *factor, double scatter, uint64_t seed)
         for (size_t i = 0; i < LAPS; i++) {
             slow = 0.9 * slow + sqrt(1 - 0.81) * truth_normal(&seed);
             lap_end[i] = 4 * (double)(i + 1);
-            lapped[r][i] = 0.5 + course_at(&c, log((lap_end[i] - 2) / factor[r])) +
+            lapped[r][i] = 0.5 + running_in_curve_at(&c, log((lap_end[i] - 2) / factor[r])) +
                            scatter * (0.5 * slow + truth_normal(&seed));
         }
         scattered[r] = (recorded){.at = {.velocity = 0.3},
@@ -289,8 +289,8 @@ static void add_records(const double *factor, double scatter, uint64_t seed)
                                   .friction = lapped[r],
                                   .running_in = (double)NAN,
                                   .note = ""};
-        run[r] = (course_run){.rec = &scattered[r], .growth = &layer[r]};
-        assert_int_equal(course_run_fit(&run[r], 1, NULL), WT_OK);
+        run[r] = (run_fit){.rec = &scattered[r], .growth = &layer[r]};
+        assert_int_equal(run_fit_compute(&run[r], 1, NULL), WT_OK);
     }
     all.n = MOST;
 }
@@ -298,7 +298,7 @@ static void add_records(const double *factor, double scatter, uint64_t seed)
 static void records_end(void)
 {
     for (size_t r = 0; r < MOST; r++)
-        course_run_clear(&run[r]);
+        run_fit_clear(&run[r]);
     run_set_clear(&all);
 }
 
@@ -308,8 +308,8 @@ static void test_not_alone(void **state)
 {
     (void)state;
     add_records((double[]){1, 1, 1}, 0.06, 190);
-    assert_true(course_run_is_closed(&run[0]) && run[0].fit.high < 0);
-    assert_true(!course_run_is_closed(&run[1]) && !course_run_is_closed(&run[2]));
+    assert_true(run_fit_is_closed(&run[0]) && run[0].fit.high < 0);
+    assert_true(!run_fit_is_closed(&run[1]) && !run_fit_is_closed(&run[2]));
     assert_int_equal(run_set_levels(&all, NULL), WT_OK);
     const wt_interval time = run_level_interval(&all.level[RUN_TIME_RATIO]);
     assert_true(time.low < 0 && time.high > 0);
@@ -322,11 +322,11 @@ static void test_not_together(void **state)
 {
     (void)state;
     add_records((double[]){1, 1, 1}, 0.1, 20);
-    assert_true(course_run_is_closed(&run[0]));
+    assert_true(run_fit_is_closed(&run[0]));
     assert_int_equal(run_set_levels(&all, NULL), WT_OK);
     assert_true(isnan(run_level_interval(&all.level[RUN_TIME_RATIO]).value));
     assert_true(isnan(run_level_interval(&all.level[RUN_ENERGY]).value));
-    check(run_set_judge(&all).verdict,
+    check(run_set_assess(&all).verdict,
           "cannot say: a record tells a time of running-in that all together do not");
     records_end();
 }
@@ -341,7 +341,7 @@ static void test_together(void **state)
     assert_int_equal(run_set_levels(&all, NULL), WT_OK);
     const wt_interval time = run_level_interval(&all.level[RUN_TIME_RATIO]);
     assert_true(time.low < 0 && time.high > 0);
-    check(run_set_judge(&all).verdict, "which not every record tells");
+    check(run_set_assess(&all).verdict, "which not every record tells");
     records_end();
 }
 
@@ -350,7 +350,7 @@ static void test_differ(void **state)
 {
     (void)state;
     add_records((double[]){1, 1, 30}, 0.002, 3);
-    assert_true(course_run_is_closed(&run[0]) && course_run_is_closed(&run[1]));
+    assert_true(run_fit_is_closed(&run[0]) && run_fit_is_closed(&run[1]));
     assert_true(isnan(run[2].fit.high));
     assert_int_equal(run_set_levels(&all, NULL), WT_OK);
     assert_true(isnan(run_level_interval(&all.level[RUN_TIME_RATIO]).value));
@@ -449,7 +449,7 @@ static void run_case(size_t draws)
     wt_error err = WT_ERROR_INIT;
     few.replicates = draws;
     if (wt_case_read(case_path, &read, &err) != WT_OK ||
-        wt_case_ask(read, "validation_running_in wear", &err) != WT_OK ||
+        wt_case_request(read, "validation_running_in wear", &err) != WT_OK ||
         wt_run(read, &few, NULL, &result, &failed, &err) != WT_OK)
         fail_msg("%s %s", err.message, err.found);
     wt_case_free(read);

@@ -129,7 +129,7 @@ static void test_files(void **state)
     };
     const wt_file_set set = {.read = wt_read_defaults()};
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
-        wt_parselog *log = wt_parselog_new();
+        wt_log *log = wt_log_new();
         wt_sweep_clear(&sweep);
         add(cases[i].sample, 293.15, cases[i].first);
         add(cases[i].sample, 293.15 + cases[i].apart, cases[i].second);
@@ -138,14 +138,14 @@ static void test_files(void **state)
             sweep.n_isotherms--;
         assert_int_equal(flow_one_sample(&sweep, &set, 1, log, NULL), WT_OK);
         sweep.n_isotherms += !cases[i].said;
-        assert_int_equal(wt_parselog_count(log), cases[i].said);
+        assert_int_equal(wt_log_count(log), cases[i].said);
         if (cases[i].said) {
             char words[96];
             snprintf(words, sizeof words, "measured at %.1f degC like %.*s: taken as one material",
                      20 + cases[i].apart, (int)strcspn(cases[i].first, ","), cases[i].first);
-            assert_non_null(strstr(wt_parselog_get(log, 0).text, words));
+            assert_non_null(strstr(wt_log_get(log, 0).text, words));
         }
-        wt_parselog_free(log);
+        wt_log_free(log);
     }
 }
 

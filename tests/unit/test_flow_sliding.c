@@ -63,7 +63,7 @@ static summed sum_contact(double v)
     return s;
 }
 
-static wt_table *friction(const wt_layer_known *layer)
+static wt_table *friction(const wt_layer_observation *layer)
 {
     wt_friction_tables t = {0};
     wt_error err = WT_ERROR_INIT;
@@ -164,9 +164,9 @@ static void test_layered(void **state)
     (void)state;
     static const double ratio = 0.6;
     for (int bulk_shear = 0; bulk_shear < 2; bulk_shear++) {
-        wt_layer_known layer = {.thickness = {1, 0, 0, "m"},
-                                .modulus_ratio = {ratio, 0, 0, "1"},
-                                .bulk_shear = bulk_shear == 1};
+        wt_layer_observation layer = {.thickness = {1, 0, 0, "m"},
+                                      .modulus_ratio = {ratio, 0, 0, "1"},
+                                      .bulk_shear = bulk_shear == 1};
         sliding_set_up(velocity, VELOCITIES);
         sliding.reference_velocity = 0.3;
         wt_table *thick = friction(&layer);
@@ -216,7 +216,8 @@ static void test_layered(void **state)
     }
     /* a layer like the bulk, of any thickness */
     sliding_set_up(velocity, VELOCITIES);
-    const wt_layer_known same = {.thickness = {1e-6, 0, 0, "m"}, .modulus_ratio = {1, 0, 0, "1"}};
+    const wt_layer_observation same = {.thickness = {1e-6, 0, 0, "m"},
+                                       .modulus_ratio = {1, 0, 0, "1"}};
     wt_table *t = friction(&same);
     for (size_t i = 0; i < VELOCITIES; i++)
         assert_near(cell(t, i, "friction_with_layer"), cell(t, i, "friction"), 1e-9);
@@ -435,8 +436,8 @@ static void test_many_velocities(void **state)
     static const char *const numbers[] = {"friction", "hysteresis", "area_ratio",
                                           "friction_with_layer"};
     static double many[MANY], few[FEW];
-    const wt_layer_known layer = {.thickness = {2e-6, 4e-7, 0, "m"},
-                                  .modulus_ratio = {0.7, 0.05, 0, "1"}};
+    const wt_layer_observation layer = {.thickness = {2e-6, 4e-7, 0, "m"},
+                                        .modulus_ratio = {0.7, 0.05, 0, "1"}};
     (void)state;
     for (size_t i = 0; i < MANY; i++) {
         many[i] = 1e-6 * pow(10, 7.0 * (double)i / (MANY - 1));

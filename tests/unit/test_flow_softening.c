@@ -83,8 +83,9 @@ static void test_mean(void **state)
         }
     }
     assert_int_equal(n, N_SWEEPS);
-    wt_softness s = {0};
-    assert_int_equal(wt_softness_from_table(payne_sweep, wt_softness_choice_defaults(), &s, NULL),
+    wt_strain_softening s = {0};
+    assert_int_equal(wt_strain_softening_from_table(
+                         payne_sweep, wt_strain_softening_choice_defaults(), &s, NULL),
                      WT_OK);
     assert_int_equal(s.n_sweeps, N_SWEEPS);
     assert_true(s.table.n > 8);
@@ -108,7 +109,7 @@ static void test_mean(void **state)
                                  sqrt(squares / (N_SWEEPS - 1) * (1 + 1.0 / N_SWEEPS));
             assert_true(fabs(both[c].error[k] - other) <= 1e-9 * other + 1e-12);
         }
-    wt_softness_clear(&s);
+    wt_strain_softening_clear(&s);
 }
 
 /* Two sweeps whose strains do not meet are not one, though their strains rise from end to end. */
@@ -120,7 +121,7 @@ static void test_apart(void **state)
     for (size_t n_sweeps = 1; n_sweeps <= 2; n_sweeps++) {
         table_writer t = table_begin(&payne_sweep_schema, NULL);
         wt_table *table = NULL;
-        wt_softness s = {0};
+        wt_strain_softening s = {0};
         for (size_t i = 0; i < 3 * n_sweeps; i++) {
             if (i % 3 == 0)
                 table_block(&t);
@@ -136,9 +137,10 @@ static void test_apart(void **state)
         }
         payne_sweep_set_text(&t, PAYNE_SWEEP_KEY_DEFORMATION, "shear");
         assert_int_equal(table_end(&t, &table), WT_OK);
-        assert_int_equal(wt_softness_from_table(table, wt_softness_choice_defaults(), &s, NULL),
-                         n_sweeps == 1 ? WT_OK : WT_E_RANGE);
-        wt_softness_clear(&s);
+        assert_int_equal(
+            wt_strain_softening_from_table(table, wt_strain_softening_choice_defaults(), &s, NULL),
+            n_sweeps == 1 ? WT_OK : WT_E_RANGE);
+        wt_strain_softening_clear(&s);
         wt_table_free(table);
     }
 }
@@ -178,18 +180,18 @@ static void test_chosen(void **state)
                  {(double)NAN, "SBR", NULL, 1, 0.9},   {(double)NAN, "EPDM", "NR", 0, 0},
                  {300, "NR", NULL, 2, 0.51},           {400, "NR", NULL, 1, 0.7}};
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
-        const wt_softness_choice choice = {.temperature = cases[i].temperature,
-                                           .sample = cases[i].sample};
-        wt_softness s = {0};
+        const wt_strain_softening_choice choice = {.temperature = cases[i].temperature,
+                                                   .sample = cases[i].sample};
+        wt_strain_softening s = {0};
         wt_error err = WT_ERROR_INIT;
-        const wt_status status = wt_softness_from_table(table, choice, &s, &err);
+        const wt_status status = wt_strain_softening_from_table(table, choice, &s, &err);
         assert_int_equal(status == WT_OK, cases[i].found == NULL);
         if (cases[i].found != NULL)
             assert_string_equal(err.found, cases[i].found);
         else
             assert_near(s.table.storage[s.table.n - 1], cases[i].last, 1e-12);
         assert_int_equal(s.n_sweeps, cases[i].n);
-        wt_softness_clear(&s);
+        wt_strain_softening_clear(&s);
     }
     wt_table_free(table);
 }
@@ -202,9 +204,9 @@ enum { N_VELOCITIES = 3 };
 static double strain[] = {1e-3, 1e-2, 5e-2}, storage[] = {1, 0.8, 0.5}, loss[] = {1, 0.95, 0.65},
               storage_error[] = {0, 0.03, 0.06}, loss_error[] = {0, 0.02, 0.05};
 
-static wt_softness given(bool errors)
+static wt_strain_softening given(bool errors)
 {
-    wt_softness s = {.table = {.n = 3, .strain = strain, .storage = storage, .loss = loss}};
+    wt_strain_softening s = {.table = {.n = 3, .strain = strain, .storage = storage, .loss = loss}};
     if (errors) {
         s.storage_error = storage_error;
         s.loss_error = loss_error;
@@ -217,7 +219,7 @@ static wt_softness given(bool errors)
 static void test_shares(void **state)
 {
     (void)state;
-    const wt_softness s = given(false);
+    const wt_strain_softening s = given(false);
     wt_table *table = NULL, *cut = NULL;
     sliding_set_up(velocity, N_VELOCITIES);
     sliding.softness = &s;
@@ -258,7 +260,7 @@ static void test_shares(void **state)
 static void test_same(void **state)
 {
     (void)state;
-    const wt_softness s = given(false);
+    const wt_strain_softening s = given(false);
     wt_friction_tables with = {0}, without = {0};
     wt_table *table = NULL;
     sliding_set_up(velocity, N_VELOCITIES);
@@ -287,7 +289,7 @@ static void test_same(void **state)
 static void test_drawn(void **state)
 {
     (void)state;
-    wt_softness s = given(true), moved[2] = {given(false), given(false)};
+    wt_strain_softening s = given(true), moved[2] = {given(false), given(false)};
     double other[2][3], change[2];
     wt_friction_tables t = {0};
     sliding_set_up(velocity, 1);
@@ -341,7 +343,7 @@ static void test_covered(void **state)
         for (size_t trial = 0; trial < TRIALS; trial++) {
             table_writer t = table_begin(&payne_sweep_schema, NULL);
             wt_table *table = NULL;
-            wt_softness s = {0};
+            wt_strain_softening s = {0};
             wt_friction_tables found = {0};
             double x[POINTS], f[POINTS], g[POINTS];
             for (size_t i = 0; i <= n_sweeps[c]; i++) { /* the last is the other piece */
@@ -368,7 +370,8 @@ static void test_covered(void **state)
             }
             payne_sweep_set_text(&t, PAYNE_SWEEP_KEY_DEFORMATION, "shear");
             assert_int_equal(table_end(&t, &table), WT_OK);
-            assert_int_equal(wt_softness_from_table(table, wt_softness_choice_defaults(), &s, NULL),
+            assert_int_equal(wt_strain_softening_from_table(
+                                 table, wt_strain_softening_choice_defaults(), &s, NULL),
                              WT_OK);
             sliding_set_up(velocity, 1);
             work.seed = trial + 1;
@@ -379,14 +382,15 @@ static void test_covered(void **state)
             const double value = number_cell(found.friction, 0, "hysteresis"),
                          error = number_cell(found.friction, 0, "hysteresis_standard_error");
             wt_friction_tables_clear(&found);
-            const wt_softness other = {.table = {.n = POINTS, .strain = x, .storage = f, .loss = g},
-                                       .temperature = (double)NAN};
+            const wt_strain_softening other = {
+                .table = {.n = POINTS, .strain = x, .storage = f, .loss = g},
+                .temperature = (double)NAN};
             work.replicates = 0;
             sliding.softness = &other;
             assert_int_equal(wt_friction_make(&sliding, NULL, &work, &found, NULL), WT_OK);
             held += fabs(number_cell(found.friction, 0, "hysteresis") - value) <= 1.96 * error;
             wt_friction_tables_clear(&found);
-            wt_softness_clear(&s);
+            wt_strain_softening_clear(&s);
             wt_table_free(table);
         }
         print_message("%zu sweeps: %g\n", n_sweeps[c], (double)held / TRIALS);
@@ -482,7 +486,7 @@ static void test_given(void **state)
     static const double values[][5] = {{0.1, 0.02, 1.1, 0.01, 1}, {10, 0.03, 1.2, 0.05, 0.8}};
     for (unsigned errors = 0; errors < 4; errors++) {
         wt_table *t = wt_table_new("given", "");
-        wt_softness s = {0};
+        wt_strain_softening s = {0};
         wt_error err = WT_ERROR_INIT;
         size_t n = 0, of[5];
         for (size_t c = 0; c < 5; c++) {
@@ -496,7 +500,8 @@ static void test_given(void **state)
             for (size_t c = 0; c < n; c++)
                 wt_table_put(t, c, values[row][of[c]]);
         }
-        const wt_status status = wt_softness_from_table(t, wt_softness_choice_defaults(), &s, &err);
+        const wt_status status =
+            wt_strain_softening_from_table(t, wt_strain_softening_choice_defaults(), &s, &err);
         if (errors == 1 || errors == 2) {
             assert_int_equal(status, WT_E_MISSING);
             assert_string_equal(err.found, errors == 1 ? "g_error" : "f_error");
@@ -516,7 +521,7 @@ static void test_given(void **state)
                 }
             }
         }
-        wt_softness_clear(&s);
+        wt_strain_softening_clear(&s);
         wt_table_free(t);
     }
 }

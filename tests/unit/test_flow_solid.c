@@ -451,18 +451,18 @@ static double known(const wt_shift_law *law, size_t row, double to_young, double
     return to_young * sum / b;
 }
 
-static void write(wt_solid_program program, const wt_solid_options *o, char **text)
+static void write(wt_fem_program program, const wt_fem_export_options *o, char **text)
 {
     size_t n;
     wt_error err = WT_ERROR_INIT;
     FILE *out = open_memstream(text, &n);
-    if (wt_solid_write(out, program, tables.prony_reduced, tables.shift_factors, o, &err) != WT_OK)
+    if (wt_fem_export(out, program, tables.prony_reduced, tables.shift_factors, o, &err) != WT_OK)
         fail_msg("%s %s", err.message, err.found);
     assert_int_equal(fclose(out), 0);
 }
 
 /* Every isotherm and times from the fastest to the slowest measured ones. */
-static void check(wt_solid_program program, const wt_solid_options *o, const wt_shift_law *law)
+static void check(wt_fem_program program, const wt_fem_export_options *o, const wt_shift_law *law)
 {
     static const double stress[] = {1, 1e6, 1e9}, second[] = {1, 1, 1e3};
     const double zero = o->temperature == WT_SOLID_CELSIUS ? WT_ZERO_CELSIUS : 0;
@@ -510,12 +510,12 @@ static void check_all(const wt_shift_law *law)
         for (int units = 0; units < 3; units++)
             for (int kelvin = 0; kelvin < 2; kelvin++)
                 for (int i = 0; i < 2; i++) {
-                    wt_solid_options o = wt_solid_options_defaults();
+                    wt_fem_export_options o = wt_fem_export_options_defaults();
                     o.units = (wt_solid_units)units;
                     o.temperature = (wt_solid_temperature)kelvin;
                     o.poisson_ratio = i == 0 ? 0.45 : 0.5;
                     if (program != WT_SOLID_CODE_ASTER || i == 0)
-                        check((wt_solid_program)program, &o, law);
+                        check((wt_fem_program)program, &o, law);
                 }
 }
 
@@ -543,7 +543,7 @@ static void of_frequency(void **state)
     (void)state;
     const wt_shift_law law = fitted_law();
     for (int i = 0; i < 2; i++) {
-        wt_solid_options o = wt_solid_options_defaults();
+        wt_fem_export_options o = wt_fem_export_options_defaults();
         o.domain = WT_SOLID_FREQUENCY;
         o.poisson_ratio = i == 0 ? 0.45 : 0.5;
         check(WT_SOLID_ABAQUS, &o, &law);
@@ -561,7 +561,7 @@ static void what_else_a_material_has(void **state)
 {
     (void)state;
     static const double factor[] = {1, 1e-12, 1e-9};
-    wt_solid_options o = wt_solid_options_defaults();
+    wt_fem_export_options o = wt_fem_export_options_defaults();
     char *text = NULL;
     o.density = 1120;
     o.expansion = 2.1e-4;
@@ -600,7 +600,7 @@ static void the_fast_end_is_told(void **state)
 {
     (void)state;
     const wt_table *p = tables.prony_reduced;
-    const wt_solid_options o = wt_solid_options_defaults();
+    const wt_fem_export_options o = wt_fem_export_options_defaults();
     double at_end = key(p, "equilibrium_modulus"), all = at_end, told = 0, beyond = 0;
     for (size_t i = 0; i < wt_table_n_rows(p); i++) {
         const double x = key(p, "frequency_max") * number_cell(p, i, "relaxation_time");
@@ -624,7 +624,7 @@ static void in_another_locale(void **state)
 {
     (void)state;
     const wt_shift_law law = fitted_law();
-    const wt_solid_options o = wt_solid_options_defaults();
+    const wt_fem_export_options o = wt_fem_export_options_defaults();
     char *text = NULL, *same = NULL;
     write(WT_SOLID_ABAQUS, &o, &text);
     if (setlocale(LC_NUMERIC, "de_DE.UTF-8") == NULL)
@@ -665,7 +665,7 @@ static void check_joined(double from_reference, bool below)
                               .wlf = {reference, key(shifts, "wlf_c1"), key(shifts, "wlf_c2")},
                               .activation_energy = 120e3,
                               .joint = joint.value};
-    wt_solid_options o = wt_solid_options_defaults();
+    wt_fem_export_options o = wt_fem_export_options_defaults();
     char *text = NULL, side[8];
     solid s = {0};
     double at, offset, c1, c2;
@@ -706,44 +706,44 @@ static void a_joined_law(void **state)
 static void refused(void **state)
 {
     (void)state;
-    wt_solid_options o = wt_solid_options_defaults();
-    wt_solid_program program;
+    wt_fem_export_options o = wt_fem_export_options_defaults();
+    wt_fem_program program;
     wt_error err = WT_ERROR_INIT;
     FILE *out = fopen("/dev/null", "w");
-    assert_int_equal(wt_solid_write(out, WT_SOLID_CODE_ASTER, tables.prony_reduced,
-                                    tables.shift_factors, &o, &err),
+    assert_int_equal(wt_fem_export(out, WT_SOLID_CODE_ASTER, tables.prony_reduced,
+                                   tables.shift_factors, &o, &err),
                      WT_E_RANGE);
     assert_string_equal(err.place, "poisson-ratio");
     static const char *const names[] = {"",    "7a",  "a b",
                                         "a-b", "a,b", "a23456789012345678901234567890123"};
     for (size_t i = 0; i < sizeof names / sizeof names[0]; i++) {
         o.name = names[i];
-        assert_int_equal(wt_solid_check(WT_SOLID_ANSYS, &o, &err), WT_E_ARG);
+        assert_int_equal(wt_fem_export_check(WT_SOLID_ANSYS, &o, &err), WT_E_ARG);
         assert_string_equal(err.place, "export-name");
     }
     o.name = "NR_CB_50x";
-    assert_int_equal(wt_solid_check(WT_SOLID_ANSYS, &o, NULL), WT_OK);
+    assert_int_equal(wt_fem_export_check(WT_SOLID_ANSYS, &o, NULL), WT_OK);
     o.poisson_ratio = 0.49;
-    assert_int_equal(wt_solid_check(WT_SOLID_CODE_ASTER, &o, NULL), WT_E_ARG);
+    assert_int_equal(wt_fem_export_check(WT_SOLID_CODE_ASTER, &o, NULL), WT_E_ARG);
     o.name = "NR_CB_50";
-    assert_int_equal(wt_solid_check(WT_SOLID_CODE_ASTER, &o, NULL), WT_OK);
+    assert_int_equal(wt_fem_export_check(WT_SOLID_CODE_ASTER, &o, NULL), WT_OK);
     o.poisson_ratio = 0.6;
-    assert_int_equal(wt_solid_write(out, WT_SOLID_ABAQUS, tables.prony_reduced, NULL, &o, NULL),
+    assert_int_equal(wt_fem_export(out, WT_SOLID_ABAQUS, tables.prony_reduced, NULL, &o, NULL),
                      WT_E_RANGE);
-    assert_int_equal(wt_solid_write(out, WT_SOLID_ABAQUS, NULL, NULL, NULL, NULL), WT_E_MISSING);
-    assert_int_equal(wt_solid_write(NULL, WT_SOLID_ABAQUS, tables.prony_reduced, NULL, NULL, NULL),
+    assert_int_equal(wt_fem_export(out, WT_SOLID_ABAQUS, NULL, NULL, NULL, NULL), WT_E_MISSING);
+    assert_int_equal(wt_fem_export(NULL, WT_SOLID_ABAQUS, tables.prony_reduced, NULL, NULL, NULL),
                      WT_E_ARG);
     fclose(out);
     out = fopen("/dev/full", "w");
     assert_int_equal(setvbuf(out, NULL, _IONBF, 0), 0);
-    assert_int_equal(wt_solid_write(out, WT_SOLID_ABAQUS, tables.prony_reduced,
-                                    tables.shift_factors, NULL, NULL),
-                     WT_E_IO);
+    assert_int_equal(
+        wt_fem_export(out, WT_SOLID_ABAQUS, tables.prony_reduced, tables.shift_factors, NULL, NULL),
+        WT_E_IO);
     fclose(out);
-    assert_true(wt_solid_program_find("ansys:x", 5, &program));
+    assert_true(wt_fem_program_find("ansys:x", 5, &program));
     assert_int_equal(program, WT_SOLID_ANSYS);
-    assert_false(wt_solid_program_find("ansys", 4, &program));
-    assert_false(wt_solid_program_find("nastran", 7, &program));
+    assert_false(wt_fem_program_find("ansys", 4, &program));
+    assert_false(wt_fem_program_find("nastran", 7, &program));
 }
 
 int main(void)

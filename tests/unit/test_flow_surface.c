@@ -35,7 +35,7 @@ static int end(void **state)
 typedef struct making {
     wt_topography_job job;
     wt_topography_tables tables;
-    wt_parselog *log;
+    wt_log *log;
     wt_error err;
     wt_status status;
 } making;
@@ -44,7 +44,7 @@ static void make(making *m, const char *const *files, size_t n)
 {
     wt_job work = wt_job_defaults();
     wt_file_set set = {.patterns = files, .n_patterns = n, .read = wt_read_defaults()};
-    m->log = wt_parselog_new();
+    m->log = wt_log_new();
     work.formats = formats;
     work.log = m->log;
     m->job.sets = &set;
@@ -56,13 +56,13 @@ static void make(making *m, const char *const *files, size_t n)
 static void clear(making *m)
 {
     wt_topography_tables_clear(&m->tables);
-    wt_parselog_free(m->log);
+    wt_log_free(m->log);
 }
 
 static bool said(const making *m, const char *words)
 {
-    for (size_t i = 0; i < wt_parselog_count(m->log); i++)
-        if (strstr(wt_parselog_get(m->log, i).text, words) != NULL)
+    for (size_t i = 0; i < wt_log_count(m->log); i++)
+        if (strstr(wt_log_get(m->log, i).text, words) != NULL)
             return true;
     return false;
 }

@@ -116,14 +116,14 @@ static void check_words(void)
     assert_int_equal(t.status, WT_OK);
     assert_string_equal(wt_table_key(t.table, "duty"), "0.5");
     wt_table_free(t.table);
-    assert_string_equal(words_of(0.25, "1").text, "0.250");
-    assert_string_equal(words_of_estimate((wt_estimate){0.25, 0.125, 0, "1"}).text,
+    assert_string_equal(format_with_unit(0.25, "1").text, "0.250");
+    assert_string_equal(format_estimate((wt_estimate){0.25, 0.125, 0, "1"}).text,
                         "0.25 \xc2\xb1 0.12");
-    assert_string_equal(words_of(5, "1").text, "5.00");
-    assert_string_equal(words_of(123, "1").text, "123");
-    assert_string_equal(words_of_known((wt_estimate){1.2, 0.15, 0, "s"}).text,
+    assert_string_equal(format_with_unit(5, "1").text, "5.00");
+    assert_string_equal(format_with_unit(123, "1").text, "123");
+    assert_string_equal(format_known_estimate((wt_estimate){1.2, 0.15, 0, "s"}).text,
                         "1.20 s (95 %: 906 ms to 1.49 s)");
-    assert_string_equal(words_of_known((wt_estimate){1.2, (double)NAN, 0, "s"}).text,
+    assert_string_equal(format_known_estimate((wt_estimate){1.2, (double)NAN, 0, "s"}).text,
                         "1.20 s (error not known)");
     static const struct {
         wt_estimate e;
@@ -135,9 +135,9 @@ static void check_words(void)
                     {{0.5, 1e-12, 0, "1"}, "0.500000 \xc2\xb1 1e-12"},
                     {{2e-7, 1e-8, 0, "1"}, "2.00e-07 \xc2\xb1 1e-08"}};
     for (size_t i = 0; i < sizeof decimals / sizeof *decimals; i++)
-        assert_string_equal(words_of_estimate(decimals[i].e).text, decimals[i].words);
-    assert_string_equal(words_of_celsius(WT_ZERO_CELSIUS + 20.5).text, "20.5 \xc2\xb0"
-                                                                       "C");
+        assert_string_equal(format_estimate(decimals[i].e).text, decimals[i].words);
+    assert_string_equal(format_celsius(WT_ZERO_CELSIUS + 20.5).text, "20.5 \xc2\xb0"
+                                                                     "C");
     (void)wt_tip_describe(&tip, text, sizeof text);
     assert_string_equal(text, "cone, half-angle 17.19 degrees");
 }

@@ -15,7 +15,7 @@
 #define NOISE WT_SOURCE_DIR "/fixtures/formats/table-noise/"
 
 static wt_status make(const wt_thermal_job *options, const char *path, double sensitivity,
-                      wt_parselog *log, wt_table **table, wt_error *err)
+                      wt_log *log, wt_table **table, wt_error *err)
 {
     const char *const paths[] = {path};
     wt_file_set set = {.patterns = paths, .n_patterns = 1, .read = wt_read_defaults()};
@@ -80,17 +80,17 @@ static void test_volts(void **state)
 {
     (void)state;
     const wt_thermal_job job = wt_thermal_job_defaults();
-    wt_parselog *log = wt_parselog_new();
+    wt_log *log = wt_log_new();
     wt_table *t = NULL;
     assert_int_equal(make(&job, NOISE "detector.txt", (double)NAN, log, &t, NULL), WT_OK);
     const double k = cell(t, "spring_constant");
     assert_near(k, 0.2 * 298.15 / 295.15, 0.06);
-    assert_int_equal(wt_parselog_count(log), 1);
+    assert_int_equal(wt_log_count(log), 1);
     wt_table_free(t);
     t = made(&job, NOISE "detector.txt", 80e-9);
     assert_near(cell(t, "spring_constant"), k / 4, 1e-9);
     wt_table_free(t);
-    wt_parselog_free(log);
+    wt_log_free(log);
     wt_error err = WT_ERROR_INIT;
     assert_int_equal(make(&job, WT_SOURCE_DIR "/fixtures/formats/table-spectrum/surface.txt",
                           (double)NAN, NULL, &t, &err),
@@ -283,9 +283,9 @@ static void test_contradiction(void **state)
     assert_int_equal(make(&job, NOISE "deflection.csv", (double)NAN, NULL, &t, &err), WT_E_ARG);
     job.sader_coefficient.value = (double)NAN;
     t = made(&job, NOISE "deflection.csv", (double)NAN);
-    const wt_estimate here =
-        wt_sader_spring_constant(job.length, job.width, (wt_estimate){f, 0, 0, "Hz"},
-                                 (wt_estimate){q, 0, 0, "1"}, wt_fluid_at(WT_MEDIUM_AIR, 295.15));
+    const wt_estimate here = wt_sader_spring_constant(
+        job.length, job.width, (wt_estimate){f, 0, 0, "Hz"}, (wt_estimate){q, 0, 0, "1"},
+        wt_medium_properties(WT_MEDIUM_AIR, 295.15));
     assert_near(cell(t, "sader_spring_constant"), here.value, 1e-9);
     wt_table_free(t);
 }

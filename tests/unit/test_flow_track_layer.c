@@ -222,7 +222,7 @@ static int set_up(void **state)
     (void)state;
     wt_case *read = NULL;
     fixture_check(wt_case_read(WT_SOURCE_DIR "/fixtures/case/case.xml", &read, NULL));
-    fixture_check(wt_case_ask(read, "track_layer indentation/bulk indentation/track", NULL));
+    fixture_check(wt_case_request(read, "track_layer indentation/bulk indentation/track", NULL));
     fixture_check(wt_run(read, NULL, NULL, &fixture_case, NULL, NULL));
     wt_case_free(read);
     return 0;

@@ -12,7 +12,7 @@
 
 enum { STEPS = 13 };
 static double velocity[STEPS];
-static wt_layer_known known;
+static wt_layer_observation known;
 static wt_table *record, *what_if;
 static size_t at_rest = SIZE_MAX; /* row of the record */
 static bool by_rotation;          /* which alone says so */
@@ -25,8 +25,8 @@ static void set_up(void)
     sliding_set_up(velocity, STEPS);
     sliding.shear_stress.standard_error = 0.2e6;
     surface.c0.standard_error = 0.5e-18;
-    known =
-        (wt_layer_known){.thickness = {1e-6, 1e-7, 0, "m"}, .modulus_ratio = {0.6, 0.03, 0, "1"}};
+    known = (wt_layer_observation){.thickness = {1e-6, 1e-7, 0, "m"},
+                                   .modulus_ratio = {0.6, 0.03, 0, "1"}};
     work.replicates = 60;
 }
 
@@ -264,17 +264,17 @@ static void test_layer_said(void **state)
     take_slope(-0.3, 0);
     make_record(5e6, surface.q1, 0, 0.003, true);
     job = job_of(true);
-    wt_parselog *const log = work.log = wt_parselog_new();
+    wt_log *const log = work.log = wt_log_new();
     assert_non_null(log);
     wt_validation_tables steep = made(&job);
     work.log = NULL;
     assert_non_null(strstr(wt_table_key(steep.validation, "layer_moduli"),
                            "its loss modulus would be below 0 by such a slope, and is taken as 0"));
     size_t n = 0;
-    for (size_t i = 0; i < wt_parselog_count(log); i++)
-        n += strstr(wt_parselog_get(log, i).text, "is taken as 0") != NULL;
+    for (size_t i = 0; i < wt_log_count(log); i++)
+        n += strstr(wt_log_get(log, i).text, "is taken as 0") != NULL;
     assert_int_equal(n, 1);
-    wt_parselog_free(log);
+    wt_log_free(log);
     wt_validation_tables_clear(&plain);
     wt_validation_tables_clear(&steep);
 }

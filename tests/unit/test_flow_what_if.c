@@ -7,14 +7,15 @@
 #include "core/table/result_value.h"
 #include "weartrack/flow.h"
 
-static wt_layer_known known;
+static wt_layer_observation known;
 static wt_layer_job layer;
 
 static void set_up(void)
 {
     static const double velocity[] = {1e-3, 0.1, 10};
     sliding_set_up(velocity, 3);
-    known = (wt_layer_known){.thickness = {1e-6, 0, 0, "m"}, .modulus_ratio = {0.6, 0, 0, "1"}};
+    known =
+        (wt_layer_observation){.thickness = {1e-6, 0, 0, "m"}, .modulus_ratio = {0.6, 0, 0, "1"}};
     layer = wt_layer_job_defaults();
     layer.specific_wear_rate.value = 1e-12;
     layer.critical_energy.value = 2e10;
@@ -62,7 +63,7 @@ static void check_row(const wt_table *table, const char *choice, const char *tri
     const size_t row = find_row(table, choice, tried);
     wt_layer_tables l = {0};
     wt_friction_tables f = {0};
-    wt_layer_known on_top = known;
+    wt_layer_observation on_top = known;
     assert_int_equal(wt_layer_make(&sliding, &layer, &work, &l, NULL), WT_OK);
     on_top.thickness = l.thickness;
     assert_int_equal(wt_friction_make(&sliding, &on_top, &work, &f, NULL), WT_OK);
@@ -208,7 +209,7 @@ static void test_range(void **state)
     set_up();
     wt_friction_tables f = {0};
     wt_result *result = wt_result_new();
-    finding_tables found;
+    result_value_tables found;
     wt_table *table = what_if(true, true);
     double low = number_cell(table, 0, "hysteresis"), high = low;
     const char *low_tried = "", *high_tried = "";
@@ -223,14 +224,14 @@ static void test_range(void **state)
     assert_non_null(result);
     assert_int_equal(wt_result_add(result, f.friction, NULL), WT_OK);
     assert_int_equal(wt_result_add(result, table, NULL), WT_OK);
-    assert_int_equal(findings_bind(result, &found, NULL), WT_OK);
-    const finding hysteresis = finding_of_friction(&found, FRICTION_KEY_HYSTERESIS);
+    assert_int_equal(result_values_bind(result, &found, NULL), WT_OK);
+    const result_value hysteresis = result_value_of_friction(&found, FRICTION_KEY_HYSTERESIS);
     assert_near(hysteresis.range.low, low, 0);
     assert_near(hysteresis.range.high, high, 0);
     assert_string_equal(hysteresis.range.low_tried, low_tried);
     assert_string_equal(hysteresis.range.high_tried, high_tried);
     assert_string_equal(hysteresis.range.widest, "largest wavenumber q1");
-    assert_true(isnan(finding_of_thickness(&found).number.value)); /* no table of the layer */
+    assert_true(isnan(result_value_of_thickness(&found).number.value)); /* no table of the layer */
     wt_result_free(result);
 }
 

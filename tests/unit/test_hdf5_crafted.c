@@ -304,12 +304,12 @@ static wt_status walk(hid_t file, size_t size, FILE *out, wt_error *err)
 static void try_walk(void *user, const char *what, const uint8_t *bytes, size_t size)
 {
     tally *const t = user;
-    const door_limits limits = {(size_t)64 << 20, (size_t)1 << 20, 2, 20};
+    const sandbox_limits limits = {(size_t)64 << 20, (size_t)1 << 20, 2, 20};
     char *answer = NULL;
     size_t length = 0;
     wt_error err = WT_ERROR_INIT;
-    if (hdf5_door_read(&(hdf5_bytes){.bytes = (const unsigned char *)bytes, .size = size}, &limits,
-                       walk, &answer, &length, &err) == WT_OK) {
+    if (hdf5_sandbox_read(&(hdf5_bytes){.bytes = (const unsigned char *)bytes, .size = size},
+                          &limits, walk, &answer, &length, &err) == WT_OK) {
         t->read++;
         free(answer);
         return;

@@ -17,7 +17,7 @@
 static char path[] = "/tmp/weartrack-door-XXXXXX";
 static unsigned char *bytes;
 static size_t size;
-static const door_limits usual = {(size_t)64 << 20, (size_t)1 << 20, 20, 60};
+static const sandbox_limits usual = {(size_t)64 << 20, (size_t)1 << 20, 20, 60};
 
 static int set_up(void **state)
 {
@@ -39,13 +39,13 @@ static int clean(void **state)
 }
 
 /* Reads with it; the error is that of a failure. */
-static wt_status pass(hdf5_reading *reading, door_limits limits, char **answer, wt_error *err)
+static wt_status pass(hdf5_reading *reading, sandbox_limits limits, char **answer, wt_error *err)
 {
     size_t length = 0;
     *err = (wt_error)WT_ERROR_INIT;
     const wt_status status =
-        hdf5_door_read(&(hdf5_bytes){.bytes = (const unsigned char *)bytes, .size = size}, &limits,
-                       reading, answer, &length, err);
+        hdf5_sandbox_read(&(hdf5_bytes){.bytes = (const unsigned char *)bytes, .size = size},
+                          &limits, reading, answer, &length, err);
     if (status == WT_OK)
         (*answer)[length > 0 ? length - 1 : 0] = '\0';
     else
@@ -54,7 +54,7 @@ static wt_status pass(hdf5_reading *reading, door_limits limits, char **answer, 
     return status;
 }
 
-static void refused(hdf5_reading *reading, door_limits limits, wt_status expected,
+static void refused(hdf5_reading *reading, sandbox_limits limits, wt_status expected,
                     const char *words)
 {
     wt_error err;
@@ -206,7 +206,7 @@ static void every_end(void **state)
 static void every_limit(void **state)
 {
     (void)state;
-    door_limits limits = usual;
+    sandbox_limits limits = usual;
     const double start = wt_time_wall();
     limits.cpu_time = 1;
     refused(spins, limits, WT_E_CORRUPT, "did not end within 1 s of processor time");
@@ -223,19 +223,19 @@ static void every_limit(void **state)
 static void not_hdf5(void **state)
 {
     (void)state;
-    const door_limits limits = door_limits_of(8);
+    const sandbox_limits limits = sandbox_limits_for(8);
     char *answer = NULL;
     size_t length = 0;
     wt_error err = WT_ERROR_INIT;
     assert_int_equal(
-        hdf5_door_read(&(hdf5_bytes){.bytes = (const unsigned char *)"no HDF5!", .size = 8},
-                       &limits, says, &answer, &length, &err),
+        hdf5_sandbox_read(&(hdf5_bytes){.bytes = (const unsigned char *)"no HDF5!", .size = 8},
+                          &limits, says, &answer, &length, &err),
         WT_E_FORMAT);
-    assert_int_equal(hdf5_door_read(&(hdf5_bytes){.bytes = (const unsigned char *)"", .size = 0},
-                                    &limits, says, &answer, &length, &err),
+    assert_int_equal(hdf5_sandbox_read(&(hdf5_bytes){.bytes = (const unsigned char *)"", .size = 0},
+                                       &limits, says, &answer, &length, &err),
                      WT_E_FORMAT);
     assert_int_equal(
-        hdf5_door_read(
+        hdf5_sandbox_read(
             &(hdf5_bytes){.bytes = (const unsigned char *)"\211HDF\r\n\032\n", .size = 8}, &limits,
             says, &answer, &length, &err),
         WT_E_CORRUPT);
@@ -305,8 +305,8 @@ static void *read_often(void *failures)
     for (int i = 0; i < 40; i++) {
         char *answer = NULL;
         size_t length = 0;
-        if (hdf5_door_read(&(hdf5_bytes){.bytes = (const unsigned char *)bytes, .size = size},
-                           &usual, says, &answer, &length, NULL) != WT_OK)
+        if (hdf5_sandbox_read(&(hdf5_bytes){.bytes = (const unsigned char *)bytes, .size = size},
+                              &usual, says, &answer, &length, NULL) != WT_OK)
             ++*(int *)failures;
         free(answer);
     }

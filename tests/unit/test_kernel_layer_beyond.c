@@ -313,7 +313,7 @@ static bool check_shelf(const rig *r, const case_line *line)
     if (!h && strcmp(line->key, "shelf_hbar") != 0)
         return false;
     const double *v = line->value;
-    const wt_attempt attempt = h ? WT_ATTEMPT_H : WT_ATTEMPT_HBAR;
+    const wt_attempt_frequency attempt = h ? WT_ATTEMPT_H : WT_ATTEMPT_HBAR;
     const wt_activation a = {
         .barrier = v[1] * ELECTRONVOLT, .temperature = v[0], .attempt = attempt};
     /* the exponent is rounded to 1e-14 of the rate */

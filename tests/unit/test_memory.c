@@ -273,14 +273,14 @@ static wt_status convert(FILE **out, wt_error *err)
     wt_formats *formats = NULL;
     wt_status status = wt_formats_new(NULL, &formats, NULL, err);
     common.formats = formats;
-    common.log = wt_parselog_new();
+    common.log = wt_log_new();
     common.provenance = wt_provenance_new();
     if (common.log == NULL || common.provenance == NULL)
         status = WT_E_MEMORY;
     if (status == WT_OK)
         status = wt_convert_file(&j, converted, &common, take_table, NULL, *out, err);
     wt_provenance_free(common.provenance);
-    wt_parselog_free(common.log);
+    wt_log_free(common.log);
     wt_formats_free(formats);
     return status;
 }

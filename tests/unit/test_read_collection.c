@@ -64,8 +64,8 @@ static void curves(void **state)
         r.source = NULL;
     }
     size_t told = 0;
-    for (size_t i = 0; i < wt_parselog_count(r.log); i++) {
-        const wt_log_entry entry = wt_parselog_get(r.log, i);
+    for (size_t i = 0; i < wt_log_count(r.log); i++) {
+        const wt_log_entry entry = wt_log_get(r.log, i);
         if (strstr(entry.text, "left out: ") == NULL)
             continue;
         assert_string_equal(entry.file, path);

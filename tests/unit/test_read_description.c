@@ -235,7 +235,7 @@ static void replaced_by_a_folder(void **state)
     char path[128];
     wt_formats *plain = NULL, *formats = NULL;
     wt_error err = WT_ERROR_INIT;
-    wt_parselog *log = wt_parselog_new();
+    wt_log *log = wt_log_new();
     (void)state;
     assert_int_equal(wt_formats_new(NULL, &plain, NULL, &err), WT_OK);
     const char *xml = wt_formats_xml(plain, "tidy");
@@ -257,8 +257,8 @@ static void replaced_by_a_folder(void **state)
         }
     }
     assert_true(found);
-    assert_int_equal(wt_parselog_count(log), 1);
-    assert_non_null(strstr(wt_parselog_get(log, 0).text, "tidy"));
+    assert_int_equal(wt_log_count(log), 1);
+    assert_non_null(strstr(wt_log_get(log, 0).text, "tidy"));
     wt_formats_free(formats);
     /* The id of a binary reader cannot be taken. */
     formats = NULL;
@@ -270,7 +270,7 @@ static void replaced_by_a_folder(void **state)
     unlink(path);
     assert_int_equal(wt_formats_new(folder, &formats, log, &err), WT_E_NOT_FOUND);
     free(changed);
-    wt_parselog_free(log);
+    wt_log_free(log);
     wt_formats_free(plain);
 }
 
@@ -323,7 +323,7 @@ static void checked_with_a_sample(void **state)
     wt_input *input = NULL;
     wt_table *report = NULL;
     wt_error err = WT_ERROR_INIT;
-    wt_parselog *log = wt_parselog_new();
+    wt_log *log = wt_log_new();
     (void)state;
     for (size_t i = 0; i < LINES; i++) {
         strcat(xml, good[i]);
@@ -353,7 +353,7 @@ static void checked_with_a_sample(void **state)
     assert_null(report);
     wt_input_close(input);
     unlink(path);
-    wt_parselog_free(log);
+    wt_log_free(log);
 }
 
 /* The example of weartrack-format(5): its first block is the sample, those with tags are the
@@ -367,7 +367,7 @@ static void example_of_the_manual(void **state)
     wt_error err = WT_ERROR_INIT;
     wt_input *input = NULL;
     wt_table *report = NULL;
-    wt_parselog *log = wt_parselog_new();
+    wt_log *log = wt_log_new();
     (void)state;
     FILE *page = fopen(WT_SOURCE_DIR "/man/weartrack-format.5", "r");
     assert_non_null(page);
@@ -395,7 +395,7 @@ static void example_of_the_manual(void **state)
     if (status != WT_OK)
         print_message("%s: %s; %s; %s\n", err.place, err.message, err.expected, err.found);
     assert_int_equal(status, WT_OK);
-    assert_int_equal(wt_parselog_count(log), 0);
+    assert_int_equal(wt_log_count(log), 0);
     assert_int_equal(wt_table_n_rows(report), 3);
     assert_string_equal(wt_table_text(report, 1, 1), "deflection");
     assert_near(wt_table_number(report, 0, 4), 12.5e-6, 1e-15);
@@ -403,7 +403,7 @@ static void example_of_the_manual(void **state)
     wt_table_free(report);
     wt_input_close(input);
     unlink(path);
-    wt_parselog_free(log);
+    wt_log_free(log);
 }
 
 static int setup(void **state)

@@ -54,7 +54,7 @@ static void file_beside(void **state)
         FILE *file = fopen(path, "wb");
         assert_true(file != NULL && fwrite(bytes, 1, n, file) == n && fclose(file) == 0);
         assert_int_equal(wt_input_open(path, &input, NULL), WT_OK);
-        assert_int_equal(wt_input_beside(input, &beside, NULL), WT_OK);
+        assert_int_equal(wt_input_sibling(input, &beside, NULL), WT_OK);
         assert_int_equal(unlink(path), 0);
         assert_true((beside != NULL) == large);
         wt_input_close(input);

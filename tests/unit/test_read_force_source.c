@@ -16,7 +16,7 @@ static const char one[] = "one", two[] = "two", three[] = "three";
 
 typedef struct made_up {
     wt_force_source base;
-    force_facts facts;
+    force_metadata facts;
     size_t n_curves;
     wt_status status; /* of `next` after the segment was added */
 } made_up;
@@ -50,7 +50,7 @@ static made_up make(wt_cantilever cantilever)
     return (made_up){.base = {.stream = &stream,
                               .name = "made-up",
                               .options = wt_read_defaults(),
-                              .log = wt_parselog_new()},
+                              .log = wt_log_new()},
                      .facts = {.kind = WT_SEGMENT_RETRACT,
                                .index = 3,
                                .n_points = N,
@@ -97,8 +97,8 @@ static void assert_column(const wt_force_curve *curve, wt_quantity quantity, dou
 
 static bool logged(const made_up *m, const char *words)
 {
-    for (size_t i = 0; i < wt_parselog_count(m->base.log); i++)
-        if (strstr(wt_parselog_get(m->base.log, i).text, words) != NULL)
+    for (size_t i = 0; i < wt_log_count(m->base.log); i++)
+        if (strstr(wt_log_get(m->base.log, i).text, words) != NULL)
             return true;
     return false;
 }
@@ -112,7 +112,7 @@ static wt_status read_curve(made_up *m, wt_force_curve *curve, wt_error *err)
 static void done(made_up *m, wt_force_curve *curve)
 {
     wt_force_curve_clear(curve);
-    wt_parselog_free(m->base.log);
+    wt_log_free(m->base.log);
 }
 
 /* ---- what the file says ------------------------------------------------------------------- */
@@ -149,7 +149,7 @@ static void as_the_file_says(void **state)
     assert_column(&curve, WT_Q_FORCE, 1.5e-9, 2e-9);
     assert_column(&curve, WT_Q_DEFLECTION, 5e-9, 1e-9);
     assert_column(&curve, WT_Q_DEFLECTION_VOLTAGE, 0.1, 0.01);
-    assert_int_equal(wt_parselog_count(m.base.log), 0);
+    assert_int_equal(wt_log_count(m.base.log), 0);
     /* What comes first counts. */
     add(&m, WT_Q_HEIGHT, 2, 0, three);
     force_offer(&m.facts, WT_Q_HEIGHT);
@@ -180,8 +180,8 @@ static void infinite_samples(void **state)
                               : isnan(volts->values[i]));
         assert_column(&curve, WT_Q_HEIGHT, 1e-6, 0);
     }
-    assert_int_equal(wt_parselog_count(m.base.log), 1);
-    const wt_log_entry said = wt_parselog_get(m.base.log, 0);
+    assert_int_equal(wt_log_count(m.base.log), 1);
+    const wt_log_entry said = wt_log_get(m.base.log, 0);
     assert_int_equal(said.severity, WT_WARNING);
     assert_int_equal(said.count, 2);
     assert_string_equal(said.place, "there");
@@ -259,7 +259,7 @@ static void given_to_columns(void **state)
     assert_column(&curve, WT_Q_FORCE, 0.9e-9, 0);
     assert_column(&curve, WT_Q_DEFLECTION, 1.5e-9, 0);
     assert_column(&curve, WT_Q_DEFLECTION_VOLTAGE, 1e-9 / 50e-9, 0);
-    assert_int_equal(wt_parselog_count(m.base.log), 2);
+    assert_int_equal(wt_log_count(m.base.log), 2);
     assert_true(logged(&m, "the spring constant given, 0.6 N/m, takes the place of that of the "
                            "file, 0.3 N/m"));
     assert_true(logged(&m, "the deflection sensitivity given, 75 nm/V, takes the place of that"));
@@ -311,8 +311,8 @@ static void contradictions(void **state)
         else
             assert_true(logged(&m, cases[i].words));
         size_t said = 0;
-        for (size_t k = 0; k < wt_parselog_count(m.base.log); k++)
-            said += strstr(wt_parselog_get(m.base.log, k).text, "mean a spring constant") != NULL;
+        for (size_t k = 0; k < wt_log_count(m.base.log); k++)
+            said += strstr(wt_log_get(m.base.log, k).text, "mean a spring constant") != NULL;
         assert_int_equal(said, cases[i].words != NULL);
         done(&m, &curve);
     }
@@ -483,7 +483,7 @@ static void described(void **state)
         for (size_t c = 0; c < 4; c++)
             assert_string_equal(wt_table_text(table, r, c), rows[r][c]);
     wt_table_free(table);
-    wt_parselog_free(m.base.log);
+    wt_log_free(m.base.log);
 }
 
 int main(void)

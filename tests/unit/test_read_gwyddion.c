@@ -237,7 +237,7 @@ static void check_read(const char *bytes, unsigned missing, const char *words)
     size_t n = 0;
     bool said = false, version = false;
     wt_error err = WT_ERROR_INIT;
-    wt_parselog *log = wt_parselog_new();
+    wt_log *log = wt_log_new();
     stand_in("[ \"$HOME\" = \"$(pwd -P)\" ] || exit 7\n[ -z \"$DISPLAY\" ] || exit 8\n"
              "read x && exit 9\n[ \"$2\" = surface.sur ] && [ -s \"$2\" ] || exit 10\n"
              "cp ../../good.gwy converted.gwy; mkdir -p .gwyddion/a/b; echo > .gwyddion/a/b/c");
@@ -253,14 +253,14 @@ static void check_read(const char *bytes, unsigned missing, const char *words)
         else
             assert_near(z, heights[i], 1e-15);
     }
-    for (size_t i = 0; i < wt_parselog_count(log); i++) {
-        const char *message = wt_parselog_get(log, i).text;
+    for (size_t i = 0; i < wt_log_count(log); i++) {
+        const char *message = wt_log_get(log, i).text;
         version = version || strstr(message, "converted by Gwyddion 9.9 (made up)") != NULL;
         said = said || strstr(message, words) != NULL;
     }
     assert_true(version && said);
     assert_int_equal(count_files("tmp"), 0);
-    wt_parselog_free(log);
+    wt_log_free(log);
     wt_image_clear(&images[0]);
     free(images);
 }
@@ -302,17 +302,17 @@ static void test_unpacked(void **state)
             wt_input *input = NULL, *unpacked = NULL;
             const unsigned char *bytes = NULL;
             size_t length = 0;
-            wt_parselog *log = wt_parselog_new();
+            wt_log *log = wt_log_new();
             packed[n] = 0;
             assert_int_equal(wt_input_open_memory(packed, n + more, "a.sur", &input, NULL), WT_OK);
             assert_int_equal(surf_unpack(input, SURF_ROOM, log, &unpacked, NULL), WT_OK);
             assert_int_equal(wt_input_bytes(unpacked, &bytes, &length, NULL), WT_OK);
             assert_int_equal(length, n_plain);
             assert_memory_equal(bytes, plain, n_plain);
-            assert_int_equal(wt_parselog_count(log), more);
+            assert_int_equal(wt_log_count(log), more);
             wt_input_close(unpacked);
             wt_input_close(input);
-            wt_parselog_free(log);
+            wt_log_free(log);
         }
     }
     const size_t n = surf_write(packed, surf_heights, SURF_HEIGHTS, 1);

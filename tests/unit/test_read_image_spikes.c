@@ -30,18 +30,18 @@ static const char *warning_of(double *values, size_t columns, size_t rows, const
                       .width = 1e-5,
                       .height = rows > 1 ? 1e-5 : 0,
                       .values = values};
-    wt_parselog *const log = wt_parselog_new();
+    wt_log *const log = wt_log_new();
     const wt_read_options options = wt_read_defaults();
     (void)snprintf(image.unit, sizeof image.unit, "%s", unit);
     (void)snprintf(image.x_unit, sizeof image.x_unit, "m");
     assert_int_equal(images_given(&image, 1, &options, "file", log, NULL), WT_OK);
-    assert_true(wt_parselog_count(log) < 2);
+    assert_true(wt_log_count(log) < 2);
     said[0] = '\0';
-    if (wt_parselog_count(log) == 1) {
-        assert_int_equal(wt_parselog_get(log, 0).severity, WT_WARNING);
-        (void)snprintf(said, sizeof said, "%s", wt_parselog_get(log, 0).text);
+    if (wt_log_count(log) == 1) {
+        assert_int_equal(wt_log_get(log, 0).severity, WT_WARNING);
+        (void)snprintf(said, sizeof said, "%s", wt_log_get(log, 0).text);
     }
-    wt_parselog_free(log);
+    wt_log_free(log);
     return said;
 }
 

@@ -357,11 +357,11 @@ static void test_given(void **state)
                       .height = (double)NAN,
                       .values = values};
     wt_read_options given = wt_read_defaults();
-    wt_parselog *log = wt_parselog_new();
+    wt_log *log = wt_log_new();
     given.pixel_size = 2e-6;
     given.height_unit = "nm";
     assert_int_equal(images_given(&image, 1, &given, "file", log, NULL), WT_OK);
-    assert_int_equal(wt_parselog_count(log), 0);
+    assert_int_equal(wt_log_count(log), 0);
     assert_near(image.width, 4e-6, 1e-12);
     assert_near(image.height, 2e-6, 1e-12);
     assert_near(values[5], 6e-9, 1e-12);
@@ -370,16 +370,16 @@ static void test_given(void **state)
     assert_int_equal(images_given(&image, 1, &given, "file", log, NULL), WT_OK);
     assert_near(values[5], 6e-9, 1e-12); /* a length already */
     assert_near(image.width, 6e-6, 1e-12);
-    assert_int_equal(wt_parselog_count(log), 1);
-    assert_non_null(strstr(wt_parselog_get(log, 0).text, "another size"));
+    assert_int_equal(wt_log_count(log), 1);
+    assert_non_null(strstr(wt_log_get(log, 0).text, "another size"));
     snprintf(image.unit, sizeof image.unit, "V");
     assert_int_equal(images_given(&image, 1, &given, "file", log, NULL), WT_OK);
-    assert_int_equal(wt_parselog_count(log), 2);
-    assert_non_null(strstr(wt_parselog_get(log, 1).text, "in V"));
+    assert_int_equal(wt_log_count(log), 2);
+    assert_non_null(strstr(wt_log_get(log, 1).text, "in V"));
     given.height_unit = "apples";
     snprintf(image.unit, sizeof image.unit, "V");
     assert_int_equal(images_given(&image, 1, &given, "file", log, NULL), WT_E_UNIT);
-    wt_parselog_free(log);
+    wt_log_free(log);
 }
 
 /* What is missing is said: pixels with their number, a size that is none. */
@@ -405,7 +405,7 @@ static void test_missing(void **state)
         double *values = NULL;
         wt_image *images = NULL;
         size_t n = 0;
-        wt_parselog *log = wt_parselog_new();
+        wt_log *log = wt_log_new();
         const wt_image head = {.name = "Z",
                                .n_columns = cases[i].columns,
                                .n_rows = cases[i].rows,
@@ -419,17 +419,17 @@ static void test_missing(void **state)
         assert_int_equal(images_given(images, n, &nothing, "file", log, NULL), WT_OK);
         const bool unknown = cases[i].words != NULL && strstr(cases[i].words, "size") != NULL;
         const size_t said = (cases[i].missing > 0) + (size_t)unknown;
-        assert_int_equal(wt_parselog_count(log), said);
+        assert_int_equal(wt_log_count(log), said);
         for (size_t k = 0; k < head.n_columns * head.n_rows; k++)
             assert_int_equal(isnan(images[0].values[k]), k < cases[i].missing);
         if (cases[i].words != NULL) {
-            assert_string_equal(wt_parselog_get(log, said - 1).text, cases[i].words);
-            assert_string_equal(wt_parselog_get(log, said - 1).file, "file");
-            assert_string_equal(wt_parselog_get(log, said - 1).place, "Z");
+            assert_string_equal(wt_log_get(log, said - 1).text, cases[i].words);
+            assert_string_equal(wt_log_get(log, said - 1).file, "file");
+            assert_string_equal(wt_log_get(log, said - 1).place, "Z");
         }
         assert_int_equal(isnan(images[0].width) || isnan(images[0].height), unknown);
         clear_images(images, n);
-        wt_parselog_free(log);
+        wt_log_free(log);
     }
 }
 

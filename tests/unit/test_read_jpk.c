@@ -360,7 +360,7 @@ static void cut_off(void **state)
     assert_in_range(whole, 1000, sizeof bytes - 1);
     size_t most = 0;
     for (size_t n = 0; n < whole; n += 13) {
-        reading r = {.log = wt_parselog_new()};
+        reading r = {.log = wt_log_new()};
         assert_int_equal(wt_input_open_memory(bytes, n, "cut", &r.input, NULL), WT_OK);
         wt_status status = wt_force_open(formats, r.input, NULL, r.log, &r.source, &r.err);
         size_t read = 0;
@@ -425,8 +425,8 @@ static void lost_segments(void **state)
         assert_int_equal(open_force(&r, path, NULL), WT_OK);
         for (size_t i = 0; i < f.n_curves; i++)
             assert_int_equal(wt_force_next(r.source, &r.curve, &r.err), WT_OK);
-        for (size_t i = 0; i < wt_parselog_count(r.log); i++) {
-            const wt_log_entry e = wt_parselog_get(r.log, i);
+        for (size_t i = 0; i < wt_log_count(r.log); i++) {
+            const wt_log_entry e = wt_log_get(r.log, i);
             if (strstr(e.text, "of the 5 segments that its header counts") == NULL)
                 continue;
             assert_int_equal(e.severity, WT_WARNING);
@@ -452,8 +452,8 @@ static void lost_position(void **state)
         assert_int_equal(open_force(&r, path, NULL), WT_OK);
         for (size_t i = 0; i < f.n_curves; i++)
             assert_int_equal(wt_force_next(r.source, &r.curve, &r.err), WT_OK);
-        for (size_t i = 0; i < wt_parselog_count(r.log); i++)
-            n_said += strstr(wt_parselog_get(r.log, i).text, "says no position") != NULL;
+        for (size_t i = 0; i < wt_log_count(r.log); i++)
+            n_said += strstr(wt_log_get(r.log, i).text, "says no position") != NULL;
         assert_int_equal(n_said, lost);
         close_all(&r);
     }
@@ -473,8 +473,8 @@ static void cut_header(void **state)
     assert_int_equal(jpk_write(&f), 0);
     assert_int_equal(open_force(&r, path, NULL), WT_OK);
     assert_int_equal(wt_force_next(r.source, &r.curve, &r.err), WT_OK);
-    for (size_t i = 0; i < wt_parselog_count(r.log); i++) {
-        const wt_log_entry e = wt_parselog_get(r.log, i);
+    for (size_t i = 0; i < wt_log_count(r.log); i++) {
+        const wt_log_entry e = wt_log_get(r.log, i);
         said |= e.severity == WT_WARNING && strstr(e.text, "lists no channels") != NULL;
     }
     assert_true(said);

@@ -106,7 +106,7 @@ typedef struct open_file {
     const known_file *known;
     wt_input *input;
     wt_force_source *source;
-    wt_parselog *log;
+    wt_log *log;
     wt_force_curve curve;
     size_t n, rows; /* curves read, rows of the reference */
 } open_file;
@@ -154,7 +154,7 @@ static void open_source(open_file *f, const known_file *known)
 {
     wt_error err = WT_ERROR_INIT;
     wt_read_options o = wt_read_defaults();
-    *f = (open_file){.known = known, .input = open_input(known), .log = wt_parselog_new()};
+    *f = (open_file){.known = known, .input = open_input(known), .log = wt_log_new()};
     if (known->spring_constant > 0) {
         is_uncalibrated(f, o);
         o.spring_constant = known->spring_constant;
@@ -182,7 +182,7 @@ static void close_file(open_file *f)
     }
     wt_force_close(f->source);
     wt_input_close(f->input);
-    wt_parselog_free(f->log);
+    wt_log_free(f->log);
     wt_force_curve_clear(&f->curve);
     *f = (open_file){.n = 0};
 }

@@ -447,9 +447,9 @@ static void stopped_scans(void **state)
         size_t n = 0;
         open_input(&r, path);
         assert_int_equal(wt_images_read(formats, r.input, NULL, r.log, &images, &n, &r.err), WT_OK);
-        assert_int_equal(wt_parselog_count(r.log), scans[k].warning != NULL ? 1 : 0);
+        assert_int_equal(wt_log_count(r.log), scans[k].warning != NULL ? 1 : 0);
         if (scans[k].warning != NULL)
-            assert_string_equal(wt_parselog_get(r.log, 0).text, scans[k].warning);
+            assert_string_equal(wt_log_get(r.log, 0).text, scans[k].warning);
         wt_image_clear(&images[0]);
         free(images);
         close_all(&r);

@@ -13,7 +13,7 @@
 #define WARM TABLE "0.1\t60\t8\t0.5\n1\t60\t8.5\t0.625\n10\t60\t9\t0.75\n"
 
 /* Reads the file; the error is that of a failure. */
-static wt_status read_sweep(const char *sheet, wt_sweep *sweep, wt_parselog *log, wt_error *err)
+static wt_status read_sweep(const char *sheet, wt_sweep *sweep, wt_log *log, wt_error *err)
 {
     wt_input *input = NULL;
     wt_read_options options = wt_read_defaults();
@@ -217,17 +217,17 @@ static void test_place(void **state)
         assert_int_equal(kinds[k](path, &sheet, 1), 0);
         wt_sweep sweep;
         wt_error err;
-        wt_parselog *log = wt_parselog_new();
+        wt_log *log = wt_log_new();
         const wt_status status = read_sweep(NULL, &sweep, log, &err);
         bool found = strstr(err.place, "line 6") != NULL;
-        for (size_t i = 0; i < wt_parselog_count(log); i++) {
-            const wt_log_entry entry = wt_parselog_get(log, i);
+        for (size_t i = 0; i < wt_log_count(log); i++) {
+            const wt_log_entry entry = wt_log_get(log, i);
             found = found || (entry.place != NULL && strstr(entry.place, "line 6") != NULL &&
                               strstr(entry.file, ", sheet One") != NULL);
         }
         if (!found)
             fail_msg("kind %zu, %d: %s, %s", k, (int)status, err.message, err.place);
-        wt_parselog_free(log);
+        wt_log_free(log);
         wt_sweep_clear(&sweep);
     }
 }

@@ -43,7 +43,7 @@ static text_description *describe_as(const char *text, const char *header, const
 }
 
 static wt_status read_bytes(text_description *d, const void *bytes, size_t n, wt_sweep *sweep,
-                            wt_parselog *log, wt_error *err)
+                            wt_log *log, wt_error *err)
 {
     const wt_read_options options = wt_read_defaults();
     const file_reader reader = text_reader(d);
@@ -54,16 +54,16 @@ static wt_status read_bytes(text_description *d, const void *bytes, size_t n, wt
     return status;
 }
 
-static wt_status read_text(text_description *d, const char *text, wt_sweep *sweep, wt_parselog *log,
+static wt_status read_text(text_description *d, const char *text, wt_sweep *sweep, wt_log *log,
                            wt_error *err)
 {
     return read_bytes(d, text, strlen(text), sweep, log, err);
 }
 
-static bool logged(const wt_parselog *log, const char *text)
+static bool logged(const wt_log *log, const char *text)
 {
-    for (size_t i = 0; i < wt_parselog_count(log); i++)
-        if (strstr(wt_parselog_get(log, i).text, text) != NULL)
+    for (size_t i = 0; i < wt_log_count(log); i++)
+        if (strstr(wt_log_get(log, i).text, text) != NULL)
             return true;
     return false;
 }
@@ -212,7 +212,7 @@ static void fixed_columns(void **state)
 
 static const char head[] = "f\tE'\tE''\tT\nHz\tMPa\tMPa\tdegC\n";
 
-static wt_status read_rows(text_description *d, const char *rows, wt_sweep *sweep, wt_parselog *log,
+static wt_status read_rows(text_description *d, const char *rows, wt_sweep *sweep, wt_log *log,
                            wt_error *err)
 {
     char text[2048];
@@ -272,7 +272,7 @@ static void text_after_the_table(void **state)
     text_description *d = describe_as("separator=\"tab\"", "", "", "", "");
     wt_sweep sweep = {.n_isotherms = 0};
     wt_error err = WT_ERROR_INIT;
-    wt_parselog *log = wt_parselog_new();
+    wt_log *log = wt_log_new();
     (void)state;
     assert_int_equal(
         read_rows(d, "1\t2\t3\t20\n10\t2\t3\t20\n\nRemarks: none\n", &sweep, log, &err), WT_OK);
@@ -282,7 +282,7 @@ static void text_after_the_table(void **state)
         WT_OK);
     assert_true(logged(log, "after the end"));
     wt_sweep_clear(&sweep);
-    wt_parselog_free(log);
+    wt_log_free(log);
     description_free(d);
     d = describe_as("separator=\"tab\"", "", "", "<end regex=\"^end\"/>", "");
     assert_int_equal(read_rows(d, "1\t2\t3\t20\n10\t2\t3\t20\nend of data\n", &sweep, NULL, &err),
@@ -303,13 +303,13 @@ static void missing_values(void **state)
     (void)state;
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
         wt_sweep sweep = {.n_isotherms = 0};
-        wt_parselog *log = wt_parselog_new();
+        wt_log *log = wt_log_new();
         snprintf(text, sizeof text, "1\t2\t3\t20\n%s\n10\t2\t3\t20\textra\n", rows[i]);
         assert_int_equal(read_rows(d, text, &sweep, log, &err), WT_OK);
         assert_int_equal(sweep.isotherms[0].n, 2);
         assert_true(logged(log, "1 rows without"));
         wt_sweep_clear(&sweep);
-        wt_parselog_free(log);
+        wt_log_free(log);
     }
     description_free(d);
 }
@@ -335,7 +335,7 @@ static void check_split(text_description *d, const char *rows, size_t expected, 
 {
     wt_sweep sweep = {.n_isotherms = 0};
     wt_error err = WT_ERROR_INIT;
-    wt_parselog *log = wt_parselog_new();
+    wt_log *log = wt_log_new();
     wt_status status = read_rows(d, rows, &sweep, log, &err);
     assert_int_equal(status, expected > 0 ? WT_OK : WT_E_EMPTY);
     assert_int_equal(sweep.n_isotherms, expected);
@@ -346,7 +346,7 @@ static void check_split(text_description *d, const char *rows, size_t expected, 
     if (note != NULL)
         assert_true(logged(log, note));
     wt_sweep_clear(&sweep);
-    wt_parselog_free(log);
+    wt_log_free(log);
 }
 
 static void splits(void **state)
@@ -463,7 +463,7 @@ static void given_units(void **state)
     wt_read_options options = wt_read_defaults();
     wt_sweep sweep = {.n_isotherms = 0};
     wt_error err = WT_ERROR_INIT;
-    wt_parselog *log = wt_parselog_new();
+    wt_log *log = wt_log_new();
     wt_input *input = NULL;
     (void)state;
     assert_int_equal(wt_input_open_memory(text, sizeof text - 1, "x", &input, &err), WT_OK);
@@ -481,7 +481,7 @@ static void given_units(void **state)
     options.n_units = 1;
     assert_int_equal(text_read_sweep(&reader, input, &options, log, &sweep, &err), WT_E_ARG);
     wt_input_close(input);
-    wt_parselog_free(log);
+    wt_log_free(log);
     description_free(d);
 }
 
@@ -490,7 +490,7 @@ static void unknown_columns_are_named(void **state)
     text_description *d = describe_as("separator=\"tab\"", "", "", "", "");
     wt_sweep sweep = {.n_isotherms = 0};
     wt_error err = WT_ERROR_INIT;
-    wt_parselog *log = wt_parselog_new();
+    wt_log *log = wt_log_new();
     (void)state;
     assert_int_equal(read_text(d,
                                "f\tE'\tE''\tT\tcolour\tT\nHz\tPa\tPa\tK\t\tK\n"
@@ -500,7 +500,7 @@ static void unknown_columns_are_named(void **state)
     assert_true(logged(log, "columns not used: colour, T"));
     assert_near(sweep.isotherms[0].temperature, 300, 1e-15);
     wt_sweep_clear(&sweep);
-    wt_parselog_free(log);
+    wt_log_free(log);
     description_free(d);
 }
 

@@ -81,12 +81,12 @@ static const cut_case cases[] = {
     {STREAM "1\t293\t5e6\t1e6\n2\t293\t6e6\t2e6\n##\n## table: curve\n", 2, OPEN},
 };
 
-static bool warned(const wt_parselog *log, const char *words)
+static bool warned(const wt_log *log, const char *words)
 {
     static const char *const all[] = {LEFT_OUT, KEPT, HALF, FEWER, OPEN, TWICE, NOT_THE_RATIO};
     bool found = words == NULL;
-    for (size_t i = 0; i < wt_parselog_count(log); i++) {
-        const wt_log_entry e = wt_parselog_get(log, i);
+    for (size_t i = 0; i < wt_log_count(log); i++) {
+        const wt_log_entry e = wt_log_get(log, i);
         for (size_t w = 0; w < sizeof all / sizeof *all; w++)
             if (strstr(e.text, all[w]) != NULL && words == NULL)
                 return false;
@@ -100,7 +100,7 @@ static void each_case(void **state)
     (void)state;
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         const wt_read_options options = wt_read_defaults();
-        wt_parselog *const log = wt_parselog_new();
+        wt_log *const log = wt_log_new();
         wt_sweep sweep = {.n_isotherms = 0};
         wt_input *input = NULL;
         wt_error err = WT_ERROR_INIT;
@@ -117,7 +117,7 @@ static void each_case(void **state)
                      cases[i].words != NULL ? cases[i].words : "no warning");
         wt_sweep_clear(&sweep);
         wt_input_close(input);
-        wt_parselog_free(log);
+        wt_log_free(log);
     }
 }
 

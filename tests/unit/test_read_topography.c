@@ -136,16 +136,16 @@ static void test_gwyddion(void **state)
     const made m = gwy_of(COLUMNS, ROWS, COLUMNS * ROWS);
     wt_image *images = NULL;
     size_t n = 0;
-    wt_parselog *log = wt_parselog_new();
+    wt_log *log = wt_log_new();
     assert_int_equal(read_images_of(m.bytes, m.n, "made", log, &images, &n, NULL), WT_OK);
     assert_int_equal(n, 2);
     assert_string_equal(images[0].name, "Z sensor");
     assert_string_equal(images[1].name, "/1/data");
     check_heights(&images[0], 1e-6);
     check_heights(&images[1], 1e-6);
-    assert_int_equal(wt_parselog_count(log), 1);
-    assert_non_null(strstr(wt_parselog_get(log, 0).text, "mask"));
-    wt_parselog_free(log);
+    assert_int_equal(wt_log_count(log), 1);
+    assert_non_null(strstr(wt_log_get(log, 0).text, "mask"));
+    wt_log_free(log);
     clear_images(images, n);
     for (size_t cut = 1; cut < m.n - 4; cut += 7) {
         made part = m;

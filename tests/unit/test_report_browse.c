@@ -51,12 +51,12 @@ static wt_result *fitted(const char *const *curves, size_t n)
 
 static char *data_of(const wt_result *result)
 {
-    bound_tables tables;
-    growing_text text = {0};
-    assert_int_equal(bound_make(result, &tables, NULL), WT_OK);
+    figure_tables tables;
+    text_buffer text = {0};
+    assert_int_equal(figure_tables_make(result, &tables, NULL), WT_OK);
     assert_int_equal(browse_data(&tables, &text, NULL), WT_OK);
     assert_false(text.failed);
-    bound_clear(&tables);
+    figure_tables_clear(&tables);
     return text.bytes;
 }
 
@@ -180,7 +180,7 @@ static void test_nothing(void **state)
     (void)state;
     wt_result *result = fitted(NULL, 0);
     wt_error err = WT_ERROR_INIT;
-    const wt_status status = wt_browse_write(result, "browse-none.html", false, &err);
+    const wt_status status = wt_curve_browser_write(result, "browse-none.html", false, &err);
     assert_true(status == WT_E_EMPTY || status == WT_E_TOOL); /* built without dygraphs */
     assert_true(strstr(err.advice, "--curves all") != NULL ||
                 strstr(err.advice, "libjs-dygraphs") != NULL);

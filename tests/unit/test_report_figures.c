@@ -46,10 +46,10 @@ static void test_data_have_the_described_columns(void **state)
 static void test_tables_are_bound(void **state)
 {
     (void)state;
-    bound_tables tables = {.n_indentation = 0};
+    figure_tables tables = {.n_indentation = 0};
     for (size_t i = 0; i < wt_figure_count(); i++) {
         const figure_description *figure = figure_find(i);
-        if (bound_find(&tables, figure->table) == NULL)
+        if (figure_tables_find(&tables, figure->table) == NULL)
             fail_msg("%s: its table %s is not in BOUND_TABLES", figure->name, figure->table->name);
     }
 }

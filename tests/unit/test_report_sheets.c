@@ -68,9 +68,9 @@ static void test_order(void **state)
 {
     (void)state;
     wt_result *result = curves_by_hand(MANY);
-    bound_tables tables;
+    figure_tables tables;
     curve_list list;
-    assert_int_equal(bound_make(result, &tables, NULL), WT_OK);
+    assert_int_equal(figure_tables_make(result, &tables, NULL), WT_OK);
     assert_int_equal(curve_list_make(&tables, &list, NULL), WT_OK);
     assert_int_equal(list.n_rows, MANY);
     assert_int_equal(list.n, MANY - 1);
@@ -81,11 +81,11 @@ static void test_order(void **state)
         if (curves_get(&tables.curves, list.curves[i].block.from, CURVES_CURVE) != first[i])
             fail_msg("curve %g is not at place %zu", first[i], i);
     curve_list_clear(&list);
-    bound_clear(&tables);
+    figure_tables_clear(&tables);
     wt_result_free(result);
 }
 
-static char *script_of(const bound_tables *tables, const listed_curve *curve)
+static char *script_of(const figure_tables *tables, const listed_curve *curve)
 {
     const figure_description described = {.name = "x", .table = &curves_schema};
     figure_drawing d = {.figure = &described, .tables = tables, .table = &tables->curves};
@@ -100,9 +100,9 @@ static void test_words(void **state)
 {
     (void)state;
     wt_result *result = curves_by_hand(MANY);
-    bound_tables tables;
+    figure_tables tables;
     curve_list list;
-    assert_int_equal(bound_make(result, &tables, NULL), WT_OK);
+    assert_int_equal(figure_tables_make(result, &tables, NULL), WT_OK);
     assert_int_equal(curve_list_make(&tables, &list, NULL), WT_OK);
     char *refused = script_of(&tables, &list.curves[1]);
     assert_non_null(strstr(refused, "set label 1 \"a'file with \\\\ and \xc2\xb5.txt:3\""));
@@ -122,7 +122,7 @@ static void test_words(void **state)
     free(doubtful);
     free(accepted);
     curve_list_clear(&list);
-    bound_clear(&tables);
+    figure_tables_clear(&tables);
     wt_result_free(result);
 }
 

@@ -12,7 +12,7 @@
 
 /* ---- texts and numbers ----------------------------------------------------------------------- */
 
-static void assert_text(growing_text *text, const char *expected)
+static void assert_text(text_buffer *text, const char *expected)
 {
     assert_false(text->failed);
     assert_string_equal(text_string(text), expected);
@@ -63,8 +63,8 @@ static void test_numbers_do_not_follow_the_locale(void **state)
 {
     (void)state;
     bool comma = setlocale(LC_NUMERIC, "de_DE.UTF-8") != NULL;
-    const number_words number = number_rounded(NULL, 12.345, 3, false),
-                       fixed = number_fixed(NULL, -7.26, 1), literal = number_literal(1.5e-9);
+    const number_text number = number_rounded(NULL, 12.345, 3, false),
+                      fixed = number_fixed(NULL, -7.26, 1), literal = number_literal(1.5e-9);
     (void)setlocale(LC_NUMERIC, "C");
     assert_string_equal(number.words, "12.3");
     assert_string_equal(fixed.words, "−7.3");
@@ -89,7 +89,7 @@ static void test_literals(void **state)
 static void test_escaping(void **state)
 {
     (void)state;
-    growing_text text = {0};
+    text_buffer text = {0};
     text_html(&text, "%s<b>%s</b>", "<a href=\"x\">'&'</a>\x01\xff\xc3\x28 µ\r", "100 %s");
     assert_text(&text, "&lt;a href=&quot;x&quot;&gt;&#39;&amp;&#39;&lt;/a&gt;"
                        "\xef\xbf\xbd\xef\xbf\xbd\xef\xbf\xbd( µ&#13;<b>100 %s</b>");
@@ -151,7 +151,7 @@ static void test_svg_is_made_fit_for_a_page(void **state)
         "<?xml version=\"1.0\"?>\n<svg viewBox=\"0 0 600 1\">\n<title>Gnuplot</title>"
         "<desc>Produced</desc><g id=\"a\"><title>x</title><use xlink:href='#a' "
         "clip-path='url(#c)'/><text> id='a' url(#c)</text></g></svg>";
-    growing_text text = {0};
+    text_buffer text = {0};
     assert_true(svg_inline(&text, svg, sizeof svg - 1, "mu", "a < b"));
     assert_text(&text, "<svg role=\"img\" aria-label=\"a &lt; b\" "
                        "style=\"max-width:35.0rem\" viewBox=\"0 0 600 1\">\n"
@@ -166,7 +166,7 @@ static void test_svg_is_made_fit_for_a_page(void **state)
 static void test_data_links(void **state)
 {
     (void)state;
-    growing_text text = {0};
+    text_buffer text = {0};
     text_data_link(&text, "text/plain", "a\tb\n\"%\0µ", 9);
     assert_text(&text, "data:text/plain;charset=utf-8,a%09b%0A%22%25%00%C2%B5");
     text_data_link(&text, "text/plain", "", 0);

@@ -116,7 +116,7 @@ static wt_status see_and_free(void *user, wt_table *table, wt_error *err)
 static void run_errors(wt_case *c, wt_run_options options)
 {
     wt_result *result = NULL;
-    assert_int_equal(wt_case_ask(c, "error_budget work_precision", NULL), WT_OK);
+    assert_int_equal(wt_case_request(c, "error_budget work_precision", NULL), WT_OK);
     assert_int_equal(wt_run(c, &options, NULL, &result, NULL, NULL), WT_OK);
     if (wt_result_find(result, "error_budget") != NULL)
         see(wt_result_find(result, "error_budget"));
@@ -124,7 +124,7 @@ static void run_errors(wt_case *c, wt_run_options options)
         see(wt_result_find(result, "work_precision"));
     wt_result_free(result);
     options.trials = 2;
-    assert_int_equal(wt_case_ask(c, "coverage", NULL), WT_OK);
+    assert_int_equal(wt_case_request(c, "coverage", NULL), WT_OK);
     assert_int_equal(wt_run(c, &options, NULL, &result, NULL, NULL), WT_OK);
     if (wt_result_find(result, "coverage") != NULL)
         see(wt_result_find(result, "coverage"));
@@ -147,11 +147,11 @@ static void run_case_of(const char *path, bool errors, double tolerance, const c
     wt_case *c = NULL;
     wt_result *result = NULL;
     wt_table *plan = NULL;
-    wt_parselog *log = wt_parselog_new();
+    wt_log *log = wt_log_new();
     wt_run_options options = wt_run_defaults();
     options.replicates = 3;
     options.tolerance = tolerance;
-    wt_parselog_add(log, WT_WARNING, "file", "line 1", "a warning");
+    wt_log_add(log, WT_WARNING, "file", "line 1", "a warning");
     wt_error err = WT_ERROR_INIT;
     if (case_from_bytes(changed, strlen(changed), path, &c, &err) != WT_OK ||
         wt_run(c, &options, log, &result, NULL, &err) != WT_OK)
@@ -170,7 +170,7 @@ static void run_case_of(const char *path, bool errors, double tolerance, const c
     wt_result_free(result);
     if (errors)
         run_errors(c, options);
-    wt_parselog_free(log);
+    wt_log_free(log);
     wt_case_free(c);
 }
 
@@ -421,14 +421,14 @@ static void test_common_law(void **state)
     const wt_master *const fits[2][3] = {{made[0].fit, made[1].fit, NULL},
                                          {few.fit, few.fit, NULL}};
     for (size_t i = 0; i < 2; i++) {
-        wt_common_law_job law = wt_common_law_job_defaults();
+        wt_shared_shift_law_job law = wt_shared_shift_law_job_defaults();
         wt_table *table = NULL;
         law.names = names;
         law.fits = fits[i];
         law.n = 3;
         law.common = i == 0 ? WT_COMMON_MOVED : WT_COMMON_SAME;
         law.margin = i == 0 ? 0.1 : 1e-9;
-        assert_int_equal(wt_common_law_make(&law, &table, NULL), WT_OK);
+        assert_int_equal(wt_shared_shift_law_make(&law, &table, NULL), WT_OK);
         assert_string_equal(wt_table_key(table, "law"), i == 0 ? "WLF" : "Arrhenius");
         assert_true(strncmp(wt_table_key(table, "agree"), i == 0 ? "no: " : "cannot say: ", 4) ==
                     0);
@@ -504,7 +504,7 @@ static void test_layer_by_curves(void **state)
     wt_compare_job job = wt_compare_job_defaults();
     const wt_job common = wt_job_defaults();
     assert_int_equal(wt_case_read(CASE "case.xml", &read, NULL), WT_OK);
-    assert_int_equal(wt_case_ask(read, "track_layer indentation/bulk indentation/track", NULL),
+    assert_int_equal(wt_case_request(read, "track_layer indentation/bulk indentation/track", NULL),
                      WT_OK);
     assert_int_equal(wt_run(read, NULL, NULL, &result, NULL, NULL), WT_OK);
     wt_table *const track = fixture_copy(wt_result_find(result, "indentation/track"), &layered);
@@ -767,12 +767,12 @@ static void test_layer_models(void **state)
 {
     (void)state;
     static const double velocity[] = {1e-3, 0.1, 10}, pressures[] = {0.1e6, 1e6};
-    const wt_layer_known known = {.modulus_ratio = {0.6, 0, 0, "1"},
-                                  .ratio_slope = {0.05, 0.01, 0, "1"},
-                                  .ratio_frequency = 1e3,
-                                  .ratio_lowest = 10,
-                                  .ratio_highest = 1e5,
-                                  .ratio_temperature = (double)NAN};
+    const wt_layer_observation known = {.modulus_ratio = {0.6, 0, 0, "1"},
+                                        .ratio_slope = {0.05, 0.01, 0, "1"},
+                                        .ratio_frequency = 1e3,
+                                        .ratio_lowest = 10,
+                                        .ratio_highest = 1e5,
+                                        .ratio_temperature = (double)NAN};
     wt_layer_job job = wt_layer_job_defaults();
     wt_layer_tables tables = {0};
     wt_table *table[4] = {NULL};
@@ -803,7 +803,7 @@ static void test_layer_models(void **state)
     see_both_edges();
     sliding_set_up(velocity, 3);
     const wt_layer_shear shear = {2, 1e-7, 1, 1e-5};
-    wt_layer_known sheared = known;
+    wt_layer_observation sheared = known;
     sheared.thickness = (wt_estimate){1e-6, 0, 0, "m"};
     sheared.shear = &shear;
     wt_friction_tables friction = {0};
@@ -818,8 +818,9 @@ static void test_no_hysteresis(void **state)
     (void)state;
     static double slow[] = {1e-323, 1}, tau[] = {1e-9}, term[] = {3e8}, strain[] = {1e-3, 1e-2},
                   ratio[] = {1, 0.7};
-    const wt_softness s = {.table = {.n = 2, .strain = strain, .storage = ratio, .loss = ratio},
-                           .temperature = (double)NAN};
+    const wt_strain_softening s = {
+        .table = {.n = 2, .strain = strain, .storage = ratio, .loss = ratio},
+        .temperature = (double)NAN};
     wt_table *table = NULL;
     wt_error err = WT_ERROR_INIT;
     sliding_set_up(slow, 2);
@@ -1291,13 +1292,13 @@ static void see_validation(const char *path, double shear, double wear, bool wit
     static const double slow[] = {1e-3, 1e-2, 1e-1};
     const char *const patterns[] = {path};
     const wt_file_set set = {.patterns = patterns, .n_patterns = 1, .read = wt_read_defaults()};
-    const wt_layer_known known = {.thickness = {1e-6, 1e-7, 0, "m"},
-                                  .modulus_ratio = {0.6, 0.05, 0, "1"},
-                                  .ratio_slope = {0.05, 0.01, 0, "1"},
-                                  .ratio_frequency = 1e3,
-                                  .ratio_lowest = 10,
-                                  .ratio_highest = 1e5,
-                                  .ratio_temperature = (double)NAN};
+    const wt_layer_observation known = {.thickness = {1e-6, 1e-7, 0, "m"},
+                                        .modulus_ratio = {0.6, 0.05, 0, "1"},
+                                        .ratio_slope = {0.05, 0.01, 0, "1"},
+                                        .ratio_frequency = 1e3,
+                                        .ratio_lowest = 10,
+                                        .ratio_highest = 1e5,
+                                        .ratio_temperature = (double)NAN};
     wt_layer_job layer = wt_layer_job_defaults();
     wt_job common = wt_job_defaults();
     wt_record_job records = wt_record_job_defaults();
@@ -1348,7 +1349,7 @@ static void see_running_in(const char *path)
     wt_error err = WT_ERROR_INIT;
     few.replicates = 20;
     if (wt_case_read(path, &read, &err) != WT_OK ||
-        wt_case_ask(read, "validation_running_in validation_course wear", &err) != WT_OK ||
+        wt_case_request(read, "validation_running_in validation_course wear", &err) != WT_OK ||
         wt_run(read, &few, NULL, &result, &failed, &err) != WT_OK)
         fail_msg("%s %s", err.message, err.found);
     see(wt_result_find(result, "validation_running_in"));

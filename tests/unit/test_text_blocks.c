@@ -91,12 +91,12 @@ static void duration(void **state)
         {"height (nm)\tforce (nN)\n30\t0\n20\t1\n10\t2\n", (double)NAN},
     };
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
-        reading r = {.log = wt_parselog_new()};
+        reading r = {.log = wt_log_new()};
         assert_near(read_segment(&r, cases[i].text)->duration, cases[i].expected, 1e-9);
         close_all(&r);
     }
     /* What the header says goes before the column. */
-    reading r = {.log = wt_parselog_new()};
+    reading r = {.log = wt_log_new()};
     const wt_segment *const s = read_segment(
         &r, "## table: force_curve/0\n## title: t\n## column: height\n"
             "# segment[text]\ttime[s]\theight[m]\tforce[N]\n"

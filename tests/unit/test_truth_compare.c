@@ -328,7 +328,7 @@ static void test_two_spots(void **state)
         wt_job common = wt_job_defaults();
         wt_compare_job job = wt_compare_job_defaults();
         wt_compare_tables made = {0};
-        common.log = wt_parselog_new();
+        common.log = wt_log_new();
         n_names = names[i][0];
         wt_table *bulk = indentation("bulk", BULK);
         n_names = names[i][1];
@@ -338,15 +338,15 @@ static void test_two_spots(void **state)
         job.track = track;
         assert_int_equal(wt_compare_groups(&job, &common, &made, NULL), WT_OK);
         bool said = false;
-        for (size_t j = 0; j < wt_parselog_count(common.log); j++) {
-            const char *text = wt_parselog_get(common.log, j).text;
+        for (size_t j = 0; j < wt_log_count(common.log); j++) {
+            const char *text = wt_log_get(common.log, j).text;
             said = said || strstr(text, words[i] != NULL ? words[i] : "the two spots") != NULL;
         }
         assert_int_equal(said, words[i] != NULL);
         wt_compare_tables_clear(&made);
         wt_table_free(bulk);
         wt_table_free(track);
-        wt_parselog_free(common.log);
+        wt_log_free(common.log);
     }
 }
 

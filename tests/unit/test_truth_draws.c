@@ -14,7 +14,7 @@ typedef struct knob {
     double *value, *error;
 } knob;
 
-static wt_layer_known layer;
+static wt_layer_observation layer;
 static wt_layer_job layer_job;
 
 static void set_up(void)
@@ -27,7 +27,8 @@ static void set_up(void)
     surface.q1 = 2e4;
     sliding.pressure.value = 0.8e6;
     sliding.temperature.value = 313.15;
-    layer = (wt_layer_known){.thickness = {100e-6, 0, 0, "m"}, .modulus_ratio = {0.6, 0, 0, "1"}};
+    layer =
+        (wt_layer_observation){.thickness = {100e-6, 0, 0, "m"}, .modulus_ratio = {0.6, 0, 0, "1"}};
     layer_job = wt_layer_job_defaults();
     layer_job.specific_wear_rate.value = 1e-12;
     work.replicates = REPLICATES;

@@ -7,7 +7,7 @@
 
 /* Table "answer", from what is in the result so far. */
 wt_status flow_answer(const wt_case *c, const flow_plan *plan, const wt_result *result,
-                      const wt_parselog *log, const wt_table *failures, wt_table **table,
+                      const wt_log *log, const wt_table *failures, wt_table **table,
                       wt_error *err) WT_NODISCARD;
 
 #endif

@@ -10,7 +10,8 @@
 /* Characters of an answer; longer ones are cut. */
 enum { LONGEST = 1200 };
 
-static void put(const answer_story *story, const char *question, const char *kind, const char *text)
+static void put(const answer_context *story, const char *question, const char *kind,
+                const char *text)
 {
     table_row(story->answer);
     answer_put_text(story->answer, ANSWER_QUESTION, question);
@@ -18,8 +19,8 @@ static void put(const answer_story *story, const char *question, const char *kin
     answer_put_text(story->answer, ANSWER_KIND, kind);
 }
 
-void answer_say(const answer_story *story, const char *question, const char *kind,
-                const char *format, ...)
+void answer_add_sentence(const answer_context *story, const char *question, const char *kind,
+                         const char *format, ...)
 {
     char text[LONGEST];
     va_list list;
@@ -29,7 +30,7 @@ void answer_say(const answer_story *story, const char *question, const char *kin
     put(story, question, kind, text);
 }
 
-void answer_caveat(answer_story *story, caveat_of of, const char *format, ...)
+void answer_caveat(answer_context *story, caveat_of of, const char *format, ...)
 {
     char text[LONGEST];
     va_list list;
@@ -47,7 +48,7 @@ void answer_caveat(answer_story *story, caveat_of of, const char *format, ...)
     grown[story->n_caveats++] = (caveat){of, copy};
 }
 
-void answer_put_caveats(answer_story *story)
+void answer_put_caveats(answer_context *story)
 {
     size_t told = 0;
     for (int of = 0; of < CAVEATS_OF; of++)
@@ -57,7 +58,7 @@ void answer_put_caveats(answer_story *story)
                     told++ < CAVEATS_OPEN ? "caveat" : "folded", story->caveats[i].text);
 }
 
-void answer_story_clear(answer_story *story)
+void answer_context_clear(answer_context *story)
 {
     for (size_t i = 0; i < story->n_caveats; i++)
         free(story->caveats[i].text);

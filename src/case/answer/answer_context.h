@@ -25,11 +25,11 @@ typedef struct caveat {
     char *text;
 } caveat;
 
-typedef struct answer_story {
+typedef struct answer_context {
     const wt_case *c;
     const flow_plan *plan;
-    const wt_parselog *log;
-    finding_tables found;
+    const wt_log *log;
+    result_value_tables found;
     table_view failures;
     table_view indentation[2]; /* bulk, track */
     table_view modulus_depth, dma_comparison, shift_factors, prony, roughness;
@@ -41,33 +41,33 @@ typedef struct answer_story {
     caveat *caveats;
     size_t n_caveats;
     wt_status status; /* of remembering a caveat */
-} answer_story;
+} answer_context;
 
 /* A row of the answer; the sentence is a format. */
-void answer_say(const answer_story *story, const char *question, const char *kind,
-                const char *format, ...) WT_PRINTF(4, 5);
+void answer_add_sentence(const answer_context *story, const char *question, const char *kind,
+                         const char *format, ...) WT_PRINTF(4, 5);
 /* Kept until all are known. */
-void answer_caveat(answer_story *story, caveat_of of, const char *format, ...) WT_PRINTF(3, 4);
+void answer_caveat(answer_context *story, caveat_of of, const char *format, ...) WT_PRINTF(3, 4);
 /* The rows of kind "caveat", those that change most first, then the others of kind "folded". */
-void answer_put_caveats(answer_story *story);
+void answer_put_caveats(answer_context *story);
 /* What the rubber is like, only where no later stage uses it: there it is an answer, else a step.
  */
-void answer_rubber(const answer_story *story);
+void answer_rubber(const answer_context *story);
 /* How thick the curves alone allow the layer to be, and whether the theory agrees. */
-void answer_track_layer(const answer_story *story);
+void answer_track_layer(const answer_context *story);
 /* Whose specific wear rate the layer has, where a record measured one. */
-void answer_wear_of_layer(const answer_story *story, const char *question);
+void answer_wear_of_layer(const answer_context *story, const char *question);
 /* The layer under loads in turn, acting back and where it exists; its friction in running-in. */
-void answer_layer_models(const answer_story *story);
-void answer_running_in(const answer_story *story);
+void answer_layer_models(const answer_context *story);
+void answer_running_in(const answer_context *story);
 /* What a measured counter surface is like. */
-void answer_surface(const answer_story *story);
+void answer_surface(const answer_context *story);
 /* Critical energy and wear rate by what is seen of the layer. */
-void answer_identification(const answer_story *story);
+void answer_identification(const answer_context *story);
 /* Friction and wear as measured. */
-void answer_record(const answer_story *story);
+void answer_record(const answer_context *story);
 /* Whether the theory explains the friction that was measured. */
-void answer_validation(const answer_story *story);
-void answer_story_clear(answer_story *story);
+void answer_validation(const answer_context *story);
+void answer_context_clear(answer_context *story);
 
 #endif

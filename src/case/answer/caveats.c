@@ -40,7 +40,7 @@ static double median_accepted(const table_view *indentation, indentation_column 
 }
 
 /* How the spots of a group were found, as a sentence of "the ... curves". */
-static const char *spots_caveat(const answer_story *story, const char *spots)
+static const char *spots_caveat(const answer_context *story, const char *spots)
 {
     if (spots == NULL || strncmp(spots, "named", 5) == 0)
         return NULL;
@@ -52,21 +52,21 @@ static const char *spots_caveat(const answer_story *story, const char *spots)
 }
 
 /* What is true of both groups is said once. */
-static void indentation_caveats(answer_story *story)
+static void indentation_caveats(answer_context *story)
 {
     char reasons[2][512];
     size_t rejected[2];
     const char *spots[2];
     for (int g = 0; g < 2; g++) {
         const table_view *t = &story->indentation[g];
-        rejected[g] = words_of_rejected(t, reasons[g], sizeof reasons[g]);
+        rejected[g] = format_rejected_curves(t, reasons[g], sizeof reasons[g]);
         spots[g] = spots_caveat(story, indentation_words(t, INDENTATION_KEY_SPOTS));
     }
     for (int g = 0; g < 2; g++) {
         char text[512];
-        telling t = {text, sizeof text, 0};
+        text_builder t = {text, sizeof text, 0};
         if (story->indentation[g].table != NULL &&
-            tell_other_spectrum(&t, &story->indentation[g], g == 0 ? "bulk" : "track"))
+            append_other_spectrum(&t, &story->indentation[g], g == 0 ? "bulk" : "track"))
             answer_caveat(story, CAVEAT_VERDICT, "%s.", text);
     }
     for (int g = 0; g < 2; g++) {
@@ -105,7 +105,7 @@ static void list_gains(const double gain[2], char *text, size_t size)
 
 /* What an error of calibration does: to a modulus by its gain, to the ratio only if the cantilevers
  * were calibrated separately, or as far as the gains differ. */
-static void calibration_caveats(answer_story *story)
+static void calibration_caveats(answer_context *story)
 {
     double gain[2];
     wt_estimate k[2];
@@ -127,13 +127,14 @@ static void calibration_caveats(answer_story *story)
         clocale_print(lever, sizeof lever, "The stated error of the spring constant is %.2g %%",
                       error[0] > 0 ? error[0] : error[1]);
     char text[1000];
-    telling t = {text, sizeof text, 0};
-    tell(
+    text_builder t = {text, sizeof text, 0};
+    text_append(
         &t,
         "An error of 1 %% in the deflection sensitivity changes the %s, one of the spring constant "
         "by about as much as itself. %s",
         gains, lever);
-    tell(&t, "; the intervals of the moduli hold what is stated, and nothing of what is not.");
+    text_append(&t,
+                "; the intervals of the moduli hold what is stated, and nothing of what is not.");
     /* of a group without a modulus there is no gain, and no ratio in which an error could cancel */
     const char *cantilevers =
         isnan(gain[0]) || isnan(gain[1])
@@ -141,23 +142,25 @@ static void calibration_caveats(answer_story *story)
             : comparison_words(&story->found.comparison, COMPARISON_KEY_CANTILEVERS);
     const char *includes = comparison_words(&story->found.comparison, COMPARISON_KEY_INCLUDES);
     if (cantilevers != NULL && strcmp(cantilevers, "one") == 0)
-        tell(&t,
-             " Track and bulk are taken to be indented with one cantilever, %s: its errors cancel "
-             "in the ratio, but for %.2g %% in each 1 %% of sensitivity.",
-             story->c->compare.levers == WT_LEVERS_ONE ? "as the case says"
-                                                       : "for no spring constants differ",
-             fabs(gain[1] - gain[0]));
+        text_append(
+            &t,
+            " Track and bulk are taken to be indented with one cantilever, %s: its errors cancel "
+            "in the ratio, but for %.2g %% in each 1 %% of sensitivity.",
+            story->c->compare.levers == WT_LEVERS_ONE ? "as the case says"
+                                                      : "for no spring constants differ",
+            fabs(gain[1] - gain[0]));
     else if (cantilevers != NULL)
-        tell(&t,
-             " Track and bulk were indented with different cantilevers (bulk %s, track %s), whose "
-             "errors do not cancel in the ratio%s%s.",
-             words_of_value(k[0]).text, words_of_value(k[1]).text,
-             includes != NULL ? "; its interval includes: " : "", includes != NULL ? includes : "");
+        text_append(
+            &t,
+            " Track and bulk were indented with different cantilevers (bulk %s, track %s), whose "
+            "errors do not cancel in the ratio%s%s.",
+            format_value(k[0]).text, format_value(k[1]).text,
+            includes != NULL ? "; its interval includes: " : "", includes != NULL ? includes : "");
     answer_caveat(story, CAVEAT_MODULI, "%s", text);
 }
 
 /* What the case does not say is taken from the material, or taken to be equal. */
-static void temperature_caveats(answer_story *story)
+static void temperature_caveats(answer_context *story)
 {
     const double sliding = friction_value(&story->found.friction, FRICTION_KEY_TEMPERATURE).value;
     if (story->found.friction.table != NULL && isnan(story->c->sliding.temperature.value)) {
@@ -169,20 +172,20 @@ static void temperature_caveats(answer_story *story)
             answer_caveat(story, CAVEAT_FRICTION,
                           "The case does not say the temperature of sliding: friction is that at "
                           "the reference temperature of the material, %s.",
-                          words_of_celsius(sliding).text);
+                          format_celsius(sliding).text);
     }
     if (story->dma_comparison.table != NULL && isnan(story->c->compare.temperature.value))
         answer_caveat(
             story, CAVEAT_MODULI,
             "The case does not say the temperature of indentation: it is compared with DMA at "
             "the reference temperature, %s.",
-            words_of_celsius(
+            format_celsius(
                 dma_comparison_value(&story->dma_comparison, DMA_COMPARISON_KEY_TEMPERATURE).value)
                 .text);
 }
 
 /* What was done to the track before the ratio was taken. */
-static void ratio_caveats(answer_story *story)
+static void ratio_caveats(answer_context *story)
 {
     const table_view *comparison = &story->found.comparison;
     const wt_compare_job *job = &story->c->compare;
@@ -200,7 +203,7 @@ static void ratio_caveats(answer_story *story)
             story, CAVEAT_VERDICT,
             "The track was indented at %s: the ratio is brought to the temperature of the bulk "
             "by %s; the moduli of bulk and track are as measured.",
-            words_of_celsius(track).text,
+            format_celsius(track).text,
             isnan(job->temperature_slope.value) ? "the DMA" : "the temperature slope given");
     const char *rates = comparison_words(comparison, COMPARISON_KEY_RATES);
     if (strncmp(rates, "brought", 7) == 0)
@@ -211,15 +214,15 @@ static void ratio_caveats(answer_story *story)
 
 /* " The intervals of friction hold: ...; not the choices of the model, nor, because no error is
  * known: ..." */
-static void tell_interval(telling *t, const char *whose, const finding *f)
+static void tell_interval(text_builder *t, const char *whose, const result_value *f)
 {
-    tell(t, " The interval of the %s holds: %s; not the model%s%s.", whose, f->includes,
-         f->lacks != NULL ? ", nor, because no error is known: " : "",
-         f->lacks != NULL ? f->lacks : "");
+    text_append(t, " The interval of the %s holds: %s; not the model%s%s.", whose, f->includes,
+                f->lacks != NULL ? ", nor, because no error is known: " : "",
+                f->lacks != NULL ? f->lacks : "");
 }
 
 /* What material_caveats says. */
-static bool is_superposition(const answer_story *story, const char *text)
+static bool is_superposition(const answer_context *story, const char *text)
 {
     const table_view *shifts = &story->shift_factors;
     const char *verdict =
@@ -229,12 +232,12 @@ static bool is_superposition(const answer_story *story, const char *text)
 }
 
 /* The first warnings in full, the others by number. */
-static void warnings(answer_story *story)
+static void warnings(answer_context *story)
 {
     enum { SHOWN = 5 }; /* as many as a sentence holds */
     size_t n = 0;
-    for (size_t i = 0; i < wt_parselog_count(story->log); i++) {
-        wt_log_entry entry = wt_parselog_get(story->log, i);
+    for (size_t i = 0; i < wt_log_count(story->log); i++) {
+        wt_log_entry entry = wt_log_get(story->log, i);
         if (entry.severity != WT_NOTE && !is_superposition(story, entry.text) && ++n <= SHOWN)
             answer_caveat(
                 story, CAVEAT_DATA, "%s%s%s: %s.", entry.severity == WT_LOSS ? "Lost" : "Warning",
@@ -245,7 +248,7 @@ static void warnings(answer_story *story)
                       n == SHOWN + 1 ? " is" : "s are");
 }
 
-static void comparison_caveats(answer_story *story)
+static void comparison_caveats(answer_context *story)
 {
     const table_view *dma = &story->dma_comparison;
     const char *unit = comparison_words(&story->found.comparison, COMPARISON_KEY_UNIT_OF_ANALYSIS);
@@ -263,29 +266,31 @@ static void comparison_caveats(answer_story *story)
         answer_caveat(story, CAVEAT_DATA, "Comparison with DMA: %s.", statement);
 }
 
-static void tell_moduli_of_layer(telling *t, const table_view *friction)
+static void tell_moduli_of_layer(text_builder *t, const table_view *friction)
 {
     const char *const shear = friction_words(friction, FRICTION_KEY_LAYER_SHEAR);
     const char *const moduli = friction_words(friction, FRICTION_KEY_LAYER_MODULI);
     const double outside = friction_value(friction, FRICTION_KEY_LAYER_OUTSIDE).value;
     if (moduli == NULL) {
-        tell(t,
-             " The modulus of the layer is the bulk's times one ratio at all frequencies, and its "
-             "shear stress is %s; neither is measured at the frequencies of sliding.",
-             shear != NULL ? shear : "scaled by the same ratio");
+        text_append(
+            t,
+            " The modulus of the layer is the bulk's times one ratio at all frequencies, and its "
+            "shear stress is %s; neither is measured at the frequencies of sliding.",
+            shear != NULL ? shear : "scaled by the same ratio");
         return;
     }
-    tell(t, " The moduli of the layer are %s; its shear stress is %s.", moduli,
-         shear != NULL ? shear : "scaled by their ratio");
+    text_append(t, " The moduli of the layer are %s; its shear stress is %s.", moduli,
+                shear != NULL ? shear : "scaled by their ratio");
     if (isnan(outside))
-        tell(t, " Which frequencies they were measured at is not known.");
+        text_append(t, " Which frequencies they were measured at is not known.");
     else
-        tell(t,
-             " %.3g %% of the hysteresis on it are of frequencies at which they were not measured.",
-             100 * outside);
+        text_append(
+            t,
+            " %.3g %% of the hysteresis on it are of frequencies at which they were not measured.",
+            100 * outside);
 }
 
-static void material_caveats(answer_story *story)
+static void material_caveats(answer_context *story)
 {
     const table_view *shifts = &story->shift_factors;
     if (shifts->table == NULL)
@@ -313,43 +318,46 @@ static void material_caveats(answer_story *story)
                       undetermined, shifts->n_rows);
 }
 
-static void tell_theory(telling *t, const table_view *friction)
+static void tell_theory(text_builder *t, const table_view *friction)
 {
     const char *softening = friction_words(friction, FRICTION_KEY_SOFTENING);
     const bool flash = friction_words(friction, FRICTION_KEY_FLASH) != NULL;
     const char *temperature = flash ? "with a flash temperature" : "at one temperature";
     const char *heating = flash ? "" : "no flash heating, ";
     if (softening != NULL)
-        tell(t,
-             "Friction is that of Persson's theory %s with moduli that soften with "
-             "strain (%s; the largest strain met is %.3g): %sdry contact.",
-             temperature, softening, friction_value(friction, FRICTION_KEY_STRAIN).value, heating);
+        text_append(t,
+                    "Friction is that of Persson's theory %s with moduli that soften with "
+                    "strain (%s; the largest strain met is %.3g): %sdry contact.",
+                    temperature, softening, friction_value(friction, FRICTION_KEY_STRAIN).value,
+                    heating);
     else
-        tell(t,
-             "Friction is that of Persson's theory for small strain %s: %sno strain softening, dry "
-             "contact.",
-             temperature, heating);
+        text_append(
+            t,
+            "Friction is that of Persson's theory for small strain %s: %sno strain softening, dry "
+            "contact.",
+            temperature, heating);
     if (friction_words(friction, FRICTION_KEY_LAYER_THICKNESS) != NULL)
         tell_moduli_of_layer(t, friction);
 }
 
-static void friction_caveats(answer_story *story)
+static void friction_caveats(answer_context *story)
 {
     const table_view *friction = &story->found.friction;
     if (friction->table == NULL)
         return;
-    const finding hysteresis = finding_of_friction(&story->found, FRICTION_KEY_HYSTERESIS);
+    const result_value hysteresis =
+        result_value_of_friction(&story->found, FRICTION_KEY_HYSTERESIS);
     const double share = largest_share(friction);
     const char *statement = friction_words(friction, FRICTION_KEY_MATERIAL_STATEMENT);
     char text[1100];
-    telling t = {text, sizeof text, 0};
+    text_builder t = {text, sizeof text, 0};
     if (statement != NULL)
         answer_caveat(story, CAVEAT_DATA, "Friction: %s.", statement);
     if (share >= ANSWER_ODD_SHARE)
         answer_caveat(story, CAVEAT_FRICTION,
                       "Up to %s of the hysteresis friction comes from frequencies outside the "
                       "measured range of the material.",
-                      words_of_share(share).text);
+                      format_share(share).text);
     if (friction->n_rows > 0 && isnan(friction_get(friction, 0, FRICTION_EXTRAPOLATED_SHARE)))
         answer_caveat(story, CAVEAT_FRICTION,
                       "How much of the hysteresis friction comes from frequencies that were not "
@@ -361,11 +369,11 @@ static void friction_caveats(answer_story *story)
         answer_caveat(story, CAVEAT_CONDITIONS,
                       "The case does not say at which velocity the answer is wanted: %s is a "
                       "default.",
-                      words_of(hysteresis.velocity, "m/s").text);
+                      format_with_unit(hysteresis.velocity, "m/s").text);
 }
 
 /* Where the layer is outside the range of its model, or of what indented it. */
-static void depth_caveats(answer_story *story, double thickness)
+static void depth_caveats(answer_context *story, double thickness)
 {
     if (!isfinite(thickness))
         return;
@@ -375,7 +383,7 @@ static void depth_caveats(answer_story *story, double thickness)
             answer_caveat(story, CAVEAT_THICKNESS,
                           "The layer is thicker than the longest wave of the roughness reaches "
                           "(1/q0 = %s): the layer model is outside its range.",
-                          words_of(longest, "m").text);
+                          format_with_unit(longest, "m").text);
     }
     const double depth = median_accepted(&story->indentation[1], INDENTATION_MAX_INDENTATION);
     if (thickness > 0 && depth > DEEP_SHARE * thickness)
@@ -383,52 +391,55 @@ static void depth_caveats(answer_story *story, double thickness)
             story, CAVEAT_VERDICT,
             "Indentations in the track go %s deep, %.2g times the thickness of the layer: the "
             "bulk below it is felt, so the layer differs more than the ratio says.",
-            words_of(depth, "m").text, depth / thickness);
+            format_with_unit(depth, "m").text, depth / thickness);
 }
 
-static void layer_caveats(answer_story *story)
+static void layer_caveats(answer_context *story)
 {
     const table_view *layer = &story->found.layer;
     if (layer->table == NULL)
         return;
-    const finding thickness = finding_of_thickness(&story->found);
+    const result_value thickness = result_value_of_thickness(&story->found);
     const char *from = layer_words(layer, LAYER_KEY_CRITICAL_ENERGY_FROM);
-    const number_words energy = words_of_known(layer_value(layer, LAYER_KEY_CRITICAL_ENERGY));
+    const number_text energy = format_known_estimate(layer_value(layer, LAYER_KEY_CRITICAL_ENERGY));
     char text[1100];
-    telling t = {text, sizeof text, 0};
+    text_builder t = {text, sizeof text, 0};
     const char *closure = layer_words(layer, LAYER_KEY_CLOSURE),
                *energy_from = layer_words(layer, LAYER_KEY_ENERGY_FROM);
     if (closure != NULL)
-        tell(&t, "The barrier and the activation volume are given: nothing in this case measures "
-                 "them.");
+        text_append(
+            &t, "The barrier and the activation volume are given: nothing in this case measures "
+                "them.");
     else if (strncmp(from, "calibrated", 10) == 0)
-        tell(&t,
-             "The critical energy U_c = %s is calibrated so that the observed thickness is the "
-             "balance: the thickness is put in, not predicted.",
-             energy.text);
+        text_append(
+            &t,
+            "The critical energy U_c = %s is calibrated so that the observed thickness is the "
+            "balance: the thickness is put in, not predicted.",
+            energy.text);
     else
-        tell(&t, "The critical energy U_c = %s is given: nothing in this case measures it.",
-             energy.text);
-    tell(&t,
-         " The layer model (%s closure, wear by Archard's law) is not validated against "
-         "measured thicknesses. ",
-         closure != NULL ? "activated" : "energy");
+        text_append(&t, "The critical energy U_c = %s is given: nothing in this case measures it.",
+                    energy.text);
+    text_append(&t,
+                " The layer model (%s closure, wear by Archard's law) is not validated against "
+                "measured thicknesses. ",
+                closure != NULL ? "activated" : "energy");
     const char *const but =
         story->layer_balances.table != NULL ? " but in the table layer_balances" : "";
     if (energy_from != NULL)
-        tell(&t, "What modifies the rubber is %s; the layer does not act back on it%s.",
-             energy_from, but);
+        text_append(&t, "What modifies the rubber is %s; the layer does not act back on it%s.",
+                    energy_from, but);
     else
-        tell(&t,
-             "Its energy is the hysteresis of the bulk alone: the layer does not act back on it%s, "
-             "and shearing of the surface is not counted.",
-             but);
+        text_append(
+            &t,
+            "Its energy is the hysteresis of the bulk alone: the layer does not act back on it%s, "
+            "and shearing of the surface is not counted.",
+            but);
     tell_interval(&t, "thickness", &thickness);
     answer_caveat(story, CAVEAT_THICKNESS, "%s", text);
     depth_caveats(story, thickness.number.value);
 }
 
-void answer_caveats(answer_story *story)
+void answer_caveats(answer_context *story)
 {
     const size_t failed = story->failures.n_rows;
     if (failed > 0)

@@ -5,6 +5,6 @@
 #include "case/answer/answer_context.h"
 
 /* Remembers them all. */
-void answer_caveats(answer_story *story);
+void answer_caveats(answer_context *story);
 
 #endif

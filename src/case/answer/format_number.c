@@ -11,7 +11,7 @@
 #include <stdarg.h>
 #include <string.h>
 
-void tell(telling *t, const char *format, ...)
+void text_append(text_builder *t, const char *format, ...)
 {
     const bool room = t->used < t->size;
     va_list arguments;
@@ -25,7 +25,7 @@ void tell(telling *t, const char *format, ...)
 /* mm^3/(N m) in a specific wear rate of 1 m^2/N. */
 #define MM3_PER_N_M 1e9
 
-static void print_plain(double value, int digits, number_words *words)
+static void print_plain(double value, int digits, number_text *words)
 {
     clocale_print(words->text, sizeof words->text, "%#.*g", digits, value);
     const size_t length = strlen(words->text);
@@ -33,9 +33,9 @@ static void print_plain(double value, int digits, number_words *words)
         words->text[length - 1] = '\0';
 }
 
-static number_words words_with(double value, const char *unit, int digits)
+static number_text format_with_parts(double value, const char *unit, int digits)
 {
-    number_words words = {""};
+    number_text words = {""};
     if (isnan(value))
         snprintf(words.text, sizeof words.text, "not known");
     else if (isinf(value))
@@ -52,15 +52,15 @@ static number_words words_with(double value, const char *unit, int digits)
     return words;
 }
 
-number_words words_of(double value, const char *unit)
+number_text format_with_unit(double value, const char *unit)
 {
-    return words_with(value, unit, 3);
+    return format_with_parts(value, unit, 3);
 }
 
-number_words words_of_pair(double low, double high, int digits)
+number_text format_pair(double low, double high, int digits)
 {
-    number_words words = {""};
-    digits = ends_digits(low, high, digits);
+    number_text words = {""};
+    digits = range_digits(low, high, digits);
     const double larger = fmax(fabs(low), fabs(high));
     const int decimals = larger > 0 ? digits - 1 - (int)floor(log10(larger)) : 0;
     const bool plain = decimals >= 0 && decimals < 9; /* else with a power of ten */
@@ -69,17 +69,17 @@ number_words words_of_pair(double low, double high, int digits)
     return words;
 }
 
-number_words words_of_value(wt_estimate e)
+number_text format_value(wt_estimate e)
 {
-    return words_of(e.value, e.unit);
+    return format_with_unit(e.value, e.unit);
 }
 
 /* Value and error in one scale and with the same decimals, two digits of the error: "3.16 ± 0.96
  * um", "0.1050 ± 0.0029", "1230 ± 230 s"; "3.16 um (error not known)". As on the page, six digits
  * at most. */
-number_words words_of_estimate(wt_estimate e)
+number_text format_estimate(wt_estimate e)
 {
-    number_words value = words_of(e.value, e.unit), words = value;
+    number_text value = format_with_unit(e.value, e.unit), words = value;
     if (isfinite(e.value) && isnan(e.standard_error))
         snprintf(words.text, sizeof words.text, "%.60s (error not known)", value.text);
     if (!isfinite(e.value) || !(e.standard_error > 0) || !isfinite(e.standard_error))
@@ -107,34 +107,34 @@ number_words words_of_estimate(wt_estimate e)
     return words;
 }
 
-number_words words_between(wt_estimate e, double low, double high)
+number_text format_estimate_interval(wt_estimate e, double low, double high)
 {
-    const int digits = finding_digits(e.value, low, high);
-    number_words words = words_with(e.value, e.unit, digits);
-    telling t = {words.text, sizeof words.text, strlen(words.text)};
+    const int digits = result_value_digits(e.value, low, high);
+    number_text words = format_with_parts(e.value, e.unit, digits);
+    text_builder t = {words.text, sizeof words.text, strlen(words.text)};
     if (isfinite(e.value) && isnan(high))
-        tell(&t, " (error not known)");
+        text_append(&t, " (error not known)");
     else if (isfinite(e.value) && high > e.value)
-        tell(&t, " (95 %%: %s to %s)", words_with(low, e.unit, digits).text,
-             words_with(high, e.unit, digits).text);
+        text_append(&t, " (95 %%: %s to %s)", format_with_parts(low, e.unit, digits).text,
+                    format_with_parts(high, e.unit, digits).text);
     return words;
 }
 
-number_words words_of_known(wt_estimate e)
+number_text format_known_estimate(wt_estimate e)
 {
     const double half = NORMAL_95 * e.standard_error;
-    return words_between(e, e.value - half, e.value + half);
+    return format_estimate_interval(e, e.value - half, e.value + half);
 }
 
-number_words words_of_positive(wt_estimate e)
+number_text format_positive(wt_estimate e)
 {
     const double factor = exp(NORMAL_95 * e.standard_error / e.value);
-    return words_between(e, e.value / factor, e.value * factor);
+    return format_estimate_interval(e, e.value / factor, e.value * factor);
 }
 
-number_words words_of_celsius(double kelvin)
+number_text format_celsius(double kelvin)
 {
-    number_words words;
+    number_text words;
     clocale_print(words.text, sizeof words.text,
                   "%.1f \xc2\xb0"
                   "C",
@@ -145,31 +145,32 @@ number_words words_of_celsius(double kelvin)
 /* ---- findings -------------------------------------------------------------------------------- */
 
 /* A change is told in per cent. */
-static bool is_change(const finding *f)
+static bool is_change(const result_value *f)
 {
     return f->neutral == 0;
 }
 
-static number_words number_of_finding(const finding *f, double value, int digits)
+static number_text number_of_finding(const result_value *f, double value, int digits)
 {
     if (!is_change(f) || !isfinite(value))
-        return words_with(value, f->number.unit, digits);
+        return format_with_parts(value, f->number.unit, digits);
     const double half = 100 * (f->high - f->low) / 2; /* a narrow interval is no number twice */
     const int decimals = half > 0 && half < 1 ? (int)fmin(3, ceil(-log10(half))) : 0;
-    number_words words;
+    number_text words;
     clocale_print(words.text, sizeof words.text, "%+.*f %%", decimals, 100 * value);
     return words;
 }
 
-number_words words_of_number(const finding *f)
+number_text format_plain_number(const result_value *f)
 {
-    return number_of_finding(f, f->number.value, finding_digits(f->number.value, f->low, f->high));
+    return number_of_finding(f, f->number.value,
+                             result_value_digits(f->number.value, f->low, f->high));
 }
 
-finding_words words_of_interval(const finding *f)
+result_value_text format_interval(const result_value *f)
 {
-    const int digits = finding_digits(f->number.value, f->low, f->high);
-    finding_words words;
+    const int digits = result_value_digits(f->number.value, f->low, f->high);
+    result_value_text words;
     if (isnan(f->low) || isnan(f->high))
         snprintf(words.text, sizeof words.text, "error not known");
     else
@@ -179,9 +180,9 @@ finding_words words_of_interval(const finding *f)
     return words;
 }
 
-finding_words words_of_range(const finding *f)
+result_value_text format_model_range(const result_value *f)
 {
-    finding_words words = {""};
+    result_value_text words = {""};
     if (!isnan(f->range.low))
         clocale_print(words.text, sizeof words.text, "%s to %s over all choices of the model",
                       number_of_finding(f, f->range.low, 3).text,
@@ -189,40 +190,40 @@ finding_words words_of_range(const finding *f)
     return words;
 }
 
-finding_words words_of_choices(const finding *f)
+result_value_text format_choices(const result_value *f)
 {
-    finding_words words = {""};
-    telling t = {words.text, sizeof words.text, 0};
-    const finding_range *r = &f->range;
+    result_value_text words = {""};
+    text_builder t = {words.text, sizeof words.text, 0};
+    const result_value_range *r = &f->range;
     const struct {
         double value;
         const char *choice, *tried;
     } ends[2] = {{r->low, r->low_choice, r->low_tried}, {r->high, r->high_choice, r->high_tried}};
     for (int i = 0; i < 2 && !isnan(r->low); i++) {
-        tell(&t, "%s%s", i > 0 ? " to " : "over all choices of the model ",
-             number_of_finding(f, ends[i].value, 3).text);
+        text_append(&t, "%s%s", i > 0 ? " to " : "over all choices of the model ",
+                    number_of_finding(f, ends[i].value, 3).text);
         if (ends[i].choice[0] != '\0')
-            tell(&t, " (%s: %s)", ends[i].choice, ends[i].tried);
+            text_append(&t, " (%s: %s)", ends[i].choice, ends[i].tried);
         else
-            tell(&t, " (as used)");
+            text_append(&t, " (as used)");
     }
     return words;
 }
 
-finding_words words_of_finding(const finding *f)
+result_value_text format_result_value(const result_value *f)
 {
-    const finding_words range = words_of_range(f);
-    finding_words words;
-    clocale_print(words.text, sizeof words.text, "%s (%s%s%s)", words_of_number(f).text,
-                  words_of_interval(f).text, range.text[0] != '\0' ? "; " : "", range.text);
+    const result_value_text range = format_model_range(f);
+    result_value_text words;
+    clocale_print(words.text, sizeof words.text, "%s (%s%s%s)", format_plain_number(f).text,
+                  format_interval(f).text, range.text[0] != '\0' ? "; " : "", range.text);
     return words;
 }
 
-number_words words_of_frequency(const finding *f)
+number_text format_frequency(const result_value *f)
 {
-    number_words words = {""};
-    const number_words low = words_of(f->frequency[0], "rad/s"),
-                       high = words_of(f->frequency[1], "rad/s");
+    number_text words = {""};
+    const number_text low = format_with_unit(f->frequency[0], "rad/s"),
+                      high = format_with_unit(f->frequency[1], "rad/s");
     const bool one = strcmp(low.text, high.text) == 0;
     if (!isnan(f->frequency[0]))
         clocale_print(words.text, sizeof words.text, " at %.40s%s%.40s", low.text,
@@ -230,7 +231,7 @@ number_words words_of_frequency(const finding *f)
     return words;
 }
 
-const char *words_of_origin(const finding_tables *tables)
+const char *format_origin(const result_value_tables *tables)
 {
     const char *from = layer_words(&tables->layer, LAYER_KEY_CRITICAL_ENERGY_FROM);
     if (layer_words(&tables->layer, LAYER_KEY_CLOSURE) != NULL)
@@ -241,73 +242,75 @@ const char *words_of_origin(const finding_tables *tables)
 }
 
 /* Of the rates that both groups have, where the moduli of all rates say something else. */
-void tell_rates(telling *t, const finding_tables *tables)
+void append_rates(text_builder *t, const result_value_tables *tables)
 {
     const char *rates = comparison_words(&tables->comparison, COMPARISON_KEY_RATES);
-    const double of_all = finding_ratio_of_all(tables);
+    const double of_all = result_value_ratio_of_all(tables);
     if (!isnan(of_all) && rates != NULL)
-        tell(t, ", for the rates are %s; the moduli of all rates have the ratio %s", rates,
-             words_of(of_all, "1").text);
+        text_append(t, ", for the rates are %s; the moduli of all rates have the ratio %s", rates,
+                    format_with_unit(of_all, "1").text);
 }
 
-void tell_ratio(telling *t, const finding_tables *tables)
+void append_ratio(text_builder *t, const result_value_tables *tables)
 {
-    const finding ratio = finding_of_ratio(tables);
-    tell(t, "%s", ratio.verdict != NULL ? ratio.verdict : "");
+    const result_value ratio = result_value_of_ratio(tables);
+    text_append(t, "%s", ratio.verdict != NULL ? ratio.verdict : "");
     if (isnan(ratio.low))
         return;
-    tell(t, "; E_track/E_bulk = %s%s", words_of_finding(&ratio).text,
-         words_of_frequency(&ratio).text);
-    tell_rates(t, tables);
+    text_append(t, "; E_track/E_bulk = %s%s", format_result_value(&ratio).text,
+                format_frequency(&ratio).text);
+    append_rates(t, tables);
 }
 
 /* The ratio of one spot has no error, and an interval without it looks as if it had. */
-static const char *without_ratio(const finding *f)
+static const char *without_ratio(const result_value *f)
 {
     const bool lacks = f->lacks != NULL && strstr(f->lacks, "modulus ratio") != NULL;
     return lacks && !isnan(f->low) ? ", without the error of the modulus ratio, which is not known"
                                    : "";
 }
 
-bool layer_ages(const finding_tables *tables)
+bool layer_ages(const result_value_tables *tables)
 {
     return isinf(layer_value(&tables->layer, LAYER_KEY_BALANCE_THICKNESS).value) &&
            layer_value(&tables->layer, LAYER_KEY_WEAR_RATE).value > 0;
 }
 
-void tell_thickness(telling *t, const finding_tables *tables)
+void append_thickness(text_builder *t, const result_value_tables *tables)
 {
-    const finding thickness = finding_of_thickness(tables);
-    const finding_words range = words_of_range(&thickness);
+    const result_value thickness = result_value_of_thickness(tables);
+    const result_value_text range = format_model_range(&thickness);
     const char *open = range.text[0] != '\0' ? " (" : "", *close = *open != '\0' ? ")" : "";
     if (isinf(thickness.number.value))
-        tell(t, "%s",
-             layer_ages(tables) ? "the rubber ages: in time all of it is modified"
-                                : "without wear the layer grows without end");
+        text_append(t, "%s",
+                    layer_ages(tables) ? "the rubber ages: in time all of it is modified"
+                                       : "without wear the layer grows without end");
     else if (!(thickness.number.value > 0))
-        tell(t, "no layer where formation balances wear%s%s%s, %s", open, range.text, close,
-             words_of_origin(tables));
+        text_append(t, "no layer where formation balances wear%s%s%s, %s", open, range.text, close,
+                    format_origin(tables));
     else
-        tell(t, "layer of %s where formation balances wear, %s%s",
-             words_of_finding(&thickness).text, words_of_origin(tables), without_ratio(&thickness));
+        text_append(t, "layer of %s where formation balances wear, %s%s",
+                    format_result_value(&thickness).text, format_origin(tables),
+                    without_ratio(&thickness));
 }
 
-void tell_change(telling *t, const finding_tables *tables, bool with_choices)
+void append_change(text_builder *t, const result_value_tables *tables, bool with_choices)
 {
-    const finding change = finding_of_friction(tables, FRICTION_KEY_RELATIVE_CHANGE);
-    const finding_sign sign = finding_sign_of(&change);
-    const finding_words range = with_choices ? words_of_choices(&change) : words_of_range(&change);
+    const result_value change = result_value_of_friction(tables, FRICTION_KEY_RELATIVE_CHANGE);
+    const finding_sign sign = result_value_sign(&change);
+    const result_value_text range =
+        with_choices ? format_choices(&change) : format_model_range(&change);
     const char *and = range.text[0] != '\0' ? "; " : "";
     if (!(friction_value(&tables->friction, FRICTION_KEY_LAYER_THICKNESS).value > 0)) {
-        tell(t, "no change, for wear leaves no layer%s%s", and, range.text);
+        text_append(t, "no change, for wear leaves no layer%s%s", and, range.text);
         return;
     }
-    tell(t, "%s: %s (%s%s)%s%s",
-         sign == FINDING_OPEN   ? "open whether the layer lowers or raises friction"
-         : sign == FINDING_LESS ? "less friction with the layer"
-                                : "more friction with the layer",
-         words_of_number(&change).text, words_of_interval(&change).text, without_ratio(&change),
-         and, range.text);
+    text_append(t, "%s: %s (%s%s)%s%s",
+                sign == FINDING_OPEN   ? "open whether the layer lowers or raises friction"
+                : sign == FINDING_LESS ? "less friction with the layer"
+                                       : "more friction with the layer",
+                format_plain_number(&change).text, format_interval(&change).text,
+                without_ratio(&change), and, range.text);
 }
 
 /* ---- what several sentences tell ------------------------------------------------------------- */
@@ -320,9 +323,9 @@ double largest_share(const table_view *friction)
     return share;
 }
 
-number_words words_of_share(double share)
+number_text format_share(double share)
 {
-    number_words words;
+    number_text words;
     clocale_print(words.text, sizeof words.text, share >= 0.1 ? "%.0f %%" : "%.2g %%", 100 * share);
     return words;
 }
@@ -353,7 +356,7 @@ size_t n_extrapolated(const table_view *dma)
     return n;
 }
 
-bool tell_other_spectrum(telling *t, const table_view *indentation, const char *group)
+bool append_other_spectrum(text_builder *t, const table_view *indentation, const char *group)
 {
     size_t tried = 0, others = 0;
     if (isnan(indentation_value(indentation, INDENTATION_KEY_SPECTRUM_TEMPERATURE).value))
@@ -368,17 +371,18 @@ bool tell_other_spectrum(telling *t, const table_view *indentation, const char *
     }
     if (others == 0)
         return false;
-    tell(t,
-         "%zu of %zu curves of the %s are not of the spectrum of the DMA: their moduli are fitted "
-         "without it, and the ratio of track and bulk is one of moduli at the rates that both "
-         "have, not of factors on the spectrum; another temperature than that stated or another "
-         "rubber would do it, or a layer of another spectrum, to which no one ratio holds at all "
-         "frequencies",
-         others, tried, group);
+    text_append(
+        t,
+        "%zu of %zu curves of the %s are not of the spectrum of the DMA: their moduli are fitted "
+        "without it, and the ratio of track and bulk is one of moduli at the rates that both "
+        "have, not of factors on the spectrum; another temperature than that stated or another "
+        "rubber would do it, or a layer of another spectrum, to which no one ratio holds at all "
+        "frequencies",
+        others, tried, group);
     return true;
 }
 
-size_t words_of_rejected(const table_view *indentation, char *text, size_t size)
+size_t format_rejected_curves(const table_view *indentation, char *text, size_t size)
 {
     size_t counts[WT_CURVE_UNREADABLE + 1] = {0}, total = 0, used = 0;
     text[0] = '\0';

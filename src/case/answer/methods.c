@@ -16,7 +16,7 @@ typedef struct method {
     const char *name;
     const table_schema *table;
     bool (*used)(const table_view *table); /* NULL: always */
-    void (*say)(telling *t, const table_view *table);
+    void (*say)(text_builder *t, const table_view *table);
     const char *reference, *doi; /* as journals print them; "" where there is none */
 } method;
 
@@ -38,46 +38,50 @@ static bool is_other_tip(const table_view *table)
     return !is_blunted(table);
 }
 
-static void say_indentation(telling *t, const table_view *table)
+static void say_indentation(text_builder *t, const table_view *table)
 {
     const char *tip = indentation_words(table, INDENTATION_KEY_TIP),
                *ratio = indentation_words(table, INDENTATION_KEY_POISSON_RATIO),
                *accepted = indentation_words(table, INDENTATION_KEY_N_ACCEPTED);
-    tell(t,
-         "Young's modulus of each of %zu force curve%s%s%s%s was fitted together with the line of "
-         "the baseline and the contact point",
-         table->n_rows, table->n_rows == 1 ? "" : "s", accepted != NULL ? " (" : "",
-         accepted != NULL ? accepted : "", accepted != NULL ? " of them accepted)" : "");
-    tell(t, ", with the contact law of the tip (%s)", tip != NULL ? tip : "not stated");
-    tell(t, ratio != NULL ? " and a Poisson's ratio of %s." : ".%s", ratio != NULL ? ratio : "");
+    text_append(
+        t,
+        "Young's modulus of each of %zu force curve%s%s%s%s was fitted together with the line of "
+        "the baseline and the contact point",
+        table->n_rows, table->n_rows == 1 ? "" : "s", accepted != NULL ? " (" : "",
+        accepted != NULL ? accepted : "", accepted != NULL ? " of them accepted)" : "");
+    text_append(t, ", with the contact law of the tip (%s)", tip != NULL ? tip : "not stated");
+    text_append(t, ratio != NULL ? " and a Poisson's ratio of %s." : ".%s",
+                ratio != NULL ? ratio : "");
 }
 
-static void say_thermal(telling *t, const table_view *table)
+static void say_thermal(text_builder *t, const table_view *table)
 {
     const wt_estimate constant = thermal_value(table, THERMAL_KEY_SPRING_CONSTANT);
-    tell(t, "The spring constant of the cantilever%s%s was determined from its thermal noise.",
-         isfinite(constant.value) ? ", " : "",
-         isfinite(constant.value) ? words_of_estimate(constant).text : "");
+    text_append(t,
+                "The spring constant of the cantilever%s%s was determined from its thermal noise.",
+                isfinite(constant.value) ? ", " : "",
+                isfinite(constant.value) ? format_estimate(constant).text : "");
 }
 
 /* ---- comparison ------------------------------------------------------------------------------ */
 
-static void say_welch(telling *t, const table_view *table)
+static void say_welch(text_builder *t, const table_view *table)
 {
     const char *unit = comparison_words(table, COMPARISON_KEY_UNIT_OF_ANALYSIS);
     const wt_estimate ratio = comparison_value(table, COMPARISON_KEY_MODULUS_RATIO);
-    tell(t, "Wear track and bulk were compared by Welch's t test of the logarithm of the modulus");
+    text_append(
+        t, "Wear track and bulk were compared by Welch's t test of the logarithm of the modulus");
     if (unit != NULL)
-        tell(t, ", with the %s as the unit of analysis", unit);
+        text_append(t, ", with the %s as the unit of analysis", unit);
     if (isfinite(ratio.value))
-        tell(t, "; the ratio of their geometric means is %s", words_of_estimate(ratio).text);
-    tell(t, ".");
+        text_append(t, "; the ratio of their geometric means is %s", format_estimate(ratio).text);
+    text_append(t, ".");
 }
 
-static void say_mann_whitney(telling *t, const table_view *table)
+static void say_mann_whitney(text_builder *t, const table_view *table)
 {
     (void)table;
-    tell(t, "The test of Mann and Whitney was done beside it.");
+    text_append(t, "The test of Mann and Whitney was done beside it.");
 }
 
 static bool has_rates(const table_view *table)
@@ -85,37 +89,39 @@ static bool has_rates(const table_view *table)
     return table->n_rows > 2;
 }
 
-static void say_holm(telling *t, const table_view *table)
+static void say_holm(text_builder *t, const table_view *table)
 {
-    tell(t, "The p-values of %zu indentation rates were corrected by the method of Holm.",
-         table->n_rows - 1);
+    text_append(t, "The p-values of %zu indentation rates were corrected by the method of Holm.",
+                table->n_rows - 1);
 }
 
-static void say_hedges(telling *t, const table_view *table)
+static void say_hedges(text_builder *t, const table_view *table)
 {
     (void)table;
-    tell(t, "The effect size is Hedges' g.");
+    text_append(t, "The effect size is Hedges' g.");
 }
 
 /* ---- material -------------------------------------------------------------------------------- */
 
-static void say_shifting(telling *t, const table_view *table)
+static void say_shifting(text_builder *t, const table_view *table)
 {
     const double reference =
         shift_factors_value(table, SHIFT_FACTORS_KEY_REFERENCE_TEMPERATURE).value;
     const char *by = shift_factors_words(table, SHIFT_FACTORS_KEY_SHIFTED_BY);
     if (table->n_rows == 1)
-        tell(t,
-             "One relaxation spectrum was fitted to the isotherm at %s, with its smoothness and "
-             "the noise by restricted maximum likelihood.",
-             words_of_celsius(reference).text);
+        text_append(
+            t,
+            "One relaxation spectrum was fitted to the isotherm at %s, with its smoothness and "
+            "the noise by restricted maximum likelihood.",
+            format_celsius(reference).text);
     else
-        tell(t,
-             "%zu isotherms were shifted to %s%s%s so that one relaxation spectrum lies behind all "
-             "of them, with its smoothness and their noise by restricted maximum likelihood "
-             "(superposition %s).",
-             table->n_rows, words_of_celsius(reference).text, by != NULL ? " by the " : "",
-             by != NULL ? by : "", shift_factors_words(table, SHIFT_FACTORS_KEY_SUPERPOSITION));
+        text_append(
+            t,
+            "%zu isotherms were shifted to %s%s%s so that one relaxation spectrum lies behind all "
+            "of them, with its smoothness and their noise by restricted maximum likelihood "
+            "(superposition %s).",
+            table->n_rows, format_celsius(reference).text, by != NULL ? " by the " : "",
+            by != NULL ? by : "", shift_factors_words(table, SHIFT_FACTORS_KEY_SUPERPOSITION));
 }
 
 static bool has_wlf(const table_view *table)
@@ -123,14 +129,14 @@ static bool has_wlf(const table_view *table)
     return isfinite(shift_factors_value(table, SHIFT_FACTORS_KEY_WLF_C1).value);
 }
 
-static void say_wlf(telling *t, const table_view *table)
+static void say_wlf(text_builder *t, const table_view *table)
 {
     const wt_estimate c1 = shift_factors_value(table, SHIFT_FACTORS_KEY_WLF_C1),
                       c2 = shift_factors_value(table, SHIFT_FACTORS_KEY_WLF_C2);
-    tell(t,
-         "The shift factors follow the law of Williams, Landel and Ferry with C1 = %s and "
-         "C2 = %s.",
-         words_of_estimate(c1).text, words_of_estimate(c2).text);
+    text_append(t,
+                "The shift factors follow the law of Williams, Landel and Ferry with C1 = %s and "
+                "C2 = %s.",
+                format_estimate(c1).text, format_estimate(c2).text);
 }
 
 static bool has_energy(const table_view *table)
@@ -138,11 +144,11 @@ static bool has_energy(const table_view *table)
     return isfinite(shift_factors_value(table, SHIFT_FACTORS_KEY_ACTIVATION_ENERGY).value);
 }
 
-static void say_arrhenius(telling *t, const table_view *table)
+static void say_arrhenius(text_builder *t, const table_view *table)
 {
     const wt_estimate energy = shift_factors_value(table, SHIFT_FACTORS_KEY_ACTIVATION_ENERGY);
-    tell(t, "The shift factors follow Arrhenius' law%s with an activation energy of %s.",
-         has_wlf(table) ? " in the cold" : "", words_of_estimate(energy).text);
+    text_append(t, "The shift factors follow Arrhenius' law%s with an activation energy of %s.",
+                has_wlf(table) ? " in the cold" : "", format_estimate(energy).text);
 }
 
 static bool has_zener(const table_view *table)
@@ -150,45 +156,48 @@ static bool has_zener(const table_view *table)
     return prony_reduced_words(table, PRONY_REDUCED_KEY_BETTER) != NULL;
 }
 
-static void say_zener(telling *t, const table_view *table)
+static void say_zener(text_builder *t, const table_view *table)
 {
-    tell(t,
-         "A Prony series of %zu term%s and a fractional Zener law were compared by Akaike's "
-         "criterion with the correction for few points.",
-         table->n_rows, table->n_rows == 1 ? "" : "s");
+    text_append(t,
+                "A Prony series of %zu term%s and a fractional Zener law were compared by Akaike's "
+                "criterion with the correction for few points.",
+                table->n_rows, table->n_rows == 1 ? "" : "s");
 }
 
-static void say_payne(telling *t, const table_view *table)
+static void say_payne(text_builder *t, const table_view *table)
 {
-    tell(t, "The softening with strain in %zu strain sweep%s was described by the law of Kraus.",
-         table->n_rows, table->n_rows == 1 ? "" : "s");
+    text_append(
+        t, "The softening with strain in %zu strain sweep%s was described by the law of Kraus.",
+        table->n_rows, table->n_rows == 1 ? "" : "s");
 }
 
 /* ---- sliding --------------------------------------------------------------------------------- */
 
-static void say_spectrum(telling *t, const table_view *table)
+static void say_spectrum(text_builder *t, const table_view *table)
 {
     const char *scans = power_spectrum_words(table, POWER_SPECTRUM_KEY_N_SCANS);
     const bool one = scans != NULL && strcmp(scans, "1") == 0;
-    tell(t, "The power spectrum of the counter surface was computed from %s scan%s.",
-         scans != NULL ? scans : "its", one ? "" : "s");
+    text_append(t, "The power spectrum of the counter surface was computed from %s scan%s.",
+                scans != NULL ? scans : "its", one ? "" : "s");
 }
 
-static void say_friction(telling *t, const table_view *table)
+static void say_friction(text_builder *t, const table_view *table)
 {
     const wt_estimate pressure = friction_value(table, FRICTION_KEY_PRESSURE),
                       temperature = friction_value(table, FRICTION_KEY_TEMPERATURE),
                       shear = friction_value(table, FRICTION_KEY_SHEAR_STRESS);
-    tell(t,
-         "Contact area and hysteresis friction were computed by Persson's theory at a nominal "
-         "pressure of %s and %s",
-         words_of_value(pressure).text, words_of_celsius(temperature.value).text);
+    text_append(
+        t,
+        "Contact area and hysteresis friction were computed by Persson's theory at a nominal "
+        "pressure of %s and %s",
+        format_value(pressure).text, format_celsius(temperature.value).text);
     if (isfinite(shear.value))
-        tell(t, ", with a shear stress of %s in the real contact", words_of_estimate(shear).text);
+        text_append(t, ", with a shear stress of %s in the real contact",
+                    format_estimate(shear).text);
     const char *draws = friction_words(table, FRICTION_KEY_REPLICATES);
     if (draws != NULL && strcmp(draws, "0") != 0)
-        tell(t, "; intervals by %s draws of what has an error", draws);
-    tell(t, ".");
+        text_append(t, "; intervals by %s draws of what has an error", draws);
+    text_append(t, ".");
 }
 
 static double gamma_of(const table_view *table)
@@ -203,44 +212,47 @@ static bool has_gamma(const table_view *table)
     return gamma_of(table) != 1;
 }
 
-static void say_gamma(telling *t, const table_view *table)
+static void say_gamma(text_builder *t, const table_view *table)
 {
-    tell(t, "The energy of partial contact was lowered by the factor gamma = %g.", gamma_of(table));
+    text_append(t, "The energy of partial contact was lowered by the factor gamma = %g.",
+                gamma_of(table));
 }
 
-static void say_softening(telling *t, const table_view *table)
+static void say_softening(text_builder *t, const table_view *table)
 {
-    tell(t, "The moduli soften with the strain at each length scale (%s).",
-         softening_words(table, SOFTENING_KEY_SOURCE));
+    text_append(t, "The moduli soften with the strain at each length scale (%s).",
+                softening_words(table, SOFTENING_KEY_SOURCE));
 }
 
-static void say_flash(telling *t, const table_view *table)
+static void say_flash(text_builder *t, const table_view *table)
 {
     const wt_estimate around = flash_value(table, FLASH_KEY_SURROUNDINGS);
-    tell(t, "The flash temperature at each length scale was computed with surroundings at %s.",
-         words_of_celsius(around.value).text);
+    text_append(t,
+                "The flash temperature at each length scale was computed with surroundings at %s.",
+                format_celsius(around.value).text);
 }
 
-static void say_layer(telling *t, const table_view *table)
+static void say_layer(text_builder *t, const table_view *table)
 {
     const wt_estimate critical = layer_value(table, LAYER_KEY_CRITICAL_ENERGY);
     const char *const closure = layer_words(table, LAYER_KEY_CLOSURE);
     if (closure != NULL) {
-        tell(t, "The thickness of the modified layer follows from its formation by this law: %s.",
-             closure);
+        text_append(
+            t, "The thickness of the modified layer follows from its formation by this law: %s.",
+            closure);
         return;
     }
-    tell(t,
-         "The thickness of the modified layer follows from the energy dissipated below the "
-         "surface over a critical energy of %s (%s).",
-         words_of_estimate(critical).text, layer_words(table, LAYER_KEY_CRITICAL_ENERGY_FROM));
+    text_append(t,
+                "The thickness of the modified layer follows from the energy dissipated below the "
+                "surface over a critical energy of %s (%s).",
+                format_estimate(critical).text, layer_words(table, LAYER_KEY_CRITICAL_ENERGY_FROM));
 }
 
-static void say_archard(telling *t, const table_view *table)
+static void say_archard(text_builder *t, const table_view *table)
 {
     const wt_estimate rate = layer_value(table, LAYER_KEY_WEAR_RATE);
-    tell(t, "It wears by Archard's law with a specific wear rate of %s.",
-         words_of_estimate(rate).text);
+    text_append(t, "It wears by Archard's law with a specific wear rate of %s.",
+                format_estimate(rate).text);
 }
 
 static bool tells_depth(const table_view *table)
@@ -248,16 +260,18 @@ static bool tells_depth(const table_view *table)
     return isfinite(track_layer_value(table, TRACK_LAYER_KEY_LEAST).value);
 }
 
-static void say_track_layer(telling *t, const table_view *table)
+static void say_track_layer(text_builder *t, const table_view *table)
 {
     const wt_estimate depth = track_layer_value(table, TRACK_LAYER_KEY_DEPTH),
                       least = track_layer_value(table, TRACK_LAYER_KEY_LEAST);
-    tell(t,
-         "Which thickness of a layer on the bulk the curves of the track allow was tested for each "
-         "one from %s on by the change of the modulus over an indentation of %s",
-         words_of_value(least).text, words_of_value(depth).text);
-    tell(t, ", with the ratio of the moduli, beside the change of the bulk, at 5 %%, by a contact "
-            "law fitted to the integral equation for a bonded layer on a half-space.");
+    text_append(
+        t,
+        "Which thickness of a layer on the bulk the curves of the track allow was tested for each "
+        "one from %s on by the change of the modulus over an indentation of %s",
+        format_value(least).text, format_value(depth).text);
+    text_append(
+        t, ", with the ratio of the moduli, beside the change of the bulk, at 5 %%, by a contact "
+           "law fitted to the integral equation for a bonded layer on a half-space.");
 }
 
 /* ---- the list -------------------------------------------------------------------------------- */
@@ -339,13 +353,13 @@ static void add_method(table_writer *writer, const method *m, const wt_result *r
         const wt_table *const table = wt_result_table(result, i);
         const char *const suffix = suffix_of(m->table, table);
         table_view view;
-        telling sentence = {text, sizeof text, 0};
+        text_builder sentence = {text, sizeof text, 0};
         if (suffix == NULL || table_bind(table, m->table, suffix, &view, NULL) != WT_OK ||
             (m->used != NULL && !m->used(&view)))
             continue;
         text[0] = '\0';
         if (suffix[0] != '\0')
-            tell(&sentence, "%s: ", suffix);
+            text_append(&sentence, "%s: ", suffix);
         m->say(&sentence, &view);
         if (!is_said(writer->table, text))
             TABLE_ADD(methods, writer, m->name, text, m->reference, m->doi);

@@ -8,95 +8,95 @@
 #include <math.h>
 #include <string.h>
 
-static void of_material(double share, const char *statement, wt_parselog *log)
+static void of_material(double share, const char *statement, wt_log *log)
 {
     if (share >= ANSWER_ODD_SHARE)
-        wt_parselog_add(log, WT_WARNING, NULL, NULL,
-                        "friction: up to %s of the hysteresis comes from frequencies outside the "
-                        "measured ones",
-                        words_of_share(share).text);
+        wt_log_add(log, WT_WARNING, NULL, NULL,
+                   "friction: up to %s of the hysteresis comes from frequencies outside the "
+                   "measured ones",
+                   format_share(share).text);
     if (statement != NULL)
-        wt_parselog_add(log, WT_WARNING, NULL, NULL, "friction: %s", statement);
+        wt_log_add(log, WT_WARNING, NULL, NULL, "friction: %s", statement);
 }
 
-static void of_friction(const table_view *v, wt_parselog *log)
+static void of_friction(const table_view *v, wt_log *log)
 {
     const char *numerical = friction_words(v, FRICTION_KEY_NUMERICAL_STATEMENT);
     if (numerical != NULL)
-        wt_parselog_add(log, WT_WARNING, NULL, NULL, "friction: %s", numerical);
+        wt_log_add(log, WT_WARNING, NULL, NULL, "friction: %s", numerical);
     of_material(largest_share(v), friction_words(v, FRICTION_KEY_MATERIAL_STATEMENT), log);
     const double outside = friction_value(v, FRICTION_KEY_LAYER_OUTSIDE).value;
     if (outside >= ANSWER_ODD_SHARE)
-        wt_parselog_add(log, WT_WARNING, NULL, NULL,
-                        "layer: %s of the hysteresis on it comes from frequencies at which its "
-                        "moduli were not measured",
-                        words_of_share(outside).text);
+        wt_log_add(log, WT_WARNING, NULL, NULL,
+                   "layer: %s of the hysteresis on it comes from frequencies at which its "
+                   "moduli were not measured",
+                   format_share(outside).text);
 }
 
-static void of_softening(const table_view *v, wt_parselog *log)
+static void of_softening(const table_view *v, wt_log *log)
 {
     const double share = softening_value(v, SOFTENING_KEY_SHARE_ABOVE).value;
     if (share >= ANSWER_ODD_SHARE)
-        wt_parselog_add(log, WT_WARNING, NULL, NULL,
-                        "friction: up to %.0f %% of the hysteresis comes from strains above those "
-                        "of the softening, up to %.3g, for which its last f and g were taken",
-                        100 * share, softening_value(v, SOFTENING_KEY_STRAIN).value);
+        wt_log_add(log, WT_WARNING, NULL, NULL,
+                   "friction: up to %.0f %% of the hysteresis comes from strains above those "
+                   "of the softening, up to %.3g, for which its last f and g were taken",
+                   100 * share, softening_value(v, SOFTENING_KEY_STRAIN).value);
 }
 
-static void of_flash(const table_view *v, wt_parselog *log)
+static void of_flash(const table_view *v, wt_log *log)
 {
     static const flash_key keys[] = {FLASH_KEY_UNSETTLED, FLASH_KEY_BRANCHES, FLASH_KEY_LAW_RANGE};
     for (size_t i = 0; i < COUNT_OF(keys); i++) {
         const char *words = flash_words(v, keys[i]);
         if (words != NULL)
-            wt_parselog_add(log, WT_WARNING, NULL, NULL, "flash temperature: %s", words);
+            wt_log_add(log, WT_WARNING, NULL, NULL, "flash temperature: %s", words);
     }
 }
 
-static void of_comparison(const table_view *v, wt_parselog *log)
+static void of_comparison(const table_view *v, wt_log *log)
 {
     const size_t n = n_extrapolated(v);
     const char *statement = dma_comparison_words(v, DMA_COMPARISON_KEY_MATERIAL_STATEMENT);
     double low, high;
     if (ratio_to_dma(v, &low, &high) && is_other_rubber(low, high))
-        wt_parselog_add(log, WT_WARNING, NULL, NULL,
-                        "indentation and DMA do not describe one rubber: at equal frequency the "
-                        "indentation modulus of the bulk is %s times |E*|; units, spring constant, "
-                        "sensitivity, tip, temperature and the files are to be checked",
-                        words_of(1 / low > high ? low : high, "1").text);
+        wt_log_add(log, WT_WARNING, NULL, NULL,
+                   "indentation and DMA do not describe one rubber: at equal frequency the "
+                   "indentation modulus of the bulk is %s times |E*|; units, spring constant, "
+                   "sensitivity, tip, temperature and the files are to be checked",
+                   format_with_unit(1 / low > high ? low : high, "1").text);
     if (n > 0)
-        wt_parselog_add(log, WT_WARNING, NULL, NULL,
-                        "%zu of %zu comparisons with DMA lie outside the measured frequencies", n,
-                        v->n_rows);
+        wt_log_add(log, WT_WARNING, NULL, NULL,
+                   "%zu of %zu comparisons with DMA lie outside the measured frequencies", n,
+                   v->n_rows);
     if (statement != NULL)
-        wt_parselog_add(log, WT_WARNING, NULL, NULL, "comparison with DMA: %s", statement);
+        wt_log_add(log, WT_WARNING, NULL, NULL, "comparison with DMA: %s", statement);
 }
 
 /* Of each group: its table has the name behind a stroke. */
-static void of_curves(const wt_table *table, wt_parselog *log)
+static void of_curves(const wt_table *table, wt_log *log)
 {
     const size_t prefix = strlen(indentation_schema.name);
     char text[512];
-    telling t = {text, sizeof text, 0};
+    text_builder t = {text, sizeof text, 0};
     table_view view;
     if (strncmp(wt_table_name(table), indentation_schema.name, prefix) == 0 &&
         table_bind(table, &indentation_schema, "", &view, NULL) == WT_OK &&
-        tell_other_spectrum(&t, &view, wt_table_name(table) + prefix))
-        wt_parselog_add(log, WT_WARNING, NULL, NULL, "indentation: %s", text);
+        append_other_spectrum(&t, &view, wt_table_name(table) + prefix))
+        wt_log_add(log, WT_WARNING, NULL, NULL, "indentation: %s", text);
 }
 
-static void of_layer(const table_view *v, wt_parselog *log)
+static void of_layer(const table_view *v, wt_log *log)
 {
     static const layer_key statements[] = {LAYER_KEY_MATERIAL_STATEMENT,
                                            LAYER_KEY_NUMERICAL_STATEMENT};
     for (size_t i = 0; i < COUNT_OF(statements); i++) {
         const char *words = layer_words(v, statements[i]);
         if (words != NULL)
-            wt_parselog_add(log, WT_WARNING, NULL, NULL, "layer: %s", words);
+            wt_log_add(log, WT_WARNING, NULL, NULL, "layer: %s", words);
     }
 }
 
-void wt_result_remarks(const wt_result *result, wt_parselog *log)
+void wt_result_remarks(const wt_result *result, wt_log *log)
 {
     table_view view;
     for (size_t i = 0; i < wt_result_n_tables(result); i++)

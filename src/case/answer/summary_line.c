@@ -9,12 +9,12 @@
 #include <string.h>
 
 typedef struct sentence {
-    telling told;
+    text_builder told;
     const wt_result *result;
-    finding_tables found;
+    result_value_tables found;
 } sentence;
 
-#define say(s, ...) tell(&(s)->told, __VA_ARGS__)
+#define say(s, ...) text_append(&(s)->told, __VA_ARGS__)
 
 static void next(sentence *s)
 {
@@ -40,7 +40,7 @@ static void say_groups(sentence *s, const table_view *v)
 {
     const char *hidden = NULL;
     for (size_t i = 0; i < v->n_rows; i++) {
-        const finding modulus = finding_of_group(&s->found, i);
+        const result_value modulus = result_value_of_group(&s->found, i);
         const double n = modulus_groups_get(v, i, MODULUS_GROUPS_N);
         const char *group = modulus_groups_text(v, i, MODULUS_GROUPS_GROUP);
         next(s);
@@ -50,15 +50,15 @@ static void say_groups(sentence *s, const table_view *v)
         char reasons[512];
         const bool known =
             table_bind_of(s->result, &indentation_schema, group, &curves, NULL) == WT_OK;
-        if (known && words_of_rejected(&curves, reasons, sizeof reasons) > 0)
+        if (known && format_rejected_curves(&curves, reasons, sizeof reasons) > 0)
             say(s, " (rejected: %s)", reasons);
         if (isnan(modulus.number.value))
             continue;
         if (known && hidden == NULL)
             hidden = indentation_words(&curves, INDENTATION_KEY_NOT_SHOWN);
-        say(s, ", E = %s%s", words_of_number(&modulus).text, words_of_frequency(&modulus).text);
+        say(s, ", E = %s%s", format_plain_number(&modulus).text, format_frequency(&modulus).text);
         if (!isnan(modulus.low))
-            say(s, " (%s, from %.0f spots)", words_of_interval(&modulus).text,
+            say(s, " (%s, from %.0f spots)", format_interval(&modulus).text,
                 modulus_groups_get(v, i, MODULUS_GROUPS_N_SPOTS));
     }
     if (hidden != NULL)
@@ -70,7 +70,7 @@ static void say_ratio(sentence *s, const table_view *v)
     if (v->n_rows == 0)
         return;
     next(s);
-    tell_ratio(&s->told, &s->found);
+    append_ratio(&s->told, &s->found);
 }
 
 static void say_materials(sentence *s, const table_view *v)
@@ -98,8 +98,8 @@ static void say_common_law(sentence *s, const table_view *v)
     if (without != NULL)
         say(s, "; left out: %s", without);
     if (!isnan(c1.value))
-        say(s, "; WLF C1 = %s, C2 = %s, reference temperature %s", words_of_estimate(c1).text,
-            words_of_estimate(common_law_value(v, COMMON_LAW_KEY_WLF_C2)).text,
+        say(s, "; WLF C1 = %s, C2 = %s, reference temperature %s", format_estimate(c1).text,
+            format_estimate(common_law_value(v, COMMON_LAW_KEY_WLF_C2)).text,
             common_law_words(v, COMMON_LAW_KEY_MOVED));
 }
 
@@ -113,11 +113,10 @@ static void say_material(sentence *s, const table_view *v)
     if (sample != NULL)
         say(s, "%s: ", sample);
     say(s, "%zu isotherm%s at the reference temperature %s", v->n_rows, v->n_rows == 1 ? "" : "s",
-        words_of_celsius(shift_factors_value(v, SHIFT_FACTORS_KEY_REFERENCE_TEMPERATURE).value)
-            .text);
+        format_celsius(shift_factors_value(v, SHIFT_FACTORS_KEY_REFERENCE_TEMPERATURE).value).text);
     if (!isnan(c1.value))
-        say(s, ", WLF C1 = %s, C2 = %s", words_of_estimate(c1).text,
-            words_of_estimate(shift_factors_value(v, SHIFT_FACTORS_KEY_WLF_C2)).text);
+        say(s, ", WLF C1 = %s, C2 = %s", format_estimate(c1).text,
+            format_estimate(shift_factors_value(v, SHIFT_FACTORS_KEY_WLF_C2)).text);
     const char *verdict = shift_factors_words(v, SHIFT_FACTORS_KEY_SUPERPOSITION);
     /* why it fails or cannot be judged is a warning */
     const bool warned = v->n_rows > 1 && strncmp(verdict, "holds", 5) != 0;
@@ -130,7 +129,7 @@ static void say_peak(sentence *s, wt_estimate at, const char *of)
 {
     const double error = at.standard_error;
     if (!(error > 0) || !isfinite(error)) {
-        say(s, " %s (peak of %s, error not known)", words_of_celsius(at.value).text, of);
+        say(s, " %s (peak of %s, error not known)", format_celsius(at.value).text, of);
         return;
     }
     const int decimals = (int)fmax(0, fmin(4, 1 - floor(log10(error))));
@@ -150,7 +149,7 @@ static void say_transition(sentence *s, const table_view *v)
         return;
     }
     say(s, "glass transition at %s:",
-        words_of_value(glass_transition_value(v, GLASS_TRANSITION_KEY_ANGULAR_FREQUENCY)).text);
+        format_value(glass_transition_value(v, GLASS_TRANSITION_KEY_ANGULAR_FREQUENCY)).text);
     if (!isnan(factor.value))
         say_peak(s, factor, "tan delta");
     if (!isnan(loss.value)) {
@@ -172,9 +171,9 @@ static void say_payne(sentence *s, const table_view *v)
         const double tenth = payne_get(v, i, PAYNE_STRAIN_TENTH);
         next(s);
         say(s, "at %s the storage modulus goes from %s to %s, between strains of %.2g and %.2g %%",
-            words_of(payne_get(v, i, PAYNE_ANGULAR_FREQUENCY), "rad/s").text,
-            words_of(payne_get(v, i, PAYNE_STORAGE_START), "Pa").text,
-            words_of(payne_get(v, i, PAYNE_STORAGE_END), "Pa").text,
+            format_with_unit(payne_get(v, i, PAYNE_ANGULAR_FREQUENCY), "rad/s").text,
+            format_with_unit(payne_get(v, i, PAYNE_STORAGE_START), "Pa").text,
+            format_with_unit(payne_get(v, i, PAYNE_STORAGE_END), "Pa").text,
             100 * payne_get(v, i, PAYNE_STRAIN_MIN), 100 * payne_get(v, i, PAYNE_STRAIN_MAX));
         if (!isnan(tenth))
             say(s, "; a tenth is lost at %.2g %%", 100 * tenth);
@@ -188,7 +187,7 @@ static void say_record(sentence *s, const table_view *v)
     if (v->n_rows == 0)
         return;
     next(s);
-    tell_record(&s->told, v);
+    append_record(&s->told, v);
 }
 
 static void say_wear(sentence *s, const table_view *v)
@@ -196,7 +195,7 @@ static void say_wear(sentence *s, const table_view *v)
     if (v->n_rows == 0)
         return;
     next(s);
-    tell_wear(&s->told, v);
+    append_wear(&s->told, v);
 }
 
 static void say_dwell(sentence *s, const table_view *v)
@@ -214,9 +213,9 @@ static void say_dwell(sentence *s, const table_view *v)
     if (isnan(at.value))
         say(s, ", no moduli of %s", v->n_rows == 1 ? "it" : "them");
     else
-        say(s, ": at %s E' = %s, E'' = %s", words_of(at.value, "rad/s").text,
-            words_of_estimate(dwell_value(v, DWELL_KEY_STORAGE)).text,
-            words_of_estimate(dwell_value(v, DWELL_KEY_LOSS)).text);
+        say(s, ": at %s E' = %s, E'' = %s", format_with_unit(at.value, "rad/s").text,
+            format_estimate(dwell_value(v, DWELL_KEY_STORAGE)).text,
+            format_estimate(dwell_value(v, DWELL_KEY_LOSS)).text);
     for (size_t i = 0; i < v->n_rows && n > 0; i++)
         if (!isnan(dwell_get(v, i, DWELL_STORAGE)) && *dwell_text(v, i, DWELL_NOTE) != '\0') {
             say(s, " (%s)", dwell_text(v, i, DWELL_NOTE));
@@ -226,11 +225,12 @@ static void say_dwell(sentence *s, const table_view *v)
 
 static void say_dwell_ratio(sentence *s, const char *modulus, double ratio, double low, double high)
 {
-    say(s, " %s %s times that of the DMA", modulus, words_of(ratio, "1").text);
+    say(s, " %s %s times that of the DMA", modulus, format_with_unit(ratio, "1").text);
     if (isnan(low))
         say(s, " (error not known)");
     else
-        say(s, " (95 %% interval %s to %s)", words_of(low, "1").text, words_of(high, "1").text);
+        say(s, " (95 %% interval %s to %s)", format_with_unit(low, "1").text,
+            format_with_unit(high, "1").text);
 }
 
 /* Of each group the row in the middle of those that the DMA was measured at. */
@@ -256,7 +256,7 @@ static void say_dwell_dma(sentence *s, const table_view *v)
         }
         const size_t row = (first + last) / 2;
         say(s, "%s: at %s", group,
-            words_of(dwell_dma_get(v, row, DWELL_DMA_ANGULAR_FREQUENCY), "rad/s").text);
+            format_with_unit(dwell_dma_get(v, row, DWELL_DMA_ANGULAR_FREQUENCY), "rad/s").text);
         say_dwell_ratio(s, "E'", dwell_dma_get(v, row, DWELL_DMA_STORAGE_RATIO),
                         dwell_dma_get(v, row, DWELL_DMA_STORAGE_RATIO_LOW),
                         dwell_dma_get(v, row, DWELL_DMA_STORAGE_RATIO_HIGH));
@@ -282,12 +282,12 @@ static void say_sensitivity(sentence *s, const table_view *v)
                *verdict = sensitivity_words(v, SENSITIVITY_KEY_VERDICT);
     next(s);
     if (!isnan(value.value))
-        say(s, "deflection sensitivity %s", words_of_estimate(value).text);
+        say(s, "deflection sensitivity %s", format_estimate(value).text);
     else if (isnan(factor.value))
         say(s, "no deflection sensitivity");
     if (!isnan(factor.value))
         say(s, "%s%s of that of the file", isnan(value.value) ? "deflection sensitivity " : ", ",
-            words_of_estimate(factor).text);
+            format_estimate(factor).text);
     for (size_t i = 0; i < v->n_rows; i++)
         if (strcmp(sensitivity_text(v, i, SENSITIVITY_DIRECTION), direction) == 0) {
             const double n = sensitivity_get(v, i, SENSITIVITY_N);
@@ -313,22 +313,24 @@ static void say_thermal(sentence *s, const table_view *v)
         say(s, "no spring constant: %s", v->n_rows > 0 ? thermal_text(v, 0, THERMAL_NOTE) : "");
         return;
     }
-    say(s, "spring constant %s", words_of_estimate(k).text);
+    say(s, "spring constant %s", format_estimate(k).text);
     if (v->n_rows == 1)
         say(s, " (resonance %s, quality factor %s)",
-            words_of(thermal_get(v, 0, THERMAL_RESONANCE), "Hz").text,
-            words_of(thermal_get(v, 0, THERMAL_QUALITY), "1").text);
+            format_with_unit(thermal_get(v, 0, THERMAL_RESONANCE), "Hz").text,
+            format_with_unit(thermal_get(v, 0, THERMAL_QUALITY), "1").text);
     else
         say(s, " (mean of %zu spectra)", n);
     if (v->n_rows == 1 && !isnan(thermal_get(v, 0, THERMAL_RATIO)))
-        say(s, ", %s of that of the file", words_of(thermal_get(v, 0, THERMAL_RATIO), "1").text);
+        say(s, ", %s of that of the file",
+            format_with_unit(thermal_get(v, 0, THERMAL_RATIO), "1").text);
     const char *includes = thermal_words(v, THERMAL_KEY_INCLUDES),
                *indent = thermal_words(v, THERMAL_KEY_INDENT),
                *compare = thermal_words(v, THERMAL_KEY_COMPARE);
     if (k.standard_error >= 0)
         say(s, "; its error is that of %s", includes);
     if (v->n_rows == 1 && !isnan(thermal_get(v, 0, THERMAL_SADER)))
-        say(s, "; by Sader's method %s", words_of(thermal_get(v, 0, THERMAL_SADER), "N/m").text);
+        say(s, "; by Sader's method %s",
+            format_with_unit(thermal_get(v, 0, THERMAL_SADER), "N/m").text);
     if (indent == NULL)
         say(s, "; not to be used: %s", thermal_words(v, THERMAL_KEY_CONTRADICTION));
     else
@@ -340,23 +342,23 @@ static void say_friction(sentence *s, const table_view *v)
 {
     if (v->table == NULL)
         return;
-    const finding hysteresis = finding_of_friction(&s->found, FRICTION_KEY_HYSTERESIS),
-                  area = finding_of_friction(&s->found, FRICTION_KEY_AREA_RATIO),
-                  total = finding_of_friction(&s->found, FRICTION_KEY_FRICTION),
-                  with_layer = finding_of_friction(&s->found, FRICTION_KEY_WITH_LAYER);
+    const result_value hysteresis = result_value_of_friction(&s->found, FRICTION_KEY_HYSTERESIS),
+                       area = result_value_of_friction(&s->found, FRICTION_KEY_AREA_RATIO),
+                       total = result_value_of_friction(&s->found, FRICTION_KEY_FRICTION),
+                       with_layer = result_value_of_friction(&s->found, FRICTION_KEY_WITH_LAYER);
     next(s);
-    say(s, "at %s ", words_of(hysteresis.velocity, "m/s").text);
+    say(s, "at %s ", format_with_unit(hysteresis.velocity, "m/s").text);
     if (!isnan(total.number.value))
-        say(s, "mu = %s, ", words_of_finding(&total).text);
+        say(s, "mu = %s, ", format_result_value(&total).text);
     if (!isnan(with_layer.number.value)) {
-        say(s, "with layer %s, ", words_of_finding(&with_layer).text);
-        tell_change(&s->told, &s->found, false);
+        say(s, "with layer %s, ", format_result_value(&with_layer).text);
+        append_change(&s->told, &s->found, false);
         say(s, ", ");
     } else if (friction_value(v, FRICTION_KEY_LAYER_THICKNESS).value > 0) {
         say(s, "friction with the layer not known without a shear stress, ");
     }
-    say(s, "hysteresis %s, contact area of the nominal one %s", words_of_finding(&hysteresis).text,
-        words_of_finding(&area).text);
+    say(s, "hysteresis %s, contact area of the nominal one %s",
+        format_result_value(&hysteresis).text, format_result_value(&area).text);
 }
 
 static void say_identification(sentence *s, const table_view *v)
@@ -364,7 +366,7 @@ static void say_identification(sentence *s, const table_view *v)
     if (v->table == NULL)
         return;
     next(s);
-    tell_identification(&s->told, v);
+    append_identification(&s->told, v);
 }
 
 static void say_shared_pairs(sentence *s, const table_view *v)
@@ -372,7 +374,7 @@ static void say_shared_pairs(sentence *s, const table_view *v)
     if (v->table == NULL)
         return;
     next(s);
-    tell_shared_pairs(&s->told, v);
+    append_shared_pairs(&s->told, v);
 }
 
 static void say_validation(sentence *s, const table_view *v)
@@ -380,10 +382,10 @@ static void say_validation(sentence *s, const table_view *v)
     if (v->table == NULL)
         return;
     next(s);
-    tell_verdict(&s->told, v);
+    append_verdict(&s->told, v);
     if (!isnan(validation_value(v, VALIDATION_KEY_NEEDED).value)) {
         next(s);
-        tell_needed(&s->told, v);
+        append_required_shear(&s->told, v);
     }
 }
 
@@ -392,10 +394,10 @@ static void say_validation_running_in(sentence *s, const table_view *v)
     if (v->table == NULL)
         return;
     next(s);
-    tell_running_in_verdict(&s->told, v);
+    append_running_in_verdict(&s->told, v);
     if (!isnan(validation_running_in_value(v, VALIDATION_RUNNING_IN_KEY_WEAR).value)) {
         next(s);
-        tell_wear_needed(&s->told, v);
+        append_required_wear(&s->told, v);
     }
 }
 
@@ -404,11 +406,11 @@ static void say_layer(sentence *s, const table_view *v)
     if (v->table == NULL)
         return;
     next(s);
-    tell_thickness(&s->told, &s->found);
-    const finding thickness = finding_of_thickness(&s->found);
+    append_thickness(&s->told, &s->found);
+    const result_value thickness = result_value_of_thickness(&s->found);
     if (thickness.number.value > 0 && isfinite(thickness.number.value))
         say(s, ", 90 %% of it after %s",
-            words_of_known(layer_value(v, LAYER_KEY_TIME_TO_90_PERCENT)).text);
+            format_known_estimate(layer_value(v, LAYER_KEY_TIME_TO_90_PERCENT)).text);
 }
 
 static void say_balance(sentence *s, const table_view *v)
@@ -416,7 +418,7 @@ static void say_balance(sentence *s, const table_view *v)
     if (v->table == NULL)
         return;
     next(s);
-    tell_balance(&s->told, v);
+    append_balance(&s->told, v);
 }
 
 size_t wt_result_sentence(const wt_result *result, char *buffer, size_t size)
@@ -448,7 +450,7 @@ size_t wt_result_sentence(const wt_result *result, char *buffer, size_t size)
     const locale_t previous = clocale_enter();
     if (size > 0)
         buffer[0] = '\0';
-    if (findings_bind(result, &s.found, NULL) != WT_OK) {
+    if (result_values_bind(result, &s.found, NULL) != WT_OK) {
         /* a table that lacks what it must have tells nothing, the others do */
     }
     for (size_t i = 0; i < sizeof parts / sizeof *parts; i++) {

@@ -77,7 +77,7 @@ static void find_able(flow_plan *plan, bool able[FLOW_N_STAGES])
 }
 
 /* What a stage is to be given, some of which may be out of reach. */
-static flow_things things_taken(const flow_plan *plan, size_t stage)
+static flow_things resources_used(const flow_plan *plan, size_t stage)
 {
     return flow_needs(plan, stage, plan->level[stage]) | flow_stages[stage].any;
 }
@@ -87,10 +87,10 @@ static flow_things things_taken(const flow_plan *plan, size_t stage)
 static bool is_better(const flow_plan *plan, size_t a, size_t b)
 {
     const flow_stage *s = &flow_stages[a], *t = &flow_stages[b];
-    const flow_things of_a = things_taken(plan, a), of_b = things_taken(plan, b);
-    const int more = flow_things_count(of_a) - flow_things_count(of_b);
-    const int idle = flow_things_count(s->gives & ~plan->required) -
-                     flow_things_count(t->gives & ~plan->required);
+    const flow_things of_a = resources_used(plan, a), of_b = resources_used(plan, b);
+    const int more = flow_resources_count(of_a) - flow_resources_count(of_b);
+    const int idle = flow_resources_count(s->gives & ~plan->required) -
+                     flow_resources_count(t->gives & ~plan->required);
     const bool same_way = (of_a & ~of_b) == 0 || (of_b & ~of_a) == 0;
     if (idle != 0 && (same_way || more == 0))
         return idle < 0;
@@ -98,7 +98,7 @@ static bool is_better(const flow_plan *plan, size_t a, size_t b)
 }
 
 /* Chooses the best stage that gives a thing, then what it needs. */
-static void choose_stage(flow_plan *plan, const bool able[FLOW_N_STAGES], flow_thing thing,
+static void choose_stage(flow_plan *plan, const bool able[FLOW_N_STAGES], flow_resource thing,
                          const char *because)
 {
     size_t best = FLOW_N_STAGES;
@@ -115,13 +115,13 @@ static void choose_stage(flow_plan *plan, const bool able[FLOW_N_STAGES], flow_t
     plan->chosen[best] = true;
     snprintf(plan->because[best], sizeof plan->because[best], "runs because %s", because);
     for (unsigned t = FLOW_FIRST_TABLE; t < FLOW_N_THINGS; t++) {
-        if (!(things_taken(plan, best) & FLOW_BIT(t)))
+        if (!(resources_used(plan, best) & FLOW_BIT(t)))
             continue;
         char reason[128];
         plan->required |= FLOW_BIT(t);
         snprintf(reason, sizeof reason, "%s needs its %s", flow_stages[best].id,
                  flow_thing_rows[t].words);
-        choose_stage(plan, able, (flow_thing)t, reason);
+        choose_stage(plan, able, (flow_resource)t, reason);
     }
 }
 
@@ -180,7 +180,7 @@ static void say_without(flow_plan *plan, size_t i)
     const unsigned level = plan->level[i];
     if (level == flow_stage_levels(i))
         return;
-    const flow_more *more = &flow_stages[i].more[level];
+    const flow_optional_input *more = &flow_stages[i].more[level];
     const size_t used = strlen(plan->because[i]);
     list_missing(missing_sources(plan, more->things), plan->without[i], sizeof plan->without[i]);
     snprintf(plan->because[i] + used, sizeof plan->because[i] - used, "; without %s, for %s",
@@ -222,7 +222,7 @@ void flow_plan_make(const wt_case *c, flow_plan *plan)
             snprintf(reason, sizeof reason, "the case has a record, which is held against it");
         else
             snprintf(reason, sizeof reason, "%s is asked for", flow_thing_rows[t].words);
-        choose_stage(plan, able, (flow_thing)t, reason);
+        choose_stage(plan, able, (flow_resource)t, reason);
     }
     for (size_t i = 0; i < FLOW_N_STAGES; i++)
         if (plan->chosen[i])
@@ -244,8 +244,8 @@ wt_status wt_plan(const wt_case *c, wt_table **result, wt_error *err)
     for (size_t i = 0; i < FLOW_N_STAGES; i++) {
         char title[160], needs[256], gives[256];
         flow_stage_title(i, plan.level[i], title, sizeof title);
-        flow_things_list(things_taken(&plan, i), needs, sizeof needs);
-        flow_things_list(flow_stages[i].gives, gives, sizeof gives);
+        flow_resources_list(resources_used(&plan, i), needs, sizeof needs);
+        flow_resources_list(flow_stages[i].gives, gives, sizeof gives);
         table_row(&t);
         plan_put_text(&t, PLAN_STAGE, flow_stages[i].id);
         plan_put_text(&t, PLAN_TITLE, title);

@@ -5,7 +5,7 @@
 
 #define B(thing) FLOW_BIT(FLOW_##thing)
 
-static const flow_more mores[FLOW_N_EXTRAS][FLOW_MOST_MORE] = {
+static const flow_optional_input mores[FLOW_N_EXTRAS][FLOW_MOST_MORE] = {
     [FLOW_BY_SPECTRUM] = {{B(RUBBER), ", by the spectrum of the material",
                            "the spectrum of the material"}},
     [FLOW_AT_ONE_RATE] = {{B(RUBBER), ", at one rate and temperature by the material",

@@ -6,7 +6,7 @@
 #include "case/resources.h"
 
 /* What a stage takes into account where it is to be had. */
-typedef enum flow_extra {
+typedef enum flow_optional_output {
     FLOW_NO_MORE,
     FLOW_BY_SPECTRUM,
     FLOW_AT_ONE_RATE,
@@ -17,7 +17,7 @@ typedef enum flow_extra {
     FLOW_AND_BALANCE,
     FLOW_AND_WEAR,
     FLOW_N_EXTRAS
-} flow_extra;
+} flow_optional_output;
 
 /* id, name, title, what it needs, of what it needs one at least (0: nothing of the kind) and takes
  * all there is, what it takes into account beside, what it gives, its function.
@@ -148,15 +148,16 @@ enum { FLOW_MOST_MORE = 2 };
 
 /* Whole or not at all: its things, the words behind the title of the stage, and in "without ...".
  */
-typedef struct flow_more {
+typedef struct flow_optional_input {
     flow_things things;
     const char *title, *words;
-} flow_more;
+} flow_optional_input;
 
 typedef struct flow_stage {
     const char *id, *title;
     flow_things needs, any;
-    const flow_more *more; /* FLOW_MOST_MORE, the second only with the first; no things: none */
+    const flow_optional_input
+        *more; /* FLOW_MOST_MORE, the second only with the first; no things: none */
     flow_things gives;
 } flow_stage;
 extern const flow_stage flow_stages[FLOW_N_STAGES];

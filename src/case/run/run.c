@@ -26,18 +26,18 @@ static const wt_param rows[] = {JOB_ROWS(wt_run_options)};
 PARAM_TABLE(wt_run_params, wt_run_options, rows, wt_run_defaults, NO_PARTS)
 
 /* One run with what it reports. */
-typedef struct conduct {
+typedef struct run_execution {
     flow_run run;
     flow_things have;
     wt_status failure; /* of the last stage that failed */
     wt_formats *formats;
-    wt_parselog *own_log;
+    wt_log *own_log;
     wt_result *result;
     wt_table *failures;
     wt_cost *cost;
-    wt_drawn *drawn;
+    wt_material_cache *drawn;
     wt_sweep dma;
-} conduct;
+} run_execution;
 
 /* ---- one stage ------------------------------------------------------------------------------- */
 
@@ -45,7 +45,7 @@ typedef struct conduct {
 static wt_status (*const steps[FLOW_N_STAGES])(flow_run *, wt_error *) = {STAGES(STEP)};
 
 /* Whether a stage that was not chosen must stand in for a fuller one that did not succeed. */
-static bool stands_in(const conduct *d, size_t i)
+static bool stands_in(const run_execution *d, size_t i)
 {
     const flow_plan *plan = &d->run.plan;
     flow_things lacking = flow_stages[i].gives & plan->required & ~d->have;
@@ -58,7 +58,8 @@ static bool stands_in(const conduct *d, size_t i)
     return false;
 }
 
-static wt_status report_progress(const conduct *d, size_t stage, const char *what, wt_error *err)
+static wt_status report_progress(const run_execution *d, size_t stage, const char *what,
+                                 wt_error *err)
 {
     const wt_progress *progress = &d->run.job.progress;
     size_t number = 0, n = 0;
@@ -72,7 +73,7 @@ static wt_status report_progress(const conduct *d, size_t stage, const char *wha
 }
 
 /* Stages that fail for one reason make one row. */
-static bool is_listed(const conduct *d, const wt_error *failure)
+static bool is_listed(const run_execution *d, const wt_error *failure)
 {
     char message[2048];
     wt_error_format(failure, message, sizeof message);
@@ -83,12 +84,13 @@ static bool is_listed(const conduct *d, const wt_error *failure)
 }
 
 /* Where there are no data, less of it makes none. */
-static bool is_tried_again(const conduct *d, unsigned level)
+static bool is_tried_again(const run_execution *d, unsigned level)
 {
     return level > 0 && d->failure != WT_E_EMPTY;
 }
 
-static wt_status run_stage(conduct *d, size_t i, unsigned level, const char *because, wt_error *err)
+static wt_status run_stage(run_execution *d, size_t i, unsigned level, const char *because,
+                           wt_error *err)
 {
     wt_error failure = WT_ERROR_INIT;
     flow_plan *plan = &d->run.plan;
@@ -106,7 +108,7 @@ static wt_status run_stage(conduct *d, size_t i, unsigned level, const char *bec
         d->have |= flow_stages[i].gives & ~plan->unmeasured;
         return WT_OK;
     }
-    if (!flow_goes_on(&d->run.job, status)) {
+    if (!flow_may_continue(&d->run.job, status)) {
         if (err != NULL)
             *err = failure;
         return status;
@@ -123,14 +125,14 @@ static wt_status run_stage(conduct *d, size_t i, unsigned level, const char *bec
 }
 
 /* Whether what a stage lacks is not in the files. */
-static bool is_unmeasured(const conduct *d, size_t i, unsigned level)
+static bool is_unmeasured(const run_execution *d, size_t i, unsigned level)
 {
     const flow_plan *plan = &d->run.plan;
     return (flow_needs(plan, i, level) & ~d->have & plan->unmeasured) != 0;
 }
 
 /* A stage as full as it can be; what fails so is tried with less. */
-static wt_status run_fullest(conduct *d, size_t i, const char *because, wt_error *err)
+static wt_status run_fullest(run_execution *d, size_t i, const char *because, wt_error *err)
 {
     flow_plan *plan = &d->run.plan;
     unsigned level = plan->level[i];
@@ -157,7 +159,7 @@ static wt_status run_fullest(conduct *d, size_t i, const char *because, wt_error
     return status;
 }
 
-static wt_status consider_stage(conduct *d, size_t i, wt_error *err)
+static wt_status consider_stage(run_execution *d, size_t i, wt_error *err)
 {
     flow_plan *plan = &d->run.plan;
     char missing[160], because[320];
@@ -176,7 +178,7 @@ static wt_status consider_stage(conduct *d, size_t i, wt_error *err)
     } else {
         plan->outcome[i] = FLOW_BLOCKED;
         const flow_things needs = flow_needs(plan, i, 0) | flow_stages[i].any;
-        flow_things_list(needs & ~d->have, missing, sizeof missing);
+        flow_resources_list(needs & ~d->have, missing, sizeof missing);
         snprintf(because, sizeof because, "left out because a stage before failed to give its %s",
                  missing);
     }
@@ -187,7 +189,7 @@ static wt_status consider_stage(conduct *d, size_t i, wt_error *err)
 /* ---- tables ---------------------------------------------------------------------------------- */
 
 /* Moves a table into the result. */
-static wt_status publish_table(conduct *d, wt_table **table, wt_error *err)
+static wt_status publish_table(run_execution *d, wt_table **table, wt_error *err)
 {
     if (*table == NULL)
         return WT_OK;
@@ -197,7 +199,7 @@ static wt_status publish_table(conduct *d, wt_table **table, wt_error *err)
 }
 
 /* The tables of the stages in the order of their declaration; what nobody asked for stays out. */
-static wt_status publish_stages(conduct *d, wt_error *err)
+static wt_status publish_stages(run_execution *d, wt_error *err)
 {
     flow_run *r = &d->run;
     const flow_things curves = FLOW_BIT(FLOW_CURVE_BULK) | FLOW_BIT(FLOW_CURVE_TRACK);
@@ -225,7 +227,7 @@ static wt_status publish_stages(conduct *d, wt_error *err)
 }
 
 /* The same bytes under two names count twice in a statistic. */
-static void warn_of_copies(const conduct *d)
+static void warn_of_copies(const run_execution *d)
 {
     const wt_provenance *p = wt_result_provenance_const(d->result);
     size_t n = wt_provenance_n_inputs(p);
@@ -235,13 +237,13 @@ static void warn_of_copies(const conduct *d)
             const wt_provenance_input *b = wt_provenance_get_input(p, k);
             const bool again = strcmp(a->path, b->path) == 0 && strcmp(a->role, b->role) == 0;
             if (!again && a->bytes == b->bytes && a->fingerprint == b->fingerprint)
-                wt_parselog_add(d->run.job.log, WT_WARNING, b->path, NULL,
-                                "the same bytes as %s (%s and %s)", a->path, a->role, b->role);
+                wt_log_add(d->run.job.log, WT_WARNING, b->path, NULL,
+                           "the same bytes as %s (%s and %s)", a->path, a->role, b->role);
         }
     }
 }
 
-static wt_status finish_result(conduct *d, wt_error *err)
+static wt_status finish_result(run_execution *d, wt_error *err)
 {
     wt_table *answer = NULL, *inputs = NULL, *methods = NULL, *notes = NULL, *cost = NULL;
     wt_table **const last[] = {&answer, &inputs, &methods, &notes, &d->failures, &cost};
@@ -323,7 +325,7 @@ static unsigned find_left_out(const flow_plan *plan, const wt_run_options *optio
     return left_out;
 }
 
-static wt_status add_case(conduct *d, wt_error *err)
+static wt_status add_case(run_execution *d, wt_error *err)
 {
     const wt_case *c = d->run.c;
     wt_provenance_input input = {.path = wt_path_base(c->path),
@@ -337,18 +339,18 @@ static wt_status add_case(conduct *d, wt_error *err)
     return wt_result_set_case(d->result, c->xml, c->xml_length, err);
 }
 
-static wt_status prepare_run(conduct *d, const wt_run_options *options, wt_parselog *log,
+static wt_status prepare_run(run_execution *d, const wt_run_options *options, wt_log *log,
                              wt_error *err)
 {
     if (log == NULL)
-        log = d->own_log = wt_parselog_new();
+        log = d->own_log = wt_log_new();
     d->run.no_provenance = options->no_provenance;
     d->run.trials = options->trials;
     d->run.precision = options->precision;
     d->result = wt_result_new();
     d->failures = wt_failures_new();
     d->cost = wt_cost_new(!options->no_provenance, options->threads);
-    d->drawn = drawn_new();
+    d->drawn = material_cache_new();
     if (log == NULL || d->result == NULL || d->failures == NULL || d->cost == NULL ||
         d->drawn == NULL)
         return wt_fail(err, WT_E_MEMORY, "out of memory");
@@ -371,13 +373,13 @@ static wt_status prepare_run(conduct *d, const wt_run_options *options, wt_parse
     return status == WT_OK ? add_case(d, err) : status;
 }
 
-wt_status wt_run(const wt_case *c, const wt_run_options *options, wt_parselog *log,
-                 wt_result **result, size_t *n_failed, wt_error *err)
+wt_status wt_run(const wt_case *c, const wt_run_options *options, wt_log *log, wt_result **result,
+                 size_t *n_failed, wt_error *err)
 {
     if (c == NULL || result == NULL)
         return wt_fail(err, WT_E_ARG, "no case");
     wt_run_options defaults = wt_run_defaults();
-    conduct d = {.run = {.c = c, .layer = c->layer}};
+    run_execution d = {.run = {.c = c, .layer = c->layer}};
     if (options == NULL)
         options = &defaults;
     wt_status status = param_check(wt_run_params(), options, err);
@@ -406,8 +408,8 @@ wt_status wt_run(const wt_case *c, const wt_run_options *options, wt_parselog *l
     wt_result_free(d.result);
     wt_table_free(d.failures);
     wt_cost_free(d.cost);
-    drawn_free(d.drawn);
+    material_cache_free(d.drawn);
     wt_sweep_clear(&d.dma);
-    wt_parselog_free(d.own_log);
+    wt_log_free(d.own_log);
     return status;
 }

@@ -18,11 +18,11 @@ void flow_run_clear(flow_run *run)
     wt_rubber_clear(&run->rubber);
     wt_rubber_clear(&run->layer_rubber);
     wt_surface_clear(&run->surface);
-    wt_softness_clear(&run->softness);
+    wt_strain_softening_clear(&run->softness);
     *run = (flow_run){0};
 }
 
-void flow_run_keep(flow_run *run, flow_thing thing, wt_table **table)
+void flow_run_store_table(flow_run *run, flow_resource thing, wt_table **table)
 {
     wt_table_free(run->table[thing]);
     run->table[thing] = *table;
@@ -32,7 +32,7 @@ void flow_run_keep(flow_run *run, flow_thing thing, wt_table **table)
 /* What a stage costs whose job does not say it. */
 static void say_items(const flow_run *run, const wt_table *table)
 {
-    cost_say(&run->job, (cost_summary){.items = (double)wt_table_n_rows(table)});
+    cost_report(&run->job, (cost_summary){.items = (double)wt_table_n_rows(table)});
 }
 
 /* ---- indentation ----------------------------------------------------------------------------- */
@@ -47,7 +47,7 @@ static wt_estimate indented_at(const wt_case *c, int g)
 
 static wt_status indent_group(flow_run *run, int g, wt_error *err)
 {
-    static const flow_thing curve[2] = {FLOW_CURVE_BULK, FLOW_CURVE_TRACK};
+    static const flow_resource curve[2] = {FLOW_CURVE_BULK, FLOW_CURVE_TRACK};
     static const char *const names[2] = {"bulk", "track"};
     const case_files *files = g == 0 ? &run->c->bulk : &run->c->track;
     wt_indent_job job = run->c->indent;
@@ -71,8 +71,8 @@ static wt_status indent_group(flow_run *run, int g, wt_error *err)
             return wt_fail(err, WT_E_MEMORY, "out of memory for the curves");
     }
     wt_status status = wt_indent_group(&job, &run->job, &run->curves, err);
-    flow_run_keep(run, g == 0 ? FLOW_INDENTATION_BULK : FLOW_INDENTATION_TRACK,
-                  &run->curves.indentation);
+    flow_run_store_table(run, g == 0 ? FLOW_INDENTATION_BULK : FLOW_INDENTATION_TRACK,
+                         &run->curves.indentation);
     return status;
 }
 
@@ -100,10 +100,10 @@ static wt_status compare_groups(flow_run *run, bool groups_only, wt_error *err)
     wt_status status = wt_compare_groups(&job, &run->job, &tables, err);
     if (status == WT_OK)
         say_items(run, tables.modulus_groups);
-    flow_run_keep(run, FLOW_MODULUS_GROUPS, &tables.modulus_groups);
-    flow_run_keep(run, FLOW_MODULUS_BUDGET, &tables.modulus_budget);
-    flow_run_keep(run, FLOW_COMPARISON, &tables.comparison);
-    flow_run_keep(run, FLOW_MODULUS_RATE, &tables.modulus_rate);
+    flow_run_store_table(run, FLOW_MODULUS_GROUPS, &tables.modulus_groups);
+    flow_run_store_table(run, FLOW_MODULUS_BUDGET, &tables.modulus_budget);
+    flow_run_store_table(run, FLOW_COMPARISON, &tables.comparison);
+    flow_run_store_table(run, FLOW_MODULUS_RATE, &tables.modulus_rate);
     wt_compare_tables_clear(&tables); /* the stage of the DMA makes its own */
     return status;
 }
@@ -122,7 +122,7 @@ wt_status flow_step_compare(flow_run *run, wt_error *err)
     run->modulus_ratio_df = isnan(df) ? 0 : df;
     const double share = comparison_value(&comparison, COMPARISON_KEY_CALIBRATION_SHARE).value;
     run->calibration_share = isnan(share) ? 0 : share;
-    cost_say(&run->job, (cost_summary){.items = 2, .number = run->modulus_ratio});
+    cost_report(&run->job, (cost_summary){.items = 2, .number = run->modulus_ratio});
     return WT_OK;
 }
 
@@ -150,7 +150,7 @@ wt_status flow_step_dma_comparison(flow_run *run, wt_error *err)
                     "the curves tell no indentation rate, so no frequency corresponds to them");
     if (status == WT_OK) {
         say_items(run, tables.dma_comparison);
-        flow_run_keep(run, FLOW_DMA_COMPARISON, &tables.dma_comparison);
+        flow_run_store_table(run, FLOW_DMA_COMPARISON, &tables.dma_comparison);
     }
     wt_compare_tables_clear(&tables);
     return status;
@@ -161,7 +161,7 @@ wt_status flow_step_given_ratio(flow_run *run, wt_error *err)
     (void)err;
     run->modulus_ratio = run->c->known.modulus_ratio;
     run->modulus_ratio_df = run->c->known.modulus_ratio_df;
-    cost_say(&run->job, (cost_summary){.items = 1, .number = run->modulus_ratio});
+    cost_report(&run->job, (cost_summary){.items = 1, .number = run->modulus_ratio});
     return WT_OK;
 }
 
@@ -185,13 +185,13 @@ wt_status flow_step_master(flow_run *run, wt_error *err)
     wt_master_tables tables = {0};
     const wt_status status = read_master(run->c, &run->job, &tables, &run->rubber, err);
     flow_run_set_direction(run);
-    flow_run_keep(run, FLOW_SHIFT_FACTORS, &tables.shift_factors);
-    flow_run_keep(run, FLOW_MASTER_CURVE, &tables.master_curve);
-    flow_run_keep(run, FLOW_PRONY, &tables.prony);
-    flow_run_keep(run, FLOW_PRONY_REDUCED, &tables.prony_reduced);
-    flow_run_keep(run, FLOW_RELAXATION_SPECTRUM, &tables.relaxation_spectrum);
-    flow_run_keep(run, FLOW_MATERIAL_DRAWS, &tables.material_draws);
-    flow_run_keep(run, FLOW_SERIES_DRAWS, &tables.series_draws);
+    flow_run_store_table(run, FLOW_SHIFT_FACTORS, &tables.shift_factors);
+    flow_run_store_table(run, FLOW_MASTER_CURVE, &tables.master_curve);
+    flow_run_store_table(run, FLOW_PRONY, &tables.prony);
+    flow_run_store_table(run, FLOW_PRONY_REDUCED, &tables.prony_reduced);
+    flow_run_store_table(run, FLOW_RELAXATION_SPECTRUM, &tables.relaxation_spectrum);
+    flow_run_store_table(run, FLOW_MATERIAL_DRAWS, &tables.material_draws);
+    flow_run_store_table(run, FLOW_SERIES_DRAWS, &tables.series_draws);
     wt_master_tables_clear(&tables); /* the fit */
     return status;
 }
@@ -238,9 +238,9 @@ wt_status flow_step_ramp(flow_run *run, wt_error *err)
     }
     const wt_status status = wt_ramp_make(&job, &work, &tables, err);
     wt_table_free(again);
-    flow_run_keep(run, FLOW_RAMP, &tables.ramp);
-    flow_run_keep(run, FLOW_GLASS_TRANSITION, &tables.glass_transition);
-    flow_run_keep(run, FLOW_MODULI_AT, &tables.moduli_at);
+    flow_run_store_table(run, FLOW_RAMP, &tables.ramp);
+    flow_run_store_table(run, FLOW_GLASS_TRANSITION, &tables.glass_transition);
+    flow_run_store_table(run, FLOW_MODULI_AT, &tables.moduli_at);
     return status;
 }
 
@@ -251,8 +251,8 @@ wt_status flow_step_payne(flow_run *run, wt_error *err)
     job.sets = run->c->dma.sets;
     job.n_sets = run->c->dma.n;
     const wt_status status = wt_payne_make(&job, &run->job, &tables, err);
-    flow_run_keep(run, FLOW_PAYNE, &tables.payne);
-    flow_run_keep(run, FLOW_PAYNE_SWEEP, &tables.payne_sweep);
+    flow_run_store_table(run, FLOW_PAYNE, &tables.payne);
+    flow_run_store_table(run, FLOW_PAYNE_SWEEP, &tables.payne_sweep);
     return status;
 }
 
@@ -264,9 +264,9 @@ static wt_status make_record(flow_run *run, wt_record_job job, wt_error *err)
     job.sets = run->c->record.sets;
     job.n_sets = run->c->record.n;
     const wt_status status = wt_record_make(&job, &run->job, &tables, err);
-    flow_run_keep(run, FLOW_RECORD, &tables.record);
-    flow_run_keep(run, FLOW_RECORD_CYCLES, &tables.record_cycles);
-    flow_run_keep(run, FLOW_WEAR, &tables.wear);
+    flow_run_store_table(run, FLOW_RECORD, &tables.record);
+    flow_run_store_table(run, FLOW_RECORD_CYCLES, &tables.record_cycles);
+    flow_run_store_table(run, FLOW_WEAR, &tables.wear);
     return status;
 }
 
@@ -292,8 +292,8 @@ static wt_status leave_wear_out(flow_run *run, const char *lacks, wt_error *err)
     }
     run->plan.unmeasured |= FLOW_BIT(FLOW_WEAR);
     snprintf(run->plan.why_unmeasured, sizeof run->plan.why_unmeasured, "%s; %s", lacks, advice);
-    wt_parselog_add(run->job.log, WT_WARNING, NULL, NULL, "the layer is left out, for %s",
-                    run->plan.why_unmeasured);
+    wt_log_add(run->job.log, WT_WARNING, NULL, NULL, "the layer is left out, for %s",
+               run->plan.why_unmeasured);
     return WT_OK;
 }
 
@@ -341,7 +341,7 @@ wt_status flow_step_layer(flow_run *run, wt_error *err)
     if (status != WT_OK)
         return status;
     run->thickness = tables.thickness;
-    flow_run_keep(run, FLOW_LAYER, &tables.layer);
+    flow_run_store_table(run, FLOW_LAYER, &tables.layer);
     return WT_OK;
 }
 
@@ -367,16 +367,16 @@ wt_status flow_step_energy_density(flow_run *run, wt_error *err)
 }
 
 /* A layer of its own material has no ratio, whatever was indented, and no other stands in. */
-static wt_status known_by_material(const flow_run *run, wt_layer_known *known, wt_error *err)
+static wt_status known_by_material(const flow_run *run, wt_layer_observation *known, wt_error *err)
 {
-    known->modulus_ratio = wt_layer_known_defaults().modulus_ratio;
+    known->modulus_ratio = wt_layer_observation_defaults().modulus_ratio;
     known->modulus_ratio_df = known->calibration_share = 0;
     return run->has_layer_rubber
                ? WT_OK
                : wt_fail(err, WT_E_MISSING, "the material of the layer is not known");
 }
 
-wt_status flow_run_known_layer(const flow_run *run, wt_layer_known *known, wt_error *err)
+wt_status flow_run_known_layer(const flow_run *run, wt_layer_observation *known, wt_error *err)
 {
     *known = run->c->known;
     known->shear = &run->layer.shear;
@@ -389,8 +389,8 @@ wt_status flow_run_known_layer(const flow_run *run, wt_layer_known *known, wt_er
     if (!isnan(known->modulus_ratio.value) && known->by_rate) {
         if (isnan(known->ratio_temperature))
             known->ratio_temperature = run->c->compare.temperature.value;
-        return wt_layer_known_by_rate(run->table[FLOW_COMPARISON], run->table[FLOW_MODULUS_RATE],
-                                      known, err);
+        return wt_layer_observation_by_rate(run->table[FLOW_COMPARISON],
+                                            run->table[FLOW_MODULUS_RATE], known, err);
     }
     if (!isnan(known->modulus_ratio.value))
         return WT_OK;
@@ -410,13 +410,13 @@ wt_status flow_step_friction(flow_run *run, wt_error *err)
 {
     wt_sliding sliding = flow_run_sliding(run);
     wt_friction_tables tables = {0};
-    wt_layer_known layer;
+    wt_layer_observation layer;
     wt_status status = run->level > 0 ? flow_run_known_layer(run, &layer, err) : WT_OK;
     if (status == WT_OK)
         status =
             wt_friction_make(&sliding, run->level > 0 ? &layer : NULL, &run->job, &tables, err);
     if (status == WT_OK)
-        flow_run_keep(run, FLOW_FRICTION, &tables.friction);
+        flow_run_store_table(run, FLOW_FRICTION, &tables.friction);
     return status;
 }
 
@@ -441,7 +441,7 @@ wt_status flow_step_anisotropy(flow_run *run, wt_error *err)
 wt_status flow_step_friction_map(flow_run *run, wt_error *err)
 {
     const wt_sliding sliding = flow_run_sliding(run);
-    wt_layer_known layer;
+    wt_layer_observation layer;
     const bool layered = run->c->has_layer && flow_run_known_layer(run, &layer, NULL) == WT_OK;
     return wt_friction_map_make(&sliding, layered ? &layer : NULL, &run->job,
                                 &run->table[FLOW_FRICTION_MAP], err);
@@ -450,7 +450,7 @@ wt_status flow_step_friction_map(flow_run *run, wt_error *err)
 wt_status flow_step_friction_decades(flow_run *run, wt_error *err)
 {
     const wt_sliding sliding = flow_run_sliding(run);
-    wt_layer_known layer;
+    wt_layer_observation layer;
     const bool layered = run->c->has_layer && flow_run_known_layer(run, &layer, NULL) == WT_OK;
     return wt_friction_decades_make(&sliding, layered ? &layer : NULL, &run->job,
                                     &run->table[FLOW_FRICTION_DECADES], err);
@@ -467,9 +467,9 @@ wt_status flow_step_flash_effect(flow_run *run, wt_error *err)
 
 /* What a stage takes into account beside friction: the layer, then what is known of it. */
 typedef struct layer_parts {
-    const wt_layer_job *layer;   /* or NULL */
-    const wt_layer_known *known; /* or NULL */
-    wt_layer_known storage;
+    const wt_layer_job *layer;         /* or NULL */
+    const wt_layer_observation *known; /* or NULL */
+    wt_layer_observation storage;
 } layer_parts;
 
 static wt_status take_layer(const flow_run *run, layer_parts *parts, wt_error *err)

@@ -16,7 +16,7 @@ typedef struct flow_run {
     wt_rubber rubber, layer_rubber;
     bool has_layer_rubber;
     wt_surface surface;
-    wt_softness softness;
+    wt_strain_softening softness;
     wt_layer_job layer; /* of the case, with the wear rate as measured where it gives none */
     wt_estimate modulus_ratio, thickness;
     double modulus_ratio_df;  /* 0 = its error is normal */
@@ -36,11 +36,11 @@ void flow_run_set_direction(flow_run *run);
 /* The sliding contact of a run so far, and what is known of its layer: WT_E_MISSING without a
  * modulus ratio, as a comparison that cannot say leaves none. */
 wt_sliding flow_run_sliding(const flow_run *run);
-wt_status flow_run_known_layer(const flow_run *run, wt_layer_known *known,
+wt_status flow_run_known_layer(const flow_run *run, wt_layer_observation *known,
                                wt_error *err) WT_NODISCARD;
 
 /* Moves a table into the run; one that a stage left there before goes. */
-void flow_run_keep(flow_run *run, flow_thing thing, wt_table **table);
+void flow_run_store_table(flow_run *run, flow_resource thing, wt_table **table);
 
 /* Adds to advice that names an option how a case says it. */
 void flow_case_advice(wt_error *failure);

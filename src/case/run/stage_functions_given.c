@@ -166,19 +166,19 @@ wt_status flow_step_given_softening(flow_run *run, wt_error *err)
     flow_file file;
     wt_status status = given_file(&run->c->softening, &file, &path, err);
     if (status == WT_OK)
-        status = wt_softness_read(path, file.name, wt_softness_choice_defaults(), &run->job,
-                                  &run->softness, err);
+        status = wt_strain_softening_read(path, file.name, wt_strain_softening_choice_defaults(),
+                                          &run->job, &run->softness, err);
     if (status == WT_OK)
-        cost_say(&run->job, (cost_summary){.items = (double)run->softness.table.n});
+        cost_report(&run->job, (cost_summary){.items = (double)run->softness.table.n});
     free(path);
     return status;
 }
 
 wt_status flow_step_swept_softening(flow_run *run, wt_error *err)
 {
-    const wt_status status = wt_softness_from_table(
-        run->table[FLOW_PAYNE_SWEEP], wt_softness_choice_defaults(), &run->softness, err);
+    const wt_status status = wt_strain_softening_from_table(
+        run->table[FLOW_PAYNE_SWEEP], wt_strain_softening_choice_defaults(), &run->softness, err);
     if (status == WT_OK)
-        cost_say(&run->job, (cost_summary){.items = (double)run->softness.table.n});
+        cost_report(&run->job, (cost_summary){.items = (double)run->softness.table.n});
     return status;
 }

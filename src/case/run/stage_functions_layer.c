@@ -14,7 +14,7 @@ wt_status flow_step_layer_bands(flow_run *run, wt_error *err)
 wt_status flow_step_running_in(flow_run *run, wt_error *err)
 {
     const wt_sliding sliding = flow_run_sliding(run);
-    wt_layer_known known;
+    wt_layer_observation known;
     const wt_status status = flow_run_known_layer(run, &known, err);
     return status == WT_OK ? wt_running_in_make(&sliding, &run->layer, &known, &run->job,
                                                 &run->table[FLOW_RUNNING_IN], err)
@@ -24,7 +24,7 @@ wt_status flow_step_running_in(flow_run *run, wt_error *err)
 wt_status flow_step_layer_balances(flow_run *run, wt_error *err)
 {
     const wt_sliding sliding = flow_run_sliding(run);
-    wt_layer_known known;
+    wt_layer_observation known;
     const wt_status status = flow_run_known_layer(run, &known, err);
     return status == WT_OK ? wt_layer_balances_make(&sliding, &run->layer, &known, &run->job,
                                                     &run->table[FLOW_LAYER_BALANCES], err)
@@ -34,7 +34,7 @@ wt_status flow_step_layer_balances(flow_run *run, wt_error *err)
 wt_status flow_step_existence(flow_run *run, wt_error *err)
 {
     const wt_sliding sliding = flow_run_sliding(run);
-    wt_layer_known known;
+    wt_layer_observation known;
     const wt_status status = run->level > 0 ? flow_run_known_layer(run, &known, err) : WT_OK;
     return status == WT_OK
                ? wt_existence_make(&sliding, &run->layer, run->level > 0 ? &known : NULL, &run->job,

@@ -6,7 +6,7 @@
 wt_status flow_step_validation(flow_run *run, wt_error *err)
 {
     const wt_sliding sliding = flow_run_sliding(run);
-    wt_layer_known layer;
+    wt_layer_observation layer;
     wt_validation_tables tables = {0};
     wt_validation_job job = run->c->validation;
     wt_status status = run->level > 0 ? flow_run_known_layer(run, &layer, err) : WT_OK;
@@ -19,16 +19,16 @@ wt_status flow_step_validation(flow_run *run, wt_error *err)
     job.what_if = run->table[FLOW_WHAT_IF];
     if (status == WT_OK)
         status = wt_validation_make(&job, &run->job, &tables, err);
-    flow_run_keep(run, FLOW_VALIDATION, &tables.validation);
-    flow_run_keep(run, FLOW_VALIDATION_CHOICES, &tables.choices);
-    flow_run_keep(run, FLOW_VALIDATION_SOURCES, &tables.sources);
+    flow_run_store_table(run, FLOW_VALIDATION, &tables.validation);
+    flow_run_store_table(run, FLOW_VALIDATION_CHOICES, &tables.choices);
+    flow_run_store_table(run, FLOW_VALIDATION_SOURCES, &tables.sources);
     return status;
 }
 
 wt_status flow_step_validation_running_in(flow_run *run, wt_error *err)
 {
     const wt_sliding sliding = flow_run_sliding(run);
-    wt_layer_known layer;
+    wt_layer_observation layer;
     wt_running_in_tables tables = {0};
     wt_validation_job job = run->c->validation;
     wt_status status = flow_run_known_layer(run, &layer, err);
@@ -40,7 +40,7 @@ wt_status flow_step_validation_running_in(flow_run *run, wt_error *err)
     job.wear = run->table[FLOW_WEAR];
     if (status == WT_OK)
         status = wt_validation_running_in_make(&job, &run->job, &tables, err);
-    flow_run_keep(run, FLOW_VALIDATION_RUNNING_IN, &tables.running_in);
-    flow_run_keep(run, FLOW_VALIDATION_COURSE, &tables.course);
+    flow_run_store_table(run, FLOW_VALIDATION_RUNNING_IN, &tables.running_in);
+    flow_run_store_table(run, FLOW_VALIDATION_COURSE, &tables.course);
     return status;
 }

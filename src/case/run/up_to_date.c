@@ -97,7 +97,7 @@ static void compare_file(comparison *k, const flow_file *file, const wt_provenan
  * is there now. `seen` counts those that were read. */
 static wt_status compare_files(comparison *k, const case_files *role, size_t *seen, wt_error *err)
 {
-    wt_parselog *log = wt_parselog_new();
+    wt_log *log = wt_log_new();
     wt_table *failures = wt_failures_new();
     const wt_job work = {.log = log, .failures = failures};
     flow_files files = {0};
@@ -118,7 +118,7 @@ static wt_status compare_files(comparison *k, const case_files *role, size_t *se
         differs(k, "a file that it was made of is gone");
     flow_files_clear(&files);
     wt_table_free(failures);
-    wt_parselog_free(log);
+    wt_log_free(log);
     return status;
 }
 

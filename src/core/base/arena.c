@@ -6,7 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-void *pool_alloc(pool *memory, size_t n, size_t size)
+void *arena_alloc(arena *memory, size_t n, size_t size)
 {
     void **blocks = array_grow(memory->blocks, memory->n, sizeof *blocks);
     memory->blocks = blocks != NULL ? blocks : memory->blocks;
@@ -18,23 +18,23 @@ void *pool_alloc(pool *memory, size_t n, size_t size)
     return block;
 }
 
-double *pool_numbers(pool *memory, size_t n)
+double *arena_numbers(arena *memory, size_t n)
 {
-    return pool_alloc(memory, n, sizeof(double));
+    return arena_alloc(memory, n, sizeof(double));
 }
 
-char *pool_text(pool *memory, const char *text, size_t length)
+char *arena_text(arena *memory, const char *text, size_t length)
 {
-    char *copy = pool_alloc(memory, length + 1, 1);
+    char *copy = arena_alloc(memory, length + 1, 1);
     if (copy != NULL && length > 0)
         memcpy(copy, text, length);
     return copy;
 }
 
-void pool_free(pool *memory)
+void arena_free(arena *memory)
 {
     for (size_t i = 0; i < memory->n; i++)
         free(memory->blocks[i]);
     free(memory->blocks);
-    *memory = (pool){0};
+    *memory = (arena){0};
 }

@@ -9,17 +9,17 @@
 #include <stddef.h>
 
 /* Zero-initialised is empty. */
-typedef struct pool {
+typedef struct arena {
     void **blocks;
     size_t n;
     bool failed; /* an allocation did, so that several need one check */
-} pool;
+} arena;
 
 /* n zeroed items; NULL when out of memory. */
-void *pool_alloc(pool *memory, size_t n, size_t size);
-double *pool_numbers(pool *memory, size_t n);
+void *arena_alloc(arena *memory, size_t n, size_t size);
+double *arena_numbers(arena *memory, size_t n);
 /* A copy with a terminating zero. */
-char *pool_text(pool *memory, const char *text, size_t length);
-void pool_free(pool *memory);
+char *arena_text(arena *memory, const char *text, size_t length);
+void arena_free(arena *memory);
 
 #endif

@@ -16,7 +16,7 @@ typedef struct log_entry {
     size_t count;
 } log_entry;
 
-struct wt_parselog {
+struct wt_log {
     log_entry **entries; /* in the order they came */
     size_t n;
     void *tree; /* the same entries for tsearch */
@@ -52,12 +52,12 @@ const char *wt_severity_name(wt_severity severity)
     return severity == WT_NOTE ? "note" : severity == WT_WARNING ? "warning" : "loss";
 }
 
-wt_parselog *wt_parselog_new(void)
+wt_log *wt_log_new(void)
 {
-    return calloc(1, sizeof(wt_parselog));
+    return calloc(1, sizeof(wt_log));
 }
 
-void wt_parselog_free(wt_parselog *log)
+void wt_log_free(wt_log *log)
 {
     if (log == NULL)
         return;
@@ -69,7 +69,7 @@ void wt_parselog_free(wt_parselog *log)
 }
 
 /* Adds a text, which it copies. */
-static bool add(wt_parselog *log, wt_severity severity, const char *file, const char *place,
+static bool add(wt_log *log, wt_severity severity, const char *file, const char *place,
                 const char *text)
 {
     log_entry *new_entry = calloc(1, sizeof *new_entry);
@@ -97,8 +97,8 @@ static bool add(wt_parselog *log, wt_severity severity, const char *file, const 
     return found != NULL;
 }
 
-void wt_parselog_add(wt_parselog *log, wt_severity severity, const char *file, const char *place,
-                     const char *format, ...)
+void wt_log_add(wt_log *log, wt_severity severity, const char *file, const char *place,
+                const char *format, ...)
 {
     if (log == NULL)
         return;
@@ -119,18 +119,18 @@ void wt_parselog_add(wt_parselog *log, wt_severity severity, const char *file, c
     free(text);
 }
 
-size_t wt_parselog_count(const wt_parselog *log)
+size_t wt_log_count(const wt_log *log)
 {
     return log != NULL ? log->n : 0;
 }
 
-wt_log_entry wt_parselog_get(const wt_parselog *log, size_t i)
+wt_log_entry wt_log_get(const wt_log *log, size_t i)
 {
     const log_entry *const e = log->entries[i];
     return (wt_log_entry){e->severity, e->file, e->place, e->text, e->count};
 }
 
-size_t wt_parselog_lost(const wt_parselog *log)
+size_t wt_log_dropped(const wt_log *log)
 {
     return log != NULL ? log->lost : 0;
 }

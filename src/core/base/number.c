@@ -124,9 +124,9 @@ double number_to_tens(double value, int decimals)
     return decimals < 0 ? tens * round(value / tens) : value;
 }
 
-chance_words number_chance(double chance)
+probability_text number_chance(double chance)
 {
-    chance_words words;
+    probability_text words;
     clocale_print(words.text, sizeof words.text,
                   isnan(chance)   ? "not known"
                   : chance < 1e-3 ? "below 0.001"

@@ -16,9 +16,9 @@ bool number_read(const char *text, size_t length, double *value);
  * else as it is, for the text to round. */
 double number_to_tens(double value, int decimals);
 /* A probability in a sentence: "0.02", "below 0.001" where more digits tell nobody more. */
-typedef struct chance_words {
+typedef struct probability_text {
     char text[16];
-} chance_words;
-chance_words number_chance(double chance);
+} probability_text;
+probability_text number_chance(double chance);
 
 #endif

@@ -217,22 +217,22 @@ static size_t n_choices(const wt_param *param)
 /* What a technician calls the form of a table that a spreadsheet opens. */
 static bool is_spreadsheet(const char *text, size_t length)
 {
-    nearest_name near = nearest_to(text, length);
-    nearest_try(&near, "excel", sizeof "excel" - 1);
-    nearest_try(&near, "xlsx", sizeof "xlsx" - 1);
+    spell_suggestion near = nearest_to(text, length);
+    spell_suggestion_try(&near, "excel", sizeof "excel" - 1);
+    spell_suggestion_try(&near, "xlsx", sizeof "xlsx" - 1);
     return near.name != NULL;
 }
 
 static wt_status read_choice(const slot *s, const char *choices, const char *text, wt_error *err)
 {
     const size_t length = strlen(text);
-    nearest_name near = nearest_to(text, length);
+    spell_suggestion near = nearest_to(text, length);
     unsigned i = 0;
     for (const char *p = choices;; i++) {
         const size_t word = strcspn(p, "|");
         if (word == length && strncmp(p, text, word) == 0)
             break;
-        nearest_try(&near, p, word);
+        spell_suggestion_try(&near, p, word);
         if (p[word] == '\0') {
             (void)wt_fail(err, WT_E_ARG, "'%s' is none of %s", text, choices);
             if (near.name != NULL)

@@ -8,7 +8,7 @@
 /* Ends nearer than that are equal to whoever reads them. */
 enum { MOST_DIGITS = 9 };
 
-int ends_digits(double low, double high, int least)
+int range_digits(double low, double high, int least)
 {
     for (int digits = least; digits <= MOST_DIGITS; digits++) {
         char first[32], second[32];
@@ -20,10 +20,10 @@ int ends_digits(double low, double high, int least)
     return least;
 }
 
-ends_text ends_of(double low, double high, int least)
+range_text format_range(double low, double high, int least)
 {
-    const int digits = ends_digits(low, high, least);
-    ends_text ends;
+    const int digits = range_digits(low, high, least);
+    range_text ends;
     clocale_print(ends.text, sizeof ends.text, "%.*g to %.*g", digits, low, digits, high);
     return ends;
 }

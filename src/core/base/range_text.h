@@ -3,12 +3,12 @@
 #define WT_CORE_BASE_RANGE_TEXT_H
 
 /* Digits, so many at least, that tell two numbers apart. */
-int ends_digits(double low, double high, int least);
+int range_digits(double low, double high, int least);
 
 /* "0.79 to 0.812": plain numbers with those digits, for use in a format. */
-typedef struct ends_text {
+typedef struct range_text {
     char text[64];
-} ends_text;
-ends_text ends_of(double low, double high, int least);
+} range_text;
+range_text format_range(double low, double high, int least);
 
 #endif

@@ -6,19 +6,19 @@
 
 static _Thread_local int seen; /* 0: nothing */
 
-void shortage_forget(void)
+void resource_error_clear(void)
 {
     seen = 0;
 }
 
-void shortage_note(int number)
+void resource_error_note(int number)
 {
     seen = number;
 }
 
-wt_status shortage_fail(int number, wt_error *err)
+wt_status resource_error_fail(int number, wt_error *err)
 {
-    shortage_note(number);
+    resource_error_note(number);
     if (number == ENOMEM)
         return wt_fail(err, WT_E_MEMORY, "out of memory");
     if (number == EMFILE || number == ENFILE) {
@@ -33,7 +33,7 @@ wt_status shortage_fail(int number, wt_error *err)
     return WT_E_INTERNAL;
 }
 
-wt_status shortage_end(wt_status status, wt_error *err)
+wt_status resource_error_finish(wt_status status, wt_error *err)
 {
-    return seen != 0 ? shortage_fail(seen, err) : status;
+    return seen != 0 ? resource_error_fail(seen, err) : status;
 }

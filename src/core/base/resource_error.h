@@ -11,13 +11,13 @@
 #define MORE_FILES_ADVICE                                                                          \
     "more files must be open at once than the system lets: allow more, as by ulimit -n 256"
 
-void shortage_forget(void);
+void resource_error_clear(void);
 /* ENOMEM, or why the units database of UDUNITS-2 or, for want of descriptors, what converts letters
  * cannot be read, as errno has it; -1: not known. */
-void shortage_note(int number);
+void resource_error_note(int number);
 /* Notes it and says so. */
-wt_status shortage_fail(int number, wt_error *err);
-/* The status, or the failure by what was noted since the last call of shortage_forget. */
-wt_status shortage_end(wt_status status, wt_error *err) WT_NODISCARD;
+wt_status resource_error_fail(int number, wt_error *err);
+/* The status, or the failure by what was noted since the last call of resource_error_clear. */
+wt_status resource_error_finish(wt_status status, wt_error *err) WT_NODISCARD;
 
 #endif

@@ -46,12 +46,12 @@ size_t nearest_distance(const char *a, size_t n_a, const char *b, size_t n_b)
     return last[n_b];
 }
 
-nearest_name nearest_to(const char *word, size_t length)
+spell_suggestion nearest_to(const char *word, size_t length)
 {
-    return (nearest_name){.word = word, .length = length, .distance = (length + 2) / 3 + 1};
+    return (spell_suggestion){.word = word, .length = length, .distance = (length + 2) / 3 + 1};
 }
 
-void nearest_try(nearest_name *nearest, const char *name, size_t length)
+void spell_suggestion_try(spell_suggestion *nearest, const char *name, size_t length)
 {
     const size_t distance = nearest_distance(nearest->word, nearest->length, name, length);
     if (distance > nearest->distance || distance >= nearest->length)

@@ -10,14 +10,14 @@
 size_t nearest_distance(const char *a, size_t n_a, const char *b, size_t n_b);
 
 /* A search among names for the one that is nearest to a word. */
-typedef struct nearest_name {
+typedef struct spell_suggestion {
     const char *word;
     size_t length;
     const char *name; /* borrowed; NULL: none is near, or two are as near */
     size_t name_length, distance;
-} nearest_name;
-nearest_name nearest_to(const char *word, size_t length);
+} spell_suggestion;
+spell_suggestion nearest_to(const char *word, size_t length);
 /* One name more. Near is what is one letter apart for every three of the word. */
-void nearest_try(nearest_name *nearest, const char *name, size_t length);
+void spell_suggestion_try(spell_suggestion *nearest, const char *name, size_t length);
 
 #endif

@@ -177,14 +177,14 @@ static wt_status ask_database(const char *unit, const char *si, bool *good, doub
     if (units == NULL) {
         const int number = lacking != 0 ? lacking : -1;
         (void)pthread_mutex_unlock(&lock);
-        return shortage_fail(number, err);
+        return resource_error_fail(number, err);
     }
     const visit before = enter_units();
     *good = convert_by_database(unit, si, factor, offset);
     leave_units(before);
     const bool failed = lacking == ENOMEM;
     (void)pthread_mutex_unlock(&lock);
-    return failed ? shortage_fail(ENOMEM, err) : WT_OK;
+    return failed ? resource_error_fail(ENOMEM, err) : WT_OK;
 }
 
 static wt_status convert_unit(const char *unit, const char *si, bool *good, double *factor,

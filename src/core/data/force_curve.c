@@ -149,7 +149,7 @@ WIDE_REGISTERS void sample_times(double start, double duration, size_t n, double
     size_t i = 0;
     for (; i + WIDE <= n; i += WIDE) {
         const wide now = start + duration * (at / all);
-        wide_store(times + i, &now);
+        simd_store(times + i, &now);
         at += (double)WIDE;
     }
     for (; i < n; i++)

@@ -274,18 +274,18 @@ static size_t drop_points(wt_isotherm *t)
     return dropped;
 }
 
-static void drop_copies_of_points(wt_isotherm *t, wt_parselog *log)
+static void drop_copies_of_points(wt_isotherm *t, wt_log *log)
 {
     const size_t dropped = drop_points(t);
     if (dropped > 0)
-        wt_parselog_add(log, WT_WARNING, t->source, NULL,
-                        "%zu points of the isotherm at %.1f degC stand there twice; the copies are "
-                        "left out",
-                        dropped, t->temperature - WT_ZERO_CELSIUS);
+        wt_log_add(log, WT_WARNING, t->source, NULL,
+                   "%zu points of the isotherm at %.1f degC stand there twice; the copies are "
+                   "left out",
+                   dropped, t->temperature - WT_ZERO_CELSIUS);
 }
 
 /* Those of one frequency stand together. */
-static void drop_copies_of_ramps(wt_sweep *sweep, wt_parselog *log)
+static void drop_copies_of_ramps(wt_sweep *sweep, wt_log *log)
 {
     size_t kept = 0;
     for (size_t i = 0; i < sweep->n_ramps; i++) {
@@ -296,15 +296,15 @@ static void drop_copies_of_ramps(wt_sweep *sweep, wt_parselog *log)
             sweep->ramps[kept++] = *t;
             continue;
         }
-        wt_parselog_add(log, WT_WARNING, t->source, NULL,
-                        "this temperature sweep is a copy of that of %s and left out", b->source);
+        wt_log_add(log, WT_WARNING, t->source, NULL,
+                   "this temperature sweep is a copy of that of %s and left out", b->source);
         points_free(points_of_ramp(t));
     }
     sweep->n_ramps = kept;
 }
 
 /* Those of one temperature and frequency stand together. */
-static void drop_copies_of_strain_sweeps(wt_sweep *sweep, wt_parselog *log)
+static void drop_copies_of_strain_sweeps(wt_sweep *sweep, wt_log *log)
 {
     size_t kept = 0;
     for (size_t i = 0; i < sweep->n_strain_sweeps; i++) {
@@ -315,8 +315,8 @@ static void drop_copies_of_strain_sweeps(wt_sweep *sweep, wt_parselog *log)
             sweep->strain_sweeps[kept++] = *t;
             continue;
         }
-        wt_parselog_add(log, WT_WARNING, t->source, NULL,
-                        "this strain sweep is a copy of that of %s and left out", b->source);
+        wt_log_add(log, WT_WARNING, t->source, NULL,
+                   "this strain sweep is a copy of that of %s and left out", b->source);
         points_free(points_of_strain_sweep(t));
     }
     sweep->n_strain_sweeps = kept;
@@ -334,7 +334,7 @@ static void first_copy(const wt_isotherm *t, const wt_isotherm *original, char *
 }
 
 /* Isotherms are few; those measured again at one temperature fewer. */
-void wt_sweep_drop_copies(wt_sweep *sweep, wt_parselog *log)
+void wt_sweep_drop_copies(wt_sweep *sweep, wt_log *log)
 {
     size_t kept = 0, n = 0;
     char first[2 * sizeof sweep->isotherms->source + 64] = "";
@@ -357,9 +357,9 @@ void wt_sweep_drop_copies(wt_sweep *sweep, wt_parselog *log)
     drop_copies_of_ramps(sweep, log);
     drop_copies_of_strain_sweeps(sweep, log);
     if (n > 0)
-        wt_parselog_add(log, WT_WARNING, NULL, NULL, "%zu %s and left out; the first: %s", n,
-                        n > 1 ? "isotherms are copies of others" : "isotherm is a copy of another",
-                        first);
+        wt_log_add(log, WT_WARNING, NULL, NULL, "%zu %s and left out; the first: %s", n,
+                   n > 1 ? "isotherms are copies of others" : "isotherm is a copy of another",
+                   first);
 }
 
 /* ---- samples --------------------------------------------------------------------------------- */

@@ -11,22 +11,22 @@
 #include <gsl/gsl_matrix.h>
 #include <gsl/gsl_vector.h>
 
-static inline gsl_vector *pool_vector(pool *memory, size_t n)
+static inline gsl_vector *arena_vector(arena *memory, size_t n)
 {
-    gsl_vector *v = pool_alloc(memory, 1, sizeof *v);
+    gsl_vector *v = arena_alloc(memory, 1, sizeof *v);
     if (v != NULL)
-        *v = (gsl_vector){.size = n, .stride = 1, .data = pool_numbers(memory, n)};
+        *v = (gsl_vector){.size = n, .stride = 1, .data = arena_numbers(memory, n)};
     return v;
 }
 
-static inline gsl_matrix *pool_matrix(pool *memory, size_t rows, size_t columns)
+static inline gsl_matrix *arena_matrix(arena *memory, size_t rows, size_t columns)
 {
-    gsl_matrix *m = pool_alloc(memory, 1, sizeof *m);
+    gsl_matrix *m = arena_alloc(memory, 1, sizeof *m);
     if (m != NULL)
         *m = (gsl_matrix){.size1 = rows,
                           .size2 = columns,
                           .tda = columns,
-                          .data = pool_numbers(memory, rows * columns)};
+                          .data = arena_numbers(memory, rows * columns)};
     return m;
 }
 

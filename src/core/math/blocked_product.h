@@ -24,18 +24,18 @@ typedef struct tile_rows {
 WIDE_PART void tile_whole(double *into, size_t tda, tile_rows of, bool minus)
 {
     wide s0, s1, s2, s3;
-    wide_load(&s0, into);
-    wide_load(&s1, into + tda);
-    wide_load(&s2, into + 2 * tda);
-    wide_load(&s3, into + 3 * tda);
+    simd_load(&s0, into);
+    simd_load(&s1, into + tda);
+    simd_load(&s2, into + 2 * tda);
+    simd_load(&s3, into + 3 * tda);
     for (size_t k = 0; k < of.n; k += TILE_ROWS) {
         const double *c0 = of.i, *c1 = c0 + of.width_i, *c2 = c1 + of.width_i,
                      *c3 = c2 + of.width_i;
         wide r0, r1, r2, r3;
-        wide_load(&r0, of.j);
-        wide_load(&r1, of.j + of.width_j);
-        wide_load(&r2, of.j + 2 * of.width_j);
-        wide_load(&r3, of.j + 3 * of.width_j);
+        simd_load(&r0, of.j);
+        simd_load(&r1, of.j + of.width_j);
+        simd_load(&r2, of.j + 2 * of.width_j);
+        simd_load(&r3, of.j + 3 * of.width_j);
         const wide t0 = (c0[0] * r0 + c1[0] * r1) + (c2[0] * r2 + c3[0] * r3);
         const wide t1 = (c0[1] * r0 + c1[1] * r1) + (c2[1] * r2 + c3[1] * r3);
         const wide t2 = (c0[2] * r0 + c1[2] * r1) + (c2[2] * r2 + c3[2] * r3);
@@ -47,10 +47,10 @@ WIDE_PART void tile_whole(double *into, size_t tda, tile_rows of, bool minus)
         of.i += TILE_ROWS * of.width_i;
         of.j += TILE_ROWS * of.width_j;
     }
-    wide_store(into, &s0);
-    wide_store(into + tda, &s1);
-    wide_store(into + 2 * tda, &s2);
-    wide_store(into + 3 * tda, &s3);
+    simd_store(into, &s0);
+    simd_store(into + tda, &s1);
+    simd_store(into + 2 * tda, &s2);
+    simd_store(into + 3 * tda, &s3);
 }
 
 /* The same of n * m, where no whole tile is left. */

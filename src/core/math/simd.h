@@ -23,12 +23,12 @@ typedef double wide __attribute__((vector_size(32)));
 typedef int64_t wide_bits __attribute__((vector_size(32)));
 enum { WIDE = 4 };
 
-static inline void wide_load(wide *to, const double *from)
+static inline void simd_load(wide *to, const double *from)
 {
     memcpy(to, from, sizeof *to);
 }
 
-static inline void wide_store(double *to, const wide *from)
+static inline void simd_store(double *to, const wide *from)
 {
     memcpy(to, from, sizeof *from);
 }
@@ -46,7 +46,7 @@ static inline void wide_lower(wide *high, const wide *x)
     *high = (wide)((below & (wide_bits)*x) | (~below & (wide_bits)*high));
 }
 
-static inline double wide_sum(const wide *x)
+static inline double simd_sum(const wide *x)
 {
     return ((*x)[0] + (*x)[1]) + ((*x)[2] + (*x)[3]);
 }

@@ -35,7 +35,7 @@ static void put_cell(FILE *out, const char *mark, const char *text, char separat
     (void)putc('"', out);
 }
 
-static const char *number_words(double value, char buffer[32])
+static const char *number_text(double value, char buffer[32])
 {
     buffer[0] = '\0';
     if (!isnan(value))
@@ -82,7 +82,7 @@ static void put_separated(FILE *out, const wt_table *table, char separator, bool
                 put_cell(out, !formulas && is_formula(wt_table_text(table, row, i)) ? "'" : "",
                          wt_table_text(table, row, i), separator);
             else
-                (void)fputs(number_words(wt_table_number(table, row, i), number), out);
+                (void)fputs(number_text(wt_table_number(table, row, i), number), out);
         }
         (void)putc('\n', out);
     }
@@ -97,7 +97,7 @@ static void put_number(FILE *out, double value)
     if (isnan(value))
         (void)fputs("null", out);
     else
-        (void)fprintf(out, isinf(value) ? "\"%s\"" : "%s", number_words(value, number));
+        (void)fprintf(out, isinf(value) ? "\"%s\"" : "%s", number_text(value, number));
 }
 
 static void put_named(FILE *out, const char *before, const char *name, const char *text)

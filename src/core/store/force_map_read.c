@@ -13,7 +13,7 @@ struct map_reader {
     table_view curves, segments;
     map_channel channels[WT_Q_COUNT];
     size_t n_channels;
-    door_flow *flow;
+    sandbox_stream *flow;
     wt_error failure;     /* of the flow: that of every curve from then on */
     size_t n_samples, at; /* of an array; where the next segment begins */
     size_t n_block;       /* samples of the block that is there */
@@ -95,7 +95,7 @@ static wt_status check_counts(map_reader *r, size_t size, wt_error *err)
 wt_status map_open(const hdf5_bytes *from, wt_result *result, map_reader **reader, wt_error *err)
 {
     map_reader *const r = calloc(1, sizeof *r);
-    const door_limits limits = door_limits_of(from->size);
+    const sandbox_limits limits = sandbox_limits_for(from->size);
     wt_status status = WT_OK;
     if (r == NULL) {
         wt_result_free(result);
@@ -117,7 +117,7 @@ wt_status map_open(const hdf5_bytes *from, wt_result *result, map_reader **reade
         (r->block = malloc(r->n_channels * MAP_BLOCK * sizeof *r->block)) == NULL)
         status = wt_fail(err, WT_E_MEMORY, "out of memory");
     if (status == WT_OK)
-        status = hdf5_door_begin(from, &limits, store_pass_samples, &r->flow, err);
+        status = hdf5_sandbox_start(from, &limits, store_pass_samples, &r->flow, err);
     if (status == WT_OK)
         *reader = r;
     else
@@ -129,7 +129,7 @@ void map_close(map_reader *r)
 {
     if (r == NULL)
         return;
-    door_close(r->flow);
+    sandbox_close(r->flow);
     wt_result_free(r->result);
     free(r->block);
     free(r->found);
@@ -156,8 +156,8 @@ static wt_status take_samples(map_reader *r, double *values, size_t n, wt_error 
         if (in_block == 0) {
             const size_t left = r->n_samples - r->at;
             r->n_block = left < MAP_BLOCK ? left : MAP_BLOCK;
-            const wt_status status =
-                door_take(r->flow, r->block, r->n_channels * r->n_block * sizeof *r->block, err);
+            const wt_status status = sandbox_receive(
+                r->flow, r->block, r->n_channels * r->n_block * sizeof *r->block, err);
             if (status != WT_OK)
                 return status;
         }
@@ -230,8 +230,8 @@ wt_status map_next(map_reader *r, wt_force_curve *curve, const map_segment **seg
     uint32_t sum = 0;
     const size_t row = r->next_curve, first = r->next_segment;
     if (row == r->curves.n_rows) {
-        const wt_status ended = r->flow != NULL ? door_end(r->flow, err) : WT_OK;
-        door_close(r->flow);
+        const wt_status ended = r->flow != NULL ? sandbox_finish(r->flow, err) : WT_OK;
+        sandbox_close(r->flow);
         r->flow = NULL;
         return ended == WT_OK ? WT_END : ended;
     }
@@ -263,7 +263,7 @@ wt_status map_next(map_reader *r, wt_force_curve *curve, const map_segment **seg
     }
     r->next_curve++;
     if (status != WT_OK) {
-        door_close(r->flow);
+        sandbox_close(r->flow);
         r->flow = NULL;
         if (err != NULL)
             *err = r->failure;

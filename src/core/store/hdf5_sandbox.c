@@ -29,7 +29,7 @@ static hid_t open_bytes(hdf5_bytes *file)
     return H5Fopen("weartrack.h5", H5F_ACC_RDONLY, access);
 }
 
-static wt_status read_file(const door_call *door, FILE *answer, wt_error *err)
+static wt_status read_file(const sandbox_call *door, FILE *answer, wt_error *err)
 {
     static hdf5_bytes from; /* the process ends with the file open */
     hdf5_reading *const *reading = door->with;
@@ -56,32 +56,32 @@ static void leave_hdf5(void *scope)
     hdf5_leave(scope);
 }
 
-static door_call door_call_of(const hdf5_bytes *from, hdf5_reading *const *reading,
-                              hdf5_scope *scope)
+static sandbox_call hdf5_sandbox_call(const hdf5_bytes *from, hdf5_reading *const *reading,
+                                      hdf5_scope *scope)
 {
-    return (door_call){.what = "HDF5",
-                       .reading = read_file,
-                       .bytes = from->bytes,
-                       .size = from->size,
-                       .with = reading,
-                       .file = from->bytes != NULL ? -1 : from->file,
-                       .enter = enter_hdf5,
-                       .leave = leave_hdf5,
-                       .hold = scope};
+    return (sandbox_call){.what = "HDF5",
+                          .reading = read_file,
+                          .bytes = from->bytes,
+                          .size = from->size,
+                          .with = reading,
+                          .file = from->bytes != NULL ? -1 : from->file,
+                          .enter = enter_hdf5,
+                          .leave = leave_hdf5,
+                          .hold = scope};
 }
 
-wt_status hdf5_door_read(const hdf5_bytes *from, const door_limits *limits, hdf5_reading *reading,
-                         char **answer, size_t *length, wt_error *err)
+wt_status hdf5_sandbox_read(const hdf5_bytes *from, const sandbox_limits *limits,
+                            hdf5_reading *reading, char **answer, size_t *length, wt_error *err)
 {
     hdf5_scope scope;
-    const door_call door = door_call_of(from, &reading, &scope);
-    return door_read(&door, limits, answer, length, err);
+    const sandbox_call door = hdf5_sandbox_call(from, &reading, &scope);
+    return sandbox_read(&door, limits, answer, length, err);
 }
 
-wt_status hdf5_door_begin(const hdf5_bytes *from, const door_limits *limits, hdf5_reading *reading,
-                          door_flow **flow, wt_error *err)
+wt_status hdf5_sandbox_start(const hdf5_bytes *from, const sandbox_limits *limits,
+                             hdf5_reading *reading, sandbox_stream **flow, wt_error *err)
 {
     hdf5_scope scope;
-    const door_call door = door_call_of(from, &reading, &scope);
-    return door_begin(&door, limits, flow, err);
+    const sandbox_call door = hdf5_sandbox_call(from, &reading, &scope);
+    return sandbox_start(&door, limits, flow, err);
 }

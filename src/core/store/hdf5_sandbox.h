@@ -15,12 +15,14 @@
  * say. Only memory and HDF5 may be used. */
 typedef wt_status hdf5_reading(hid_t file, size_t size, FILE *answer, wt_error *err);
 
-/* Gives what `reading` printed, as door_read does. */
-wt_status hdf5_door_read(const hdf5_bytes *from, const door_limits *limits, hdf5_reading *reading,
-                         char **answer, size_t *length, wt_error *err) WT_NODISCARD;
+/* Gives what `reading` printed, as sandbox_read does. */
+wt_status hdf5_sandbox_read(const hdf5_bytes *from, const sandbox_limits *limits,
+                            hdf5_reading *reading, char **answer, size_t *length,
+                            wt_error *err) WT_NODISCARD;
 /* The same as it comes (core/system/sandbox.h). The bytes or the descriptor need not outlive the
  * call. */
-wt_status hdf5_door_begin(const hdf5_bytes *from, const door_limits *limits, hdf5_reading *reading,
-                          door_flow **flow, wt_error *err) WT_NODISCARD;
+wt_status hdf5_sandbox_start(const hdf5_bytes *from, const sandbox_limits *limits,
+                             hdf5_reading *reading, sandbox_stream **flow,
+                             wt_error *err) WT_NODISCARD;
 
 #endif

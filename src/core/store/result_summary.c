@@ -55,7 +55,7 @@ static void put_ends(table_writer *t, const char *stem, const char *suffixes[2],
 }
 
 /* A number with its interval and what the choices of the model make of it. */
-static void put_finding(table_writer *t, const char *name, const finding *f)
+static void put_finding(table_writer *t, const char *name, const result_value *f)
 {
     static const char *interval[2] = {"_low", "_high"}, *range[2] = {"_model_low", "_model_high"};
     put_ends(t, name, interval, f->low, f->high, f->number.unit);
@@ -63,12 +63,12 @@ static void put_finding(table_writer *t, const char *name, const finding *f)
 }
 
 /* The keys that are declared as headlines. */
-static void put_keys(table_writer *t, const finding_tables *found, const table_view *view)
+static void put_keys(table_writer *t, const result_value_tables *found, const table_view *view)
 {
     const table_schema *schema = view->schema;
     for (unsigned i = 0; view->table != NULL && i < schema->n_keys; i++) {
         const schema_field *key = &schema->keys[i];
-        finding f;
+        result_value f;
         if (key->headline == NULL || view_key_text(view, schema, i) == NULL ||
             strcmp(key->name, "verdict") == 0) /* the column is that of the comparison */
             continue;
@@ -76,17 +76,17 @@ static void put_keys(table_writer *t, const finding_tables *found, const table_v
             put_word(t, key->name, view_key_text(view, schema, i));
         else
             put_key(t, key->name, view_key(view, schema, i), key->headline);
-        if (finding_of_key(found, key, &f))
+        if (result_value_of_key(found, key, &f))
             put_finding(t, key->name, &f);
     }
 }
 
-static void put_groups(table_writer *t, const finding_tables *found)
+static void put_groups(table_writer *t, const result_value_tables *found)
 {
     const table_view *groups = &found->groups;
     for (size_t row = 0; row < groups->n_rows; row++) {
         char stem[SCHEMA_NAME_SIZE];
-        const finding f = finding_of_group(found, row);
+        const result_value f = result_value_of_group(found, row);
         const char *group = modulus_groups_text(groups, row, MODULUS_GROUPS_GROUP);
         (void)snprintf(stem, sizeof stem, "%s_%s", f.name, group);
         put_number(t, stem, "", f.number.value, f.number.unit);
@@ -97,9 +97,9 @@ static void put_groups(table_writer *t, const finding_tables *found)
     }
 }
 
-static void put_ratio(table_writer *t, const finding_tables *found)
+static void put_ratio(table_writer *t, const result_value_tables *found)
 {
-    const finding f = finding_of_ratio(found);
+    const result_value f = result_value_of_ratio(found);
     if (found->comparison.n_rows == 0)
         return;
     if (f.verdict != NULL)
@@ -166,12 +166,12 @@ bool store_has_headlines(const char *table)
     for (size_t i = 0; i < N_TABLES; i++)
         if (strcmp(sources[i]->name, table) == 0)
             return true;
-    return findings_are_of(table);
+    return result_values_are_of(table);
 }
 
 bool store_has_headline_rows(const char *table)
 {
-    return findings_are_of(table) || strcmp(table, notes_schema.name) == 0 ||
+    return result_values_are_of(table) || strcmp(table, notes_schema.name) == 0 ||
            strcmp(table, failures_schema.name) == 0;
 }
 
@@ -187,17 +187,17 @@ static void add_name(const char *table, char hex[STORE_DIGEST_SIZE])
 void store_headlines_digest(char hex[STORE_DIGEST_SIZE])
 {
     hex[0] = '\0';
-    for (size_t i = 0; findings_table(i) != NULL; i++)
-        add_name(findings_table(i), hex);
+    for (size_t i = 0; result_values_table(i) != NULL; i++)
+        add_name(result_values_table(i), hex);
     for (size_t i = 0; i < N_TABLES; i++)
         add_name(sources[i]->name, hex);
 }
 
 wt_status wt_result_headlines(const wt_result *result, wt_table **headlines, wt_error *err)
 {
-    finding_tables found;
+    result_value_tables found;
     table_view views[N_TABLES];
-    wt_status status = findings_bind(result, &found, err);
+    wt_status status = result_values_bind(result, &found, err);
     for (size_t i = 0; status == WT_OK && i < N_TABLES; i++)
         status = table_bind_of(result, sources[i], "", &views[i], err);
     if (status != WT_OK)

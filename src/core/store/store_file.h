@@ -7,7 +7,7 @@
 
 typedef struct store_file {
     const char *path; /* borrowed */
-    wt_outfile *out;
+    wt_atomic_file *out;
     hdf5_bytes to;
     hid_t file;
     hid_t scalar;         /* dataspace of one */

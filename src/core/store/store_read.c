@@ -114,13 +114,13 @@ wt_status store_take(const char *bytes, size_t length, wt_result *result, wt_err
 wt_status store_read_bytes(const hdf5_bytes *from, hdf5_reading *pass, const char *name,
                            wt_result **result, wt_error *err)
 {
-    const door_limits limits = door_limits_of(from->size);
+    const sandbox_limits limits = sandbox_limits_for(from->size);
     size_t n = 0;
     char *answer = NULL;
     wt_result *const read = wt_result_new();
     wt_status status = read != NULL ? WT_OK : wt_fail(err, WT_E_MEMORY, "out of memory");
     if (status == WT_OK)
-        status = hdf5_door_read(from, &limits, pass, &answer, &n, err);
+        status = hdf5_sandbox_read(from, &limits, pass, &answer, &n, err);
     if (status == WT_OK)
         status = store_take(answer, n, read, err);
     free(answer);

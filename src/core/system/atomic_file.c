@@ -10,7 +10,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-struct wt_outfile {
+struct wt_atomic_file {
     char *final;     /* where it goes */
     char *temporary; /* where it is written; equal text if the target is a device or a pipe */
     bool direct;  /* there is nothing to rename: it is no regular file, or has its name already */
@@ -18,7 +18,7 @@ struct wt_outfile {
     FILE *stream;
 };
 
-static void outfile_free(wt_outfile *file)
+static void outfile_free(wt_atomic_file *file)
 {
     if (file == NULL)
         return;
@@ -81,7 +81,7 @@ static void sync_folder(const char *path)
 }
 
 /* Gives an unnamed file its name, or a temporary one in the same folder if that is taken. */
-static bool name_unnamed(wt_outfile *file)
+static bool name_unnamed(wt_atomic_file *file)
 {
     const char *const from = file->temporary;
     if (linkat(AT_FDCWD, from, AT_FDCWD, file->final, AT_SYMLINK_FOLLOW) == 0) {
@@ -120,7 +120,7 @@ static bool name_unnamed(wt_outfile *file)
 }
 
 /* Removes what was written, if it has a name. */
-static void remove_temporary(const wt_outfile *file)
+static void remove_temporary(const wt_atomic_file *file)
 {
     if (!file->direct && !file->unnamed)
         (void)unlink(file->temporary);
@@ -145,7 +145,7 @@ static char *behind_links(const char *path)
 }
 
 /* `info` is of the file that is replaced, NULL if there is none. */
-static wt_status open_stream(wt_outfile *new_file, const char *folder, const struct stat *info,
+static wt_status open_stream(wt_atomic_file *new_file, const char *folder, const struct stat *info,
                              wt_error *err)
 {
     int descriptor = -1;
@@ -177,11 +177,11 @@ static wt_status open_stream(wt_outfile *new_file, const char *folder, const str
     return WT_E_IO;
 }
 
-wt_status wt_outfile_open(const char *path, wt_outfile **file, wt_error *err)
+wt_status wt_outfile_open(const char *path, wt_atomic_file **file, wt_error *err)
 {
     char *folder = NULL;
     struct stat info;
-    wt_outfile *new_file = calloc(1, sizeof *new_file);
+    wt_atomic_file *new_file = calloc(1, sizeof *new_file);
     const bool exists = stat(path, &info) == 0;
     if (new_file != NULL) {
         new_file->direct = exists && !S_ISREG(info.st_mode);
@@ -189,7 +189,7 @@ wt_status wt_outfile_open(const char *path, wt_outfile **file, wt_error *err)
         folder = new_file->final != NULL ? wt_path_folder(new_file->final) : NULL;
     }
     wt_status status =
-        folder == NULL ? wt_fail(err, WT_E_MEMORY, "out of memory") : wt_guard_write(path, err);
+        folder == NULL ? wt_fail(err, WT_E_MEMORY, "out of memory") : wt_check_overwrite(path, err);
     if (status == WT_OK && exists && S_ISDIR(info.st_mode)) {
         status = wt_fail(err, WT_E_IO, "cannot write: it is a folder");
         wt_error_expected(err, "the name of a file");
@@ -206,12 +206,12 @@ wt_status wt_outfile_open(const char *path, wt_outfile **file, wt_error *err)
     return status;
 }
 
-FILE *wt_outfile_stream(wt_outfile *file)
+FILE *wt_outfile_stream(wt_atomic_file *file)
 {
     return file->stream;
 }
 
-wt_status wt_outfile_commit(wt_outfile *file, wt_error *err)
+wt_status wt_outfile_commit(wt_atomic_file *file, wt_error *err)
 {
     const char *what = NULL;
     int reason = 0;
@@ -247,7 +247,7 @@ wt_status wt_outfile_commit(wt_outfile *file, wt_error *err)
     return status;
 }
 
-void wt_outfile_discard(wt_outfile *file)
+void wt_outfile_discard(wt_atomic_file *file)
 {
     if (file == NULL)
         return;

@@ -56,7 +56,7 @@ static void mix_bytes(uint64_t chain[CHAINS], const unsigned char *bytes, size_t
         uint64_t word[CHAINS] = {0};
         memcpy(word, bytes + i, n - i < sizeof word ? n - i : sizeof word);
         for (size_t c = 0; c < CHAINS; c++)
-            chain[c] = mix64(chain[c] ^ word[c]);
+            chain[c] = splitmix64(chain[c] ^ word[c]);
     }
 }
 
@@ -83,8 +83,8 @@ wt_status digest_pieces(digest_source *source, void *user, size_t length, char h
         finish_digest(&context, hex);
         mix_bytes(chain, (const unsigned char *)hex, 2 * sizeof chain);
     }
-    *fingerprint = mix64(length);
+    *fingerprint = splitmix64(length);
     for (size_t c = 0; c < CHAINS; c++)
-        *fingerprint = mix64(*fingerprint ^ chain[c]);
+        *fingerprint = splitmix64(*fingerprint ^ chain[c]);
     return status;
 }

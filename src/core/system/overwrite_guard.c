@@ -19,7 +19,7 @@ static struct {
     size_t n, capacity;
 } guard = {.lock = PTHREAD_MUTEX_INITIALIZER};
 
-void wt_guard_start(void)
+void wt_protect_begin(void)
 {
     (void)pthread_mutex_lock(&guard.lock);
     guard.started = true;
@@ -49,7 +49,7 @@ static bool is_read(const struct stat *info)
     return false;
 }
 
-wt_status wt_guard_read(const char *path, wt_error *err)
+wt_status wt_protect_input(const char *path, wt_error *err)
 {
     struct stat info;
     const bool standard = strcmp(path, "-") == 0;
@@ -118,7 +118,7 @@ static bool is_foreign(const char *path, off_t size)
     return foreign;
 }
 
-wt_status wt_guard_write(const char *path, wt_error *err)
+wt_status wt_check_overwrite(const char *path, wt_error *err)
 {
     struct stat info;
     if (stat(path, &info) != 0)

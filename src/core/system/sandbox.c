@@ -21,14 +21,14 @@
 #define MIB ((size_t)1 << 20)
 enum { ANSWER_FD = 3, ANSWER_BUFFER = 1 << 16 };
 
-door_limits door_limits_of(size_t size)
+sandbox_limits sandbox_limits_for(size_t size)
 {
     /* A number is 8 bytes in the file and 25 as text at most; the shortest texts grow most. */
     const unsigned mib = size / MIB < 100000 ? (unsigned)(size / MIB) : 100000;
-    return (door_limits){.memory = 256 * MIB + 16 * size,
-                         .answer = 16 * MIB + 8 * size,
-                         .cpu_time = 10 + mib,
-                         .wall_time = 60 + 6 * mib};
+    return (sandbox_limits){.memory = 256 * MIB + 16 * size,
+                            .answer = 16 * MIB + 8 * size,
+                            .cpu_time = 10 + mib,
+                            .wall_time = 60 + 6 * mib};
 }
 
 /* ---- behind the door ------------------------------------------------------------------------- */
@@ -78,8 +78,8 @@ enum {
 };
 
 /* Everything that the header says of the process. */
-static char shut_in(int to, const door_call *door, const door_limits *limits, size_t data,
-                    pid_t parent)
+static char enter_sandbox(int to, const sandbox_call *door, const sandbox_limits *limits,
+                          size_t data, pid_t parent)
 {
     const struct sigaction usual = {.sa_handler = SIG_DFL};
     sigset_t none;
@@ -95,34 +95,34 @@ static char shut_in(int to, const door_call *door, const door_limits *limits, si
         !limit_resource(RLIMIT_NPROC, 0) || !limit_resource(RLIMIT_CPU, limits->cpu_time) ||
         (data != 0 && !limit_resource(RLIMIT_DATA, data + limits->memory)))
         return BAD;
-    const door_filter filter = door_filter_set(ANSWER_FD);
+    const door_filter filter = seccomp_filter_install(ANSWER_FD);
     if (filter == FILTER_NO_MEMORY)
         return LOW_MEMORY;
     return (char)(SHUT_IN + (filter == FILTER_SET ? 0 : NO_FILTER) + (data != 0 ? 0 : MEMORY_OPEN));
 }
 
 /* The answer ends with the error, so that one without it was cut off. */
-_Noreturn static void behind_door(const door_call *door)
+_Noreturn static void run_in_sandbox(const sandbox_call *door)
 {
     wt_error said = WT_ERROR_INIT;
     FILE *const answer = fdopen(ANSWER_FD, "w");
     if (answer == NULL || setvbuf(answer, NULL, _IOFBF, ANSWER_BUFFER) != 0)
         _exit(EXIT_FAILURE);
-    shortage_forget();
-    said.status = shortage_end(door->reading(door, answer, &said), &said);
+    resource_error_clear();
+    said.status = resource_error_finish(door->reading(door, answer, &said), &said);
     const bool written = fwrite(&said, sizeof said, 1, answer) == 1 && fflush(answer) == 0;
     _exit(written ? EXIT_SUCCESS : EXIT_FAILURE);
 }
 
-_Noreturn static void begin_behind(int to, const door_call *door, const door_limits *limits,
-                                   size_t data, pid_t parent)
+_Noreturn static void start_in_sandbox(int to, const sandbox_call *door,
+                                       const sandbox_limits *limits, size_t data, pid_t parent)
 {
-    const char hello = shut_in(to, door, limits, data, parent);
+    const char hello = enter_sandbox(to, door, limits, data, parent);
     const bool held = hello >= SHUT_IN && hello <= SHUT_IN + (NO_FILTER | MEMORY_OPEN);
     const ssize_t n = write(hello == FEW_FILES ? to : ANSWER_FD, &hello, 1);
     if (!held || n != 1)
         _exit(EXIT_FAILURE);
-    behind_door(door);
+    run_in_sandbox(door);
 }
 
 /* ---- in front of it -------------------------------------------------------------------------- */
@@ -130,7 +130,7 @@ _Noreturn static void begin_behind(int to, const door_call *door, const door_lim
 /* What no process could be kept from, of all so far. */
 static atomic_uint gaps;
 
-const char *wt_door_gaps(void)
+const char *wt_sandbox_limitations(void)
 {
     static const char *const words[] = {
         NULL,
@@ -160,7 +160,8 @@ static int data_size(size_t *size)
 }
 
 /* Signals wait until the new process has forgotten the handlers of this one. */
-static pid_t start_child(int to, const door_call *door, const door_limits *limits, size_t data)
+static pid_t start_child(int to, const sandbox_call *door, const sandbox_limits *limits,
+                         size_t data)
 {
     sigset_t all, before;
     const pid_t parent = getpid();
@@ -170,7 +171,7 @@ static pid_t start_child(int to, const door_call *door, const door_limits *limit
     (void)pthread_sigmask(SIG_SETMASK, &all, &before);
     const pid_t child = fork();
     if (child == 0)
-        begin_behind(to, door, limits, data, parent);
+        start_in_sandbox(to, door, limits, data, parent);
     const int number = errno;
     (void)pthread_sigmask(SIG_SETMASK, &before, NULL);
     if (door->leave != NULL)
@@ -182,9 +183,9 @@ static pid_t start_child(int to, const door_call *door, const door_limits *limit
 /* How the answer ended; COMING: it has not. */
 typedef enum ending { COMING, ENDED, LATE, LONG, BROKEN, NO_MEMORY } ending;
 
-struct door_flow {
+struct sandbox_stream {
     const char *what;
-    door_limits limits;
+    sandbox_limits limits;
     pid_t child;
     int from;
     ending how;
@@ -196,7 +197,7 @@ struct door_flow {
 
 /* Collects what comes until there is so much, it ends or takes too much. Only waiting counts as
  * time: the caller may be long about what it takes. */
-static void collect_answer(door_flow *flow, size_t want)
+static void collect_answer(sandbox_stream *flow, size_t want)
 {
     const size_t most = flow->limits.answer + sizeof(wt_error);
     while (flow->how == COMING && flow->length < want) {
@@ -251,13 +252,13 @@ static wt_status advise_damaged(wt_error *err)
 
 /* The process called the system for what reading does not need. Where it held back all signals, as
  * for a new process, the call has no name here. */
-static void explain_call(const door_flow *flow, bool told, wt_error *err)
+static void explain_call(const sandbox_stream *flow, bool told, wt_error *err)
 {
     int call = -1;
     char name[64] = "its name is not known";
     if (told && flow->length >= sizeof call) {
         memcpy(&call, flow->bytes + flow->length - sizeof call, sizeof call);
-        door_filter_name(call, name, sizeof name);
+        seccomp_syscall_name(call, name, sizeof name);
     }
     (void)wt_fail(err, WT_E_CORRUPT,
                   "reading the %s file led to a call of the system that reading does not need (%s) "
@@ -265,7 +266,7 @@ static void explain_call(const door_flow *flow, bool told, wt_error *err)
                   flow->what, name);
 }
 
-static wt_status fail_starved(const char *what, const door_limits *limits, wt_error *err)
+static wt_status fail_starved(const char *what, const sandbox_limits *limits, wt_error *err)
 {
     return wt_fail(err, WT_E_MEMORY, "reading the %s file takes more than %zu MiB of memory", what,
                    limits->memory / MIB);
@@ -275,10 +276,10 @@ static wt_status fail_starved(const char *what, const door_limits *limits, wt_er
 enum { SCANNER_EXIT = 2 };
 
 /* Why there is no whole answer. */
-static wt_status explain_ending(const door_flow *flow, int state, wt_error *err)
+static wt_status explain_ending(const sandbox_stream *flow, int state, wt_error *err)
 {
     const char *const what = flow->what;
-    const door_limits *const limits = &flow->limits;
+    const sandbox_limits *const limits = &flow->limits;
     const ending how = flow->how;
     const int by = WIFSIGNALED(state) ? WTERMSIG(state) : 0;
     if (how == NO_MEMORY)
@@ -305,7 +306,7 @@ static wt_status explain_ending(const door_flow *flow, int state, wt_error *err)
 }
 
 /* The error that the process reported, as far as it is one. */
-static wt_status reported_error(const char *what, const char *bytes, const door_limits *limits,
+static wt_status reported_error(const char *what, const char *bytes, const sandbox_limits *limits,
                                 wt_error *err)
 {
     wt_error said;
@@ -337,7 +338,7 @@ static wt_status fail_to_make(const char *what, int number, wt_error *err)
 }
 
 /* Hears whether the process has shut itself in. */
-static wt_status hear_hello(door_flow *flow, wt_error *err)
+static wt_status hear_hello(sandbox_stream *flow, wt_error *err)
 {
     collect_answer(flow, 1);
     const char hello = flow->length > 0 ? flow->bytes[0] : BAD;
@@ -360,15 +361,15 @@ static wt_status hear_hello(door_flow *flow, wt_error *err)
                         err);
 }
 
-wt_status door_begin(const door_call *door, const door_limits *limits, door_flow **begun,
-                     wt_error *err)
+wt_status sandbox_start(const sandbox_call *door, const sandbox_limits *limits,
+                        sandbox_stream **begun, wt_error *err)
 {
     int channel[2];
     size_t data = 0;
-    door_flow *const flow = calloc(1, sizeof *flow);
+    sandbox_stream *const flow = calloc(1, sizeof *flow);
     if (flow == NULL)
         return wt_fail(err, WT_E_MEMORY, "out of memory");
-    *flow = (door_flow){.what = door->what, .limits = *limits};
+    *flow = (sandbox_stream){.what = door->what, .limits = *limits};
     if (data_size(&data) != 0 || pipe2(channel, O_CLOEXEC) != 0) {
         free(flow);
         return fail_to_make(door->what, errno, err);
@@ -382,12 +383,12 @@ wt_status door_begin(const door_call *door, const door_limits *limits, door_flow
     if (status == WT_OK)
         *begun = flow;
     else
-        door_close(flow);
+        sandbox_close(flow);
     return status;
 }
 
 /* Ends the process, whose answer is over, and says what became of it. */
-static wt_status end_process(door_flow *flow, wt_error *err)
+static wt_status end_process(sandbox_stream *flow, wt_error *err)
 {
     const int state = finish_child(flow->child, flow->how != ENDED);
     flow->child = -1;
@@ -397,13 +398,13 @@ static wt_status end_process(door_flow *flow, wt_error *err)
     return explain_ending(flow, state, err);
 }
 
-static wt_status fail_unexpected(const door_flow *flow, const char *how, wt_error *err)
+static wt_status fail_unexpected(const sandbox_stream *flow, const char *how, wt_error *err)
 {
     (void)wt_fail(err, WT_E_CORRUPT, "the %s file gives %s than it says", flow->what, how);
     return advise_damaged(err);
 }
 
-wt_status door_take(door_flow *flow, void *to, size_t n, wt_error *err)
+wt_status sandbox_receive(sandbox_stream *flow, void *to, size_t n, wt_error *err)
 {
     if (flow->child < 0)
         return fail_unexpected(flow, "less", err);
@@ -420,7 +421,7 @@ wt_status door_take(door_flow *flow, void *to, size_t n, wt_error *err)
     return WT_OK;
 }
 
-wt_status door_pour(door_flow *flow, door_sink *sink, void *user, wt_error *err)
+wt_status sandbox_drain(sandbox_stream *flow, sandbox_sink *sink, void *user, wt_error *err)
 {
     wt_status status = WT_OK;
     if (flow->child < 0)
@@ -437,7 +438,7 @@ wt_status door_pour(door_flow *flow, door_sink *sink, void *user, wt_error *err)
     return status == WT_OK ? end_process(flow, err) : status;
 }
 
-wt_status door_end(door_flow *flow, wt_error *err)
+wt_status sandbox_finish(sandbox_stream *flow, wt_error *err)
 {
     if (flow->child < 0)
         return fail_unexpected(flow, "less", err);
@@ -447,7 +448,7 @@ wt_status door_end(door_flow *flow, wt_error *err)
                                                                : status;
 }
 
-void door_close(door_flow *flow)
+void sandbox_close(sandbox_stream *flow)
 {
     if (flow == NULL)
         return;
@@ -458,11 +459,11 @@ void door_close(door_flow *flow)
     free(flow);
 }
 
-wt_status door_read(const door_call *door, const door_limits *limits, char **answer, size_t *length,
-                    wt_error *err)
+wt_status sandbox_read(const sandbox_call *door, const sandbox_limits *limits, char **answer,
+                       size_t *length, wt_error *err)
 {
-    door_flow *flow = NULL;
-    wt_status status = door_begin(door, limits, &flow, err);
+    sandbox_stream *flow = NULL;
+    wt_status status = sandbox_start(door, limits, &flow, err);
     if (status != WT_OK)
         return status;
     collect_answer(flow, SIZE_MAX);
@@ -472,6 +473,6 @@ wt_status door_read(const door_call *door, const door_limits *limits, char **ans
         *length = flow->length - sizeof(wt_error);
         flow->bytes = NULL;
     }
-    door_close(flow);
+    sandbox_close(flow);
     return status;
 }

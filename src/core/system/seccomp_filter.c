@@ -130,7 +130,7 @@ static void tell_call(int signal, siginfo_t *info, void *context)
     _exit(FILTER_EXIT);
 }
 
-door_filter door_filter_set(int answer)
+door_filter seccomp_filter_install(int answer)
 {
     const struct sigaction tells = {.sa_sigaction = tell_call, .sa_flags = SA_SIGINFO};
     answer_to = answer;
@@ -150,7 +150,7 @@ door_filter door_filter_set(int answer)
     return failed == -ENOMEM ? FILTER_NO_MEMORY : failed != 0 ? FILTER_REFUSED : FILTER_SET;
 }
 
-void door_filter_name(int call, char *name, size_t size)
+void seccomp_syscall_name(int call, char *name, size_t size)
 {
     char *const known = seccomp_syscall_resolve_num_arch(SCMP_ARCH_NATIVE, call);
     if (known != NULL)

@@ -15,8 +15,8 @@ typedef enum door_filter { FILTER_SET, FILTER_REFUSED, FILTER_NO_MEMORY } door_f
  * forbidden call ends the process with FILTER_EXIT, and its number, an int, is the last thing in
  * `answer`. */
 enum { FILTER_EXIT = 99 };
-door_filter door_filter_set(int answer);
+door_filter seccomp_filter_install(int answer);
 /* The name of a call by that number, or the number. */
-void door_filter_name(int call, char *name, size_t size);
+void seccomp_syscall_name(int call, char *name, size_t size);
 
 #endif

@@ -14,7 +14,7 @@
 
 #define PATTERN ".weartrack-%ld-%16[0-9a-f]%n"
 
-const char *temporary_place(void)
+const char *temporary_directory(void)
 {
     const char *const asked = getenv("TMPDIR");
     return asked != NULL && asked[0] != '\0' ? asked : "/tmp";

@@ -7,7 +7,7 @@
 #include "weartrack/base.h"
 
 /* Where what is no part of an output goes: the folder that TMPDIR names, or /tmp; borrowed. */
-const char *temporary_place(void);
+const char *temporary_directory(void);
 /* A new name in `folder`; it begins with a dot, so that no pattern picks it up. NULL with errno. */
 char *temporary_name(const char *folder);
 /* A new folder of such a name; *descriptor says that it is in use until it is closed. NULL with

@@ -12,20 +12,20 @@
 static const struct {
     const table_schema *schema;
     size_t view;
-} bound[] = {{&modulus_groups_schema, offsetof(finding_tables, groups)},
-             {&modulus_budget_schema, offsetof(finding_tables, budget)},
-             {&modulus_rate_schema, offsetof(finding_tables, rates)},
-             {&comparison_schema, offsetof(finding_tables, comparison)},
-             {&friction_schema, offsetof(finding_tables, friction)},
-             {&layer_schema, offsetof(finding_tables, layer)},
-             {&what_if_schema, offsetof(finding_tables, what_if)}};
+} bound[] = {{&modulus_groups_schema, offsetof(result_value_tables, groups)},
+             {&modulus_budget_schema, offsetof(result_value_tables, budget)},
+             {&modulus_rate_schema, offsetof(result_value_tables, rates)},
+             {&comparison_schema, offsetof(result_value_tables, comparison)},
+             {&friction_schema, offsetof(result_value_tables, friction)},
+             {&layer_schema, offsetof(result_value_tables, layer)},
+             {&what_if_schema, offsetof(result_value_tables, what_if)}};
 
-const char *findings_table(size_t i)
+const char *result_values_table(size_t i)
 {
     return i < COUNT_OF(bound) ? bound[i].schema->name : NULL;
 }
 
-bool findings_are_of(const char *table)
+bool result_values_are_of(const char *table)
 {
     for (size_t i = 0; i < COUNT_OF(bound); i++)
         if (strcmp(bound[i].schema->name, table) == 0)
@@ -33,7 +33,7 @@ bool findings_are_of(const char *table)
     return false;
 }
 
-wt_status findings_bind(const wt_result *result, finding_tables *tables, wt_error *err)
+wt_status result_values_bind(const wt_result *result, result_value_tables *tables, wt_error *err)
 {
     wt_status status = WT_OK;
     for (size_t i = 0; i < COUNT_OF(bound); i++) {
@@ -47,27 +47,27 @@ wt_status findings_bind(const wt_result *result, finding_tables *tables, wt_erro
     return status;
 }
 
-static finding empty_finding(const char *name, const char *words, wt_quantity quantity,
-                             const char *unit)
+static result_value empty_finding(const char *name, const char *words, wt_quantity quantity,
+                                  const char *unit)
 {
     const double unknown = (double)NAN;
-    return (finding){.name = name,
-                     .words = words,
-                     .quantity = quantity,
-                     .number = {unknown, unknown, unknown, unit},
-                     .low = unknown,
-                     .high = unknown,
-                     .neutral = unknown,
-                     .range = {.low = unknown, .high = unknown},
-                     .frequency = {unknown, unknown},
-                     .velocity = unknown,
-                     .pressure = unknown};
+    return (result_value){.name = name,
+                          .words = words,
+                          .quantity = quantity,
+                          .number = {unknown, unknown, unknown, unit},
+                          .low = unknown,
+                          .high = unknown,
+                          .neutral = unknown,
+                          .range = {.low = unknown, .high = unknown},
+                          .frequency = {unknown, unknown},
+                          .velocity = unknown,
+                          .pressure = unknown};
 }
 
 /* ---- groups ---------------------------------------------------------------------------------- */
 
 /* Equivalent frequencies of the rates between two; of one group, or NULL: of all. */
-static void find_frequencies(const finding_tables *t, const char *group, double slowest,
+static void find_frequencies(const result_value_tables *t, const char *group, double slowest,
                              double fastest, double frequency[2])
 {
     for (size_t i = 0; i < t->rates.n_rows; i++) {
@@ -82,10 +82,10 @@ static void find_frequencies(const finding_tables *t, const char *group, double 
     }
 }
 
-finding finding_of_group(const finding_tables *t, size_t row)
+result_value result_value_of_group(const result_value_tables *t, size_t row)
 {
     const char *group = modulus_groups_text(&t->groups, row, MODULUS_GROUPS_GROUP);
-    finding f = empty_finding("modulus", "Modulus", WT_Q_MODULUS, "Pa");
+    result_value f = empty_finding("modulus", "Modulus", WT_Q_MODULUS, "Pa");
     f.number.value = modulus_groups_get(&t->groups, row, MODULUS_GROUPS_GEOMETRIC_MEAN);
     f.low = modulus_groups_get(&t->groups, row, MODULUS_GROUPS_LOW);
     f.high = modulus_groups_get(&t->groups, row, MODULUS_GROUPS_HIGH);
@@ -107,10 +107,10 @@ finding finding_of_group(const finding_tables *t, size_t row)
 /* ---- their ratio ----------------------------------------------------------------------------- */
 
 /* The first row of the comparison is that over all rates. */
-finding finding_of_ratio(const finding_tables *t)
+result_value result_value_of_ratio(const result_value_tables *t)
 {
     const table_view *c = &t->comparison;
-    finding f = empty_finding("modulus_ratio", "Modulus, track over bulk", WT_Q_NONE, "1");
+    result_value f = empty_finding("modulus_ratio", "Modulus, track over bulk", WT_Q_NONE, "1");
     if (c->n_rows == 0)
         return f;
     double slowest = (double)NAN, fastest = (double)NAN;
@@ -131,9 +131,9 @@ finding finding_of_ratio(const finding_tables *t)
     return f;
 }
 
-double finding_ratio_of_all(const finding_tables *t)
+double result_value_ratio_of_all(const result_value_tables *t)
 {
-    const finding ratio = finding_of_ratio(t);
+    const result_value ratio = result_value_of_ratio(t);
     double mean[2] = {(double)NAN, (double)NAN};
     for (size_t i = 0; i < t->groups.n_rows; i++)
         for (int g = 0; g < 2; g++)
@@ -185,9 +185,9 @@ static double reach_of_choice(const table_view *what_if, size_t *row, what_if_nu
 }
 
 /* The first row is as used. What lies within the numerical error is the same. */
-static finding_range range_of(const table_view *what_if, what_if_number *number, double error)
+static result_value_range range_of(const table_view *what_if, what_if_number *number, double error)
 {
-    finding_range r = {.low = (double)NAN, .high = (double)NAN};
+    result_value_range r = {.low = (double)NAN, .high = (double)NAN};
     size_t low = 0, high = 0;
     double widest = 0;
     if (what_if->n_rows < 2 || !isfinite(number(what_if, 0)))
@@ -217,7 +217,7 @@ static finding_range range_of(const table_view *what_if, what_if_number *number,
 }
 
 /* Of a normal error; what cannot be negative is not said to be. */
-static void set_interval(finding *f, bool positive)
+static void set_interval(result_value *f, bool positive)
 {
     const double half = NORMAL_95 * f->number.standard_error;
     if (!(half > 0) || !isfinite(half) || !isfinite(f->number.value))
@@ -243,11 +243,11 @@ static const predicted of_friction[] = {
     {FRICTION_KEY_RELATIVE_CHANGE, relative_change_of, false},
 };
 
-finding finding_of_friction(const finding_tables *t, friction_key key)
+result_value result_value_of_friction(const result_value_tables *t, friction_key key)
 {
     const schema_field *field = &friction_schema.keys[key];
     const char *words = field->headline != NULL ? field->headline : field->label;
-    finding f = empty_finding(field->name, words, field->quantity, "1");
+    result_value f = empty_finding(field->name, words, field->quantity, "1");
     for (size_t i = 0; i < COUNT_OF(of_friction); i++) {
         if (of_friction[i].key != key || t->friction.table == NULL)
             continue;
@@ -264,10 +264,10 @@ finding finding_of_friction(const finding_tables *t, friction_key key)
     return f;
 }
 
-finding finding_of_thickness(const finding_tables *t)
+result_value result_value_of_thickness(const result_value_tables *t)
 {
     const schema_field *field = &layer_schema.keys[LAYER_KEY_BALANCE_THICKNESS];
-    finding f = empty_finding(field->name, field->headline, field->quantity, "m");
+    result_value f = empty_finding(field->name, field->headline, field->quantity, "m");
     if (t->layer.table == NULL)
         return f;
     f.predicted = true;
@@ -281,21 +281,21 @@ finding finding_of_thickness(const finding_tables *t)
     return f;
 }
 
-bool finding_of_key(const finding_tables *t, const schema_field *key, finding *f)
+bool result_value_of_key(const result_value_tables *t, const schema_field *key, result_value *f)
 {
     if (key == &layer_schema.keys[LAYER_KEY_BALANCE_THICKNESS]) {
-        *f = finding_of_thickness(t);
+        *f = result_value_of_thickness(t);
         return true;
     }
     for (size_t i = 0; i < COUNT_OF(of_friction); i++)
         if (key == &friction_schema.keys[of_friction[i].key]) {
-            *f = finding_of_friction(t, of_friction[i].key);
+            *f = result_value_of_friction(t, of_friction[i].key);
             return true;
         }
     return false;
 }
 
-int finding_digits(double value, double low, double high)
+int result_value_digits(double value, double low, double high)
 {
     enum { LEAST = 3, MOST = 6, OF_ERROR = 2 };
     const double half = (high - low) / 2;
@@ -312,16 +312,16 @@ static finding_sign sign_between(double low, double high, double neutral)
     return high < neutral ? FINDING_LESS : low > neutral ? FINDING_MORE : FINDING_OPEN;
 }
 
-finding_sign finding_sign_measured(const finding *f)
+finding_sign result_value_sign_measured(const result_value *f)
 {
     const bool known = !isnan(f->low) && !isnan(f->high);
     return sign_between(known ? f->low : f->number.value, known ? f->high : f->number.value,
                         f->neutral);
 }
 
-finding_sign finding_sign_of(const finding *f)
+finding_sign result_value_sign(const result_value *f)
 {
-    const finding_sign measured = finding_sign_measured(f);
+    const finding_sign measured = result_value_sign_measured(f);
     if (isnan(f->range.low))
         return measured;
     return sign_between(f->range.low, f->range.high, f->neutral) == measured ? measured

@@ -9,12 +9,12 @@
 #include <math.h>
 #include <string.h>
 
-bordered bordered_new(pool *memory, size_t m, size_t n)
+bordered bordered_new(arena *memory, size_t m, size_t n)
 {
     bordered b = {.m = m, .n = n};
-    b.border = pool_matrix(memory, m, m);
-    b.side = pool_matrix(memory, BLOCK_SIDE * n + TILE_ROWS - 1, m);
-    b.own = pool_numbers(memory, BLOCK_OWN * n);
+    b.border = arena_matrix(memory, m, m);
+    b.side = arena_matrix(memory, BLOCK_SIDE * n + TILE_ROWS - 1, m);
+    b.own = arena_numbers(memory, BLOCK_OWN * n);
     return b;
 }
 

@@ -21,7 +21,7 @@ typedef struct bordered {
 } bordered;
 
 /* Of at most so many; m may then be less. */
-bordered bordered_new(pool *memory, size_t m, size_t n);
+bordered bordered_new(arena *memory, size_t m, size_t n);
 void bordered_zero(bordered *b);
 /* Of the same m. */
 void bordered_copy(bordered *to, const bordered *from);

@@ -30,7 +30,7 @@ enum { HALVINGS = 40 };
 static const double counts_for_nothing = 1e-3;
 
 /* One smoothness and size of the departure. */
-typedef struct smooth_way {
+typedef struct gp_hyperparameters {
     double length, ratio;
     double log_weight, weight;
     double variance;  /* of the scatter */
@@ -38,7 +38,7 @@ typedef struct smooth_way {
     gsl_matrix *flat; /* [n][PARABOLA] covariance^-1 powers */
     gsl_vector *pull; /* [n] covariance^-1 residual */
     double coefficient[PARABOLA], inverse[PARABOLA][PARABOLA];
-} smooth_way;
+} gp_hyperparameters;
 
 /* Powers of x, or their slopes. */
 static void parabola_powers(double x, smooth_order order, double p[PARABOLA])
@@ -49,7 +49,8 @@ static void parabola_powers(double x, smooth_order order, double p[PARABOLA])
 }
 
 /* Of the departure at x, or its slope, with that at a point. */
-static double departure_covariance(const smooth_way *w, double x, double at, smooth_order order)
+static double departure_covariance(const gp_hyperparameters *w, double x, double at,
+                                   smooth_order order)
 {
     const double away = (x - at) / w->length, value = w->ratio * exp(-0.5 * away * away);
     return order == SMOOTH_VALUE ? value : -away / w->length * value;
@@ -57,14 +58,15 @@ static double departure_covariance(const smooth_way *w, double x, double at, smo
 
 /* ---- points ---------------------------------------------------------------------------------- */
 
-static wt_status take_points(smooth *s, const double *x, const double *y, size_t n, wt_error *err)
+static wt_status take_points(gaussian_process *s, const double *x, const double *y, size_t n,
+                             wt_error *err)
 {
     const size_t each = (n + SMOOTH_POINTS - 1) / SMOOTH_POINTS;
     s->n = (n + each - 1) / each;
-    s->x = pool_numbers(&s->memory, s->n);
-    s->y = pool_numbers(&s->memory, s->n);
-    s->count = pool_numbers(&s->memory, s->n);
-    s->ways = pool_alloc(&s->memory, WAYS, sizeof *s->ways);
+    s->x = arena_numbers(&s->memory, s->n);
+    s->y = arena_numbers(&s->memory, s->n);
+    s->count = arena_numbers(&s->memory, s->n);
+    s->ways = arena_alloc(&s->memory, WAYS, sizeof *s->ways);
     if (s->memory.failed)
         return wt_fail(err, WT_E_MEMORY, "no memory for a curve");
     s->centre = 0.5 * (x[0] + x[n - 1]);
@@ -81,7 +83,8 @@ static wt_status take_points(smooth *s, const double *x, const double *y, size_t
 /* ---- one way --------------------------------------------------------------------------------- */
 
 /* Generalised least squares of the parabola; false if the matrices are singular. */
-static bool solve_parabola(const smooth *s, smooth_way *w, gsl_vector *powers_y, double *log_det)
+static bool solve_parabola(const gaussian_process *s, gp_hyperparameters *w, gsl_vector *powers_y,
+                           double *log_det)
 {
     double data[PARABOLA * PARABOLA] = {0};
     gsl_matrix_view normal = gsl_matrix_view_array(data, PARABOLA, PARABOLA);
@@ -104,7 +107,7 @@ static bool solve_parabola(const smooth *s, smooth_way *w, gsl_vector *powers_y,
 }
 
 /* Fills the way from its length and ratio; false if it cannot be. powers_y: [n] scratch. */
-static bool fit_way(const smooth *s, smooth_way *w, gsl_vector *powers_y)
+static bool fit_way(const gaussian_process *s, gp_hyperparameters *w, gsl_vector *powers_y)
 {
     double log_det = 0, squares = 0;
     gsl_vector_set_zero(powers_y);
@@ -148,30 +151,30 @@ static bool fit_way(const smooth *s, smooth_way *w, gsl_vector *powers_y)
     return isfinite(w->log_weight);
 }
 
-static smooth_way *new_way(smooth *s, double length, double ratio)
+static gp_hyperparameters *new_way(gaussian_process *s, double length, double ratio)
 {
-    smooth_way *w = &s->ways[s->n_ways];
-    *w = (smooth_way){.length = length,
-                      .ratio = ratio,
-                      .root = pool_matrix(&s->memory, s->n, s->n),
-                      .flat = pool_matrix(&s->memory, s->n, PARABOLA),
-                      .pull = pool_vector(&s->memory, s->n)};
+    gp_hyperparameters *w = &s->ways[s->n_ways];
+    *w = (gp_hyperparameters){.length = length,
+                              .ratio = ratio,
+                              .root = arena_matrix(&s->memory, s->n, s->n),
+                              .flat = arena_matrix(&s->memory, s->n, PARABOLA),
+                              .pull = arena_vector(&s->memory, s->n)};
     return w;
 }
 
-wt_status smooth_new(const double *x, const double *y, size_t n, bool parabola, smooth *s,
-                     wt_error *err)
+wt_status gaussian_process_new(const double *x, const double *y, size_t n, bool parabola,
+                               gaussian_process *s, wt_error *err)
 {
-    *s = (smooth){.n = 0};
+    *s = (gaussian_process){.n = 0};
     gsl_quiet();
     wt_status status = take_points(s, x, y, n, err);
-    gsl_vector *scratch = status == WT_OK ? pool_vector(&s->memory, s->n) : NULL;
+    gsl_vector *scratch = status == WT_OK ? arena_vector(&s->memory, s->n) : NULL;
     double best = -HUGE_VAL, sum = 0;
     for (size_t k = 0; status == WT_OK && k < COUNT_OF(lengths); k++)
         for (size_t r = 0; r < COUNT_OF(ratios); r++) {
             if (parabola && k + r > 0)
                 continue;
-            smooth_way *w = new_way(s, lengths[k], parabola ? 0 : ratios[r]);
+            gp_hyperparameters *w = new_way(s, lengths[k], parabola ? 0 : ratios[r]);
             if (s->memory.failed)
                 return wt_fail(err, WT_E_MEMORY, "no memory for a curve");
             if (!fit_way(s, w, scratch))
@@ -195,16 +198,17 @@ wt_status smooth_new(const double *x, const double *y, size_t n, bool parabola, 
     return status;
 }
 
-void smooth_free(smooth *s)
+void gaussian_process_free(gaussian_process *s)
 {
-    pool_free(&s->memory);
-    *s = (smooth){.n = 0};
+    arena_free(&s->memory);
+    *s = (gaussian_process){.n = 0};
 }
 
 /* ---- what it says ---------------------------------------------------------------------------- */
 
 /* By one way, in units of the scaled x. */
-static double way_mean(const smooth *s, const smooth_way *w, double x, smooth_order order)
+static double way_mean(const gaussian_process *s, const gp_hyperparameters *w, double x,
+                       smooth_order order)
 {
     double p[PARABOLA], mean = 0;
     parabola_powers(x, order, p);
@@ -215,7 +219,8 @@ static double way_mean(const smooth *s, const smooth_way *w, double x, smooth_or
     return mean;
 }
 
-static double way_error(const smooth *s, const smooth_way *w, double x, smooth_order order)
+static double way_error(const gaussian_process *s, const gp_hyperparameters *w, double x,
+                        smooth_order order)
 {
     double p[PARABOLA], known[SMOOTH_POINTS];
     double square = order == SMOOTH_VALUE ? w->ratio : w->ratio / (w->length * w->length);
@@ -236,12 +241,12 @@ static double way_error(const smooth *s, const smooth_way *w, double x, smooth_o
 }
 
 /* The order counts from the scaled x to x. */
-static double scale_of(const smooth *s, smooth_order order)
+static double scale_of(const gaussian_process *s, smooth_order order)
 {
     return order == SMOOTH_VALUE ? 1 : 1 / s->half;
 }
 
-double smooth_mean(const smooth *s, double x, smooth_order order)
+double gaussian_process_mean(const gaussian_process *s, double x, smooth_order order)
 {
     double mean = 0;
     for (size_t i = 0; i < s->n_ways; i++)
@@ -250,14 +255,14 @@ double smooth_mean(const smooth *s, double x, smooth_order order)
 }
 
 /* What each way says of a place. */
-typedef struct opinions {
+typedef struct model_mixture {
     size_t n;
     double weight[WAYS], mean[WAYS], error[WAYS], freedom;
-} opinions;
+} model_mixture;
 
-static opinions opinions_at(const smooth *s, double x, smooth_order order)
+static model_mixture opinions_at(const gaussian_process *s, double x, smooth_order order)
 {
-    opinions o = {.n = s->n_ways, .freedom = (double)(s->n - PARABOLA)};
+    model_mixture o = {.n = s->n_ways, .freedom = (double)(s->n - PARABOLA)};
     const double at = (x - s->centre) / s->half, scale = scale_of(s, order);
     for (size_t i = 0; i < o.n; i++) {
         o.weight[i] = s->ways[i].weight;
@@ -267,7 +272,7 @@ static opinions opinions_at(const smooth *s, double x, smooth_order order)
     return o;
 }
 
-static double probability_below(const opinions *o, double limit)
+static double probability_below(const model_mixture *o, double limit)
 {
     double probability = 0;
     for (size_t i = 0; i < o->n; i++) {
@@ -279,14 +284,14 @@ static double probability_below(const opinions *o, double limit)
     return probability;
 }
 
-double smooth_below(const smooth *s, double x, smooth_order order, double limit)
+double smooth_below(const gaussian_process *s, double x, smooth_order order, double limit)
 {
-    const opinions o = opinions_at(s, x, order);
+    const model_mixture o = opinions_at(s, x, order);
     return probability_below(&o, limit);
 }
 
 typedef struct opinion_level {
-    const opinions *o;
+    const model_mixture *o;
     double probability;
 } opinion_level;
 
@@ -297,7 +302,7 @@ static bool less_probable(double x, void *user)
 }
 
 /* Begins at `from`, which lies on the other side of it, with steps of the size of `step`. */
-static double opinion_quantile(const opinions *o, double probability, double from, double step)
+static double opinion_quantile(const model_mixture *o, double probability, double from, double step)
 {
     double other = from + step;
     while (step != 0 && (probability_below(o, other) < probability) == (step > 0) &&
@@ -309,7 +314,7 @@ static double opinion_quantile(const opinions *o, double probability, double fro
     return 0.5 * (low + high);
 }
 
-static wt_interval interval_of(const opinions *o)
+static wt_interval interval_of(const model_mixture *o)
 {
     double mean = 0, error = 0;
     for (size_t i = 0; i < o->n; i++) {
@@ -321,9 +326,9 @@ static wt_interval interval_of(const opinions *o)
     return (wt_interval){mean, (high - low) / (2 * NORMAL_95), low, high};
 }
 
-wt_interval smooth_interval(const smooth *s, double x)
+wt_interval gaussian_process_interval(const gaussian_process *s, double x)
 {
-    const opinions o = opinions_at(s, x, SMOOTH_VALUE);
+    const model_mixture o = opinions_at(s, x, SMOOTH_VALUE);
     return interval_of(&o);
 }
 
@@ -343,14 +348,14 @@ typedef struct slopes {
     gsl_eigen_symmv_workspace *eigen;
 } slopes;
 
-static double slope_covariance(const smooth_way *w, double x, double y)
+static double slope_covariance(const gp_hyperparameters *w, double x, double y)
 {
     const double away = (x - y) / w->length;
     return w->ratio / (w->length * w->length) * (1 - away * away) * exp(-0.5 * away * away);
 }
 
 /* How the slopes by one way depart from their mean together: directions and their squares. */
-static bool find_directions(const smooth *s, const smooth_way *w, slopes *v)
+static bool find_directions(const gaussian_process *s, const gp_hyperparameters *w, slopes *v)
 {
     for (size_t k = 0; k < v->n; k++) {
         const double at = (v->x[k] - s->centre) / s->half;
@@ -381,7 +386,7 @@ static bool find_directions(const smooth *s, const smooth_way *w, slopes *v)
     return gsl_eigen_symmv(v->covariance, v->squares, v->directions, v->eigen) == GSL_SUCCESS;
 }
 
-static double number_beside(slopes *v, size_t k, double step, smooth_number *number)
+static double number_beside(slopes *v, size_t k, double step, gaussian_process_number *number)
 {
     for (size_t i = 0; i < v->n; i++)
         v->moved[i] = v->mean[i] + step * gsl_matrix_get(v->directions, i, k);
@@ -389,8 +394,8 @@ static double number_beside(slopes *v, size_t k, double step, smooth_number *num
 }
 
 /* The number by one way and its error; false: it has none. */
-static bool number_of_way(const smooth *s, const smooth_way *w, slopes *v, smooth_number *number,
-                          double *mean, double *error)
+static bool number_of_way(const gaussian_process *s, const gp_hyperparameters *w, slopes *v,
+                          gaussian_process_number *number, double *mean, double *error)
 {
     if (!find_directions(s, w, v))
         return false;
@@ -410,29 +415,29 @@ static bool number_of_way(const smooth *s, const smooth_way *w, slopes *v, smoot
     return isfinite(*mean) && isfinite(*error);
 }
 
-static wt_status new_slopes(const smooth *s, const double *x, size_t n, pool *memory, slopes *v,
-                            wt_error *err)
+static wt_status new_slopes(const gaussian_process *s, const double *x, size_t n, arena *memory,
+                            slopes *v, wt_error *err)
 {
     *v = (slopes){.x = x,
                   .n = n,
-                  .mean = pool_numbers(memory, n),
-                  .moved = pool_numbers(memory, n),
-                  .known = pool_matrix(memory, s->n, n),
-                  .powers = pool_matrix(memory, n, PARABOLA),
-                  .covariance = pool_matrix(memory, n, n),
-                  .directions = pool_matrix(memory, n, n),
-                  .squares = pool_vector(memory, n)};
+                  .mean = arena_numbers(memory, n),
+                  .moved = arena_numbers(memory, n),
+                  .known = arena_matrix(memory, s->n, n),
+                  .powers = arena_matrix(memory, n, PARABOLA),
+                  .covariance = arena_matrix(memory, n, n),
+                  .directions = arena_matrix(memory, n, n),
+                  .squares = arena_vector(memory, n)};
     if (memory->failed || (v->eigen = gsl_eigen_symmv_alloc(n)) == NULL)
         return wt_fail(err, WT_E_MEMORY, "no memory for the slopes of a curve");
     return WT_OK;
 }
 
-wt_status smooth_of_slopes(const smooth *s, const double *x, size_t n, smooth_number *number,
-                           wt_interval *interval, wt_error *err)
+wt_status smooth_of_slopes(const gaussian_process *s, const double *x, size_t n,
+                           gaussian_process_number *number, wt_interval *interval, wt_error *err)
 {
-    pool memory = {0};
+    arena memory = {0};
     slopes v;
-    opinions o = {.freedom = (double)(s->n - PARABOLA)};
+    model_mixture o = {.freedom = (double)(s->n - PARABOLA)};
     double sum = 0;
     *interval = (wt_interval){(double)NAN, (double)NAN, (double)NAN, (double)NAN};
     const wt_status status = new_slopes(s, x, n, &memory, &v, err);
@@ -447,6 +452,6 @@ wt_status smooth_of_slopes(const smooth *s, const double *x, size_t n, smooth_nu
     if (sum >= 1 - without_number)
         *interval = interval_of(&o);
     gsl_eigen_symmv_free(v.eigen);
-    pool_free(&memory);
+    arena_free(&memory);
     return status;
 }

@@ -40,7 +40,7 @@ typedef struct shift_set {
 /* Takes logarithms of what is asked for, sorts, leaves out points without one. WT_E_RANGE names an
  * isotherm that has too few positive points left, or temperatures that are not kelvin; WT_E_MISSING
  * for a modulus that was not measured. */
-wt_status shift_set_new(const wt_sweep *sweep, wt_shift_by by, wt_parselog *log, pool *memory,
+wt_status shift_set_new(const wt_sweep *sweep, wt_shift_by by, wt_log *log, arena *memory,
                         shift_set *set, wt_error *err) WT_NODISCARD;
 
 /* By how much the modulus changes along a curve, storage if it is used [decade]. */

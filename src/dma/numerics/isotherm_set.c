@@ -139,8 +139,7 @@ static void fill_points(const struct point *point, size_t n, shift_curve *curve)
 
 /* Fills one curve from an isotherm; scratch: [isotherm->n]. */
 static wt_status fill_curve(const wt_isotherm *isotherm, const shift_set *set,
-                            struct point *scratch, shift_curve *curve, wt_parselog *log,
-                            wt_error *err)
+                            struct point *scratch, shift_curve *curve, wt_log *log, wt_error *err)
 {
     size_t n = 0;
     size_t first_bad = isotherm->n;
@@ -175,12 +174,12 @@ static wt_status fill_curve(const wt_isotherm *isotherm, const shift_set *set,
         return status;
     }
     if (curve->n_left_out > 0)
-        wt_parselog_add(log, WT_WARNING, isotherm->source, NULL,
-                        "isotherm of %.2f °C: %zu of %zu points left out, no positive modulus "
-                        "(first: %g rad/s, storage %g Pa, loss %g Pa)",
-                        isotherm->temperature - WT_ZERO_CELSIUS, curve->n_left_out, isotherm->n,
-                        isotherm->angular_frequency[first_bad],
-                        isotherm->storage_modulus[first_bad], isotherm->loss_modulus[first_bad]);
+        wt_log_add(log, WT_WARNING, isotherm->source, NULL,
+                   "isotherm of %.2f °C: %zu of %zu points left out, no positive modulus "
+                   "(first: %g rad/s, storage %g Pa, loss %g Pa)",
+                   isotherm->temperature - WT_ZERO_CELSIUS, curve->n_left_out, isotherm->n,
+                   isotherm->angular_frequency[first_bad], isotherm->storage_modulus[first_bad],
+                   isotherm->loss_modulus[first_bad]);
     qsort(scratch, n, sizeof *scratch, numbers_compare);
     fill_points(scratch, n, curve);
     return WT_OK;
@@ -227,7 +226,7 @@ static wt_status choose_quantity(const wt_sweep *sweep, wt_shift_by by, shift_se
     return WT_E_MISSING;
 }
 
-wt_status shift_set_new(const wt_sweep *sweep, wt_shift_by by, wt_parselog *log, pool *memory,
+wt_status shift_set_new(const wt_sweep *sweep, wt_shift_by by, wt_log *log, arena *memory,
                         shift_set *set, wt_error *err)
 {
     const size_t n = sweep->n_isotherms;
@@ -246,11 +245,11 @@ wt_status shift_set_new(const wt_sweep *sweep, wt_shift_by by, wt_parselog *log,
         wt_error_advice(err, "give all temperatures of the sweep together");
         return status;
     }
-    struct order *order = pool_alloc(memory, n, sizeof *order);
-    struct point *scratch = pool_alloc(memory, n_longest, sizeof *scratch);
-    double *next = pool_numbers(memory, (1 + MODULI) * n_points);
+    struct order *order = arena_alloc(memory, n, sizeof *order);
+    struct point *scratch = arena_alloc(memory, n_longest, sizeof *scratch);
+    double *next = arena_numbers(memory, (1 + MODULI) * n_points);
     *set = (shift_set){
-        .n = n, .loading = sweep->loading, .curves = pool_alloc(memory, n, sizeof *set->curves)};
+        .n = n, .loading = sweep->loading, .curves = arena_alloc(memory, n, sizeof *set->curves)};
     if (memory->failed)
         return wt_fail(err, WT_E_MEMORY, "no memory for %zu isotherms", n);
     status = choose_quantity(sweep, by, set, err);

@@ -145,19 +145,19 @@ wt_status master_choose_anchor(master_work *work, wt_error *err)
 wt_status master_work_alloc(master_work *work, wt_error *err)
 {
     const size_t n = work->set.n;
-    pool *m = &work->memory;
-    work->placed = pool_alloc(m, n, sizeof *work->placed);
-    work->a = pool_numbers(m, n);
-    work->b = pool_numbers(m, n);
-    work->physical = pool_numbers(m, n);
-    work->overlap = pool_numbers(m, n);
+    arena *m = &work->memory;
+    work->placed = arena_alloc(m, n, sizeof *work->placed);
+    work->a = arena_numbers(m, n);
+    work->b = arena_numbers(m, n);
+    work->physical = arena_numbers(m, n);
+    work->overlap = arena_numbers(m, n);
     vertical_make_room(m, n, &work->vertical);
-    work->link = pool_alloc(m, n, sizeof *work->link);
-    work->own_a = pool_numbers(m, n);
+    work->link = arena_alloc(m, n, sizeof *work->link);
+    work->own_a = arena_numbers(m, n);
     work->posterior = posterior_new();
     if (work->posterior != NULL) {
-        work->posterior->curve = pool_alloc(&work->posterior->memory, n, sizeof(size_t));
-        work->posterior->closed_form = pool_numbers(&work->posterior->memory, n);
+        work->posterior->curve = arena_alloc(&work->posterior->memory, n, sizeof(size_t));
+        work->posterior->closed_form = arena_numbers(&work->posterior->memory, n);
         work->curve = work->posterior->curve;
         work->s = &work->posterior->frame;
     }
@@ -190,12 +190,12 @@ wt_status master_make_spectrum(master_work *work, wt_error *err)
     if (status != WT_OK)
         return status;
     const size_t n = work->s->n_curves;
-    pool *m = &work->s->memory; /* these go with the spectrum */
-    p->temperature = pool_numbers(m, n);
-    p->mean_b = pool_numbers(m, n);
-    p->slope = pool_numbers(m, n);
-    p->scratch = pool_numbers(m, 7 * n + 4 * work->s->n_linear);
-    p->with_all = pool_numbers(m, 3 * n + work->s->n_linear);
+    arena *m = &work->s->memory; /* these go with the spectrum */
+    p->temperature = arena_numbers(m, n);
+    p->mean_b = arena_numbers(m, n);
+    p->slope = arena_numbers(m, n);
+    p->scratch = arena_numbers(m, 7 * n + 4 * work->s->n_linear);
+    p->with_all = arena_numbers(m, 3 * n + work->s->n_linear);
     if (m->failed)
         return wt_fail(err, WT_E_MEMORY, "no memory for %zu isotherms", n);
     work->vertical.mean = p->mean_b;
@@ -262,7 +262,7 @@ static wt_status try_lines(const master_work *work, bool *better, wt_error *err)
                                     trial_terms, work->options.liquid, &lines, err);
     if (status != WT_OK)
         return status;
-    double *b = pool_numbers(&lines.memory, s->n_curves);
+    double *b = arena_numbers(&lines.memory, s->n_curves);
     const spectrum_prior held = {.held = true, .mean = b};
     if (b == NULL)
         status = wt_fail(err, WT_E_MEMORY, "no memory for a spectrum");

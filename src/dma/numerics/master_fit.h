@@ -8,7 +8,7 @@
 #include "dma/numerics/superposition.h"
 
 typedef struct master_work {
-    pool memory;
+    arena memory;
     wt_master_options options;
     shift_set set;
     double reference; /* [K] */
@@ -79,12 +79,12 @@ bool master_beside_part(const master_work *work, size_t i, double *a, double *er
  */
 wt_status master_may_overlap(master_work *work, bool *may, wt_error *err) WT_NODISCARD;
 /* Keeps the shifts of the spectrum in own_a. */
-void master_keep_own(master_work *work);
+void master_keep_original(master_work *work);
 /* Where superposition fails: the errors of the shifts of the spectrum hold what the overlaps
  * disagree by, too. */
-wt_status master_doubt(master_work *work, wt_error *err) WT_NODISCARD;
+wt_status master_uncertainty(master_work *work, wt_error *err) WT_NODISCARD;
 /* Whether that leaves no shift of the spectrum. */
-bool master_doubts_all(const master_work *work);
+bool master_all_uncertain(const master_work *work);
 /* A shift with a larger error is not determined [decade]. */
 extern const double master_largest_sigma;
 /* Whether the shifts of the spectrum are what the overlaps say, with the vertical shift of rubber
@@ -101,11 +101,11 @@ bool master_is_factor(const lack_of_fit *lack);
 
 /* For the reference of the options. *better: where the fit failed for want of overlap, NaN or the
  * temperature of an isotherm that changes much more than the one it was started from. */
-wt_status master_fit_once(const wt_sweep *sweep, const wt_master_options *options, wt_parselog *log,
+wt_status master_fit_once(const wt_sweep *sweep, const wt_master_options *options, wt_log *log,
                           wt_master *master, double *better, wt_error *err) WT_NODISCARD;
 /* Fills `master` (without the posterior, which it takes over). */
-wt_status master_report(master_work *work, const wt_sweep *sweep, wt_parselog *log,
-                        wt_master *master, wt_error *err) WT_NODISCARD;
+wt_status master_report(master_work *work, const wt_sweep *sweep, wt_log *log, wt_master *master,
+                        wt_error *err) WT_NODISCARD;
 /* The shifts with their notes. */
 wt_status master_fill_shifts(const master_work *work, wt_master *m, wt_error *err) WT_NODISCARD;
 /* WT_E_RANGE: none can be given for the reference temperature. */
@@ -117,8 +117,8 @@ wt_status master_check_shifts(const master_work *work, const wt_master *m,
 /* Adds a remark to the note of a shift, parted by "; ". */
 void master_note(wt_master_shift *shift, const char *format, ...) WT_PRINTF(2, 3);
 /* What is odd about the isotherms, into their notes and the log. */
-void master_notes(const master_work *work, const wt_sweep *sweep, wt_master *m, wt_parselog *log);
+void master_notes(const master_work *work, const wt_sweep *sweep, wt_master *m, wt_log *log);
 /* The verdict on superposition; shifts and test are in `master`. */
-void master_judge(const master_work *work, wt_master *master);
+void master_assess(const master_work *work, wt_master *master);
 
 #endif

@@ -79,7 +79,7 @@ static void note_runs(wt_master *m)
 }
 
 /* Largest and smallest mean strain amplitude of the isotherms. */
-static void note_strain(const wt_sweep *sweep, wt_parselog *log)
+static void note_strain(const wt_sweep *sweep, wt_log *log)
 {
     double low = HUGE_VAL, high = 0.0;
     for (size_t i = 0; i < sweep->n_isotherms; i++) {
@@ -97,14 +97,14 @@ static void note_strain(const wt_sweep *sweep, wt_parselog *log)
         }
     }
     if (high > odd_strain * low)
-        wt_parselog_add(log, WT_WARNING, NULL, NULL,
-                        "isotherms were measured at strain amplitudes from %.2g to %.2g: a filled "
-                        "rubber softens with strain, so their shifts mix temperature and strain",
-                        low, high);
+        wt_log_add(log, WT_WARNING, NULL, NULL,
+                   "isotherms were measured at strain amplitudes from %.2g to %.2g: a filled "
+                   "rubber softens with strain, so their shifts mix temperature and strain",
+                   low, high);
 }
 
 /* What one quantity leaves open. */
-static void note_quantity(const master_work *work, wt_parselog *log)
+static void note_quantity(const master_work *work, wt_log *log)
 {
     static const char *const open[] = {
         [WT_BY_STORAGE] = "fitted to the storage modulus alone: the loss modulus is what its slope "
@@ -116,21 +116,21 @@ static void note_quantity(const master_work *work, wt_parselog *log)
             "the moduli, no vertical shift and no series, and superposition is not "
             "tested"};
     if (work->set.loading != WT_OSCILLATION)
-        wt_parselog_add(log, WT_WARNING, NULL, NULL,
-                        "fitted to %s: storage and loss modulus are those of the spectrum, and "
-                        "superposition is not tested",
-                        work->set.loading == WT_CREEP ? "creep compliances" : "relaxation moduli");
+        wt_log_add(log, WT_WARNING, NULL, NULL,
+                   "fitted to %s: storage and loss modulus are those of the spectrum, and "
+                   "superposition is not tested",
+                   work->set.loading == WT_CREEP ? "creep compliances" : "relaxation moduli");
     if (work->flows)
-        wt_parselog_add(log, WT_WARNING, NULL, NULL,
-                        "creep of a liquid is fitted with an equilibrium modulus, which stands for "
-                        "what flows: shifts, law and moduli at the measured times are those of the "
-                        "liquid, and it is too stiff at longer ones");
+        wt_log_add(log, WT_WARNING, NULL, NULL,
+                   "creep of a liquid is fitted with an equilibrium modulus, which stands for "
+                   "what flows: shifts, law and moduli at the measured times are those of the "
+                   "liquid, and it is too stiff at longer ones");
     else if (work->set.loading == WT_OSCILLATION && work->set.by != WT_BY_MODULI)
-        wt_parselog_add(log, WT_WARNING, NULL, NULL, "%s", open[work->set.by]);
+        wt_log_add(log, WT_WARNING, NULL, NULL, "%s", open[work->set.by]);
 }
 
 /* The way the shifts were found, where it is not one spectrum. */
-static void note_route(const master_work *work, wt_parselog *log)
+static void note_route(const master_work *work, wt_log *log)
 {
     size_t measured = 0, left = 0;
     for (size_t i = 0; i < work->set.n; i++)
@@ -139,32 +139,32 @@ static void note_route(const master_work *work, wt_parselog *log)
             left += work->set.curves[i].n;
         }
     if (measured > 0)
-        wt_parselog_add(log, WT_NOTE, NULL, NULL,
-                        "%zu points of dense isotherms are fitted as %zu means, each over a tenth "
-                        "of a decade at most",
-                        measured, left);
+        wt_log_add(log, WT_NOTE, NULL, NULL,
+                   "%zu points of dense isotherms are fitted as %zu means, each over a tenth "
+                   "of a decade at most",
+                   measured, left);
     if (work->part)
-        wt_parselog_add(log, WT_WARNING, NULL, NULL,
-                        "spectrum, law and series are those of the isotherms from %.1f to %.1f °C, "
-                        "which one spectrum describes; shifts of the others are by the overlap of "
-                        "their storage modulus with their neighbours'",
-                        work->set.curves[work->first].temperature - WT_ZERO_CELSIUS,
-                        work->set.curves[work->last].temperature - WT_ZERO_CELSIUS);
+        wt_log_add(log, WT_WARNING, NULL, NULL,
+                   "spectrum, law and series are those of the isotherms from %.1f to %.1f °C, "
+                   "which one spectrum describes; shifts of the others are by the overlap of "
+                   "their storage modulus with their neighbours'",
+                   work->set.curves[work->first].temperature - WT_ZERO_CELSIUS,
+                   work->set.curves[work->last].temperature - WT_ZERO_CELSIUS);
     else if (work->route == WT_SHIFTS_OF_OVERLAP)
-        wt_parselog_add(log, WT_WARNING, NULL, NULL,
-                        "shifts are by the overlap of the storage modulus alone, from neighbour to "
-                        "neighbour and %s: their errors hold what the places of an overlap "
-                        "disagree by, and by how much the overlap of E'' and %s would move them; "
-                        "E'' of the spectrum is off by what superposition fails by",
-                        work->options.vertical == WT_VERTICAL_PHYSICAL
-                            ? "with the vertical shift of rubber elasticity"
-                            : "without a vertical shift",
-                        work->options.vertical == WT_VERTICAL_PHYSICAL
-                            ? "no vertical shift"
-                            : "the vertical shift of rubber elasticity");
+        wt_log_add(log, WT_WARNING, NULL, NULL,
+                   "shifts are by the overlap of the storage modulus alone, from neighbour to "
+                   "neighbour and %s: their errors hold what the places of an overlap "
+                   "disagree by, and by how much the overlap of E'' and %s would move them; "
+                   "E'' of the spectrum is off by what superposition fails by",
+                   work->options.vertical == WT_VERTICAL_PHYSICAL
+                       ? "with the vertical shift of rubber elasticity"
+                       : "without a vertical shift",
+                   work->options.vertical == WT_VERTICAL_PHYSICAL
+                       ? "no vertical shift"
+                       : "the vertical shift of rubber elasticity");
 }
 
-void master_notes(const master_work *work, const wt_sweep *sweep, wt_master *m, wt_parselog *log)
+void master_notes(const master_work *work, const wt_sweep *sweep, wt_master *m, wt_log *log)
 {
     note_quantity(work, log);
     note_route(work, log);
@@ -174,31 +174,30 @@ void master_notes(const master_work *work, const wt_sweep *sweep, wt_master *m, 
     note_strain(sweep, log);
     for (size_t i = 0; i < m->n_shifts; i++)
         if (m->shifts[i].note[0] != '\0')
-            wt_parselog_add(log, m->shifts[i].determined ? WT_NOTE : WT_WARNING, NULL, NULL,
-                            "isotherm of %.2f °C: %s", m->shifts[i].temperature - WT_ZERO_CELSIUS,
-                            m->shifts[i].note);
+            wt_log_add(log, m->shifts[i].determined ? WT_NOTE : WT_WARNING, NULL, NULL,
+                       "isotherm of %.2f °C: %s", m->shifts[i].temperature - WT_ZERO_CELSIUS,
+                       m->shifts[i].note);
     if (work->lines)
-        wt_parselog_add(log, WT_WARNING, NULL, NULL,
-                        "the spectrum is one of few sharp processes: between their lines nothing "
-                        "is measured, and the errors of E'', of the series and of what is worked "
-                        "out with it are up to twice as large as stated");
+        wt_log_add(log, WT_WARNING, NULL, NULL,
+                   "the spectrum is one of few sharp processes: between their lines nothing "
+                   "is measured, and the errors of E'', of the series and of what is worked "
+                   "out with it are up to twice as large as stated");
     if (m->n_shifts > 1 && (m->reference_temperature < m->shifts[0].temperature ||
                             m->reference_temperature > m->shifts[m->n_shifts - 1].temperature))
-        wt_parselog_add(log, WT_WARNING, NULL, NULL,
-                        "the reference temperature is outside the isotherms: the law is "
-                        "extrapolated");
+        wt_log_add(log, WT_WARNING, NULL, NULL,
+                   "the reference temperature is outside the isotherms: the law is "
+                   "extrapolated");
     if (m->n_shifts > 1 && work->set.by == WT_BY_MODULI &&
         m->superposition != WT_SUPERPOSITION_HOLDS)
-        wt_parselog_add(log, WT_WARNING, NULL, NULL, "time-temperature superposition %s%s%s",
-                        m->superposition == WT_SUPERPOSITION_FAILS ? "fails" : "cannot be judged",
-                        isnan(m->holds_from) ? ": " : " ", m->because);
+        wt_log_add(log, WT_WARNING, NULL, NULL, "time-temperature superposition %s%s%s",
+                   m->superposition == WT_SUPERPOSITION_FAILS ? "fails" : "cannot be judged",
+                   isnan(m->holds_from) ? ": " : " ", m->because);
     if (m->law.kind != WT_LAW_NONE && m->law_rms > master_largest_sigma)
-        wt_parselog_add(
-            log, WT_WARNING, NULL, NULL,
-            "the law of the shift factors is %.2g decade off them (rms): it is none of "
-            "this material, and what is worked out at other temperatures with it is off "
-            "by as much",
-            m->law_rms);
+        wt_log_add(log, WT_WARNING, NULL, NULL,
+                   "the law of the shift factors is %.2g decade off them (rms): it is none of "
+                   "this material, and what is worked out at other temperatures with it is off "
+                   "by as much",
+                   m->law_rms);
     if (m->law.kind == WT_LAW_NONE && m->n_shifts > 1)
-        wt_parselog_add(log, WT_WARNING, NULL, NULL, "no law of the shift factors: %s", m->no_law);
+        wt_log_add(log, WT_WARNING, NULL, NULL, "no law of the shift factors: %s", m->no_law);
 }

@@ -30,8 +30,8 @@ static bool all_agree(const master_work *work, const overlap_link *link)
 wt_status master_agrees(const master_work *work, bool *agrees, wt_error *err)
 {
     const size_t n = work->set.n;
-    pool memory = {0};
-    overlap_link *link = pool_alloc(&memory, n, sizeof *link);
+    arena memory = {0};
+    overlap_link *link = arena_alloc(&memory, n, sizeof *link);
     wt_status status =
         memory.failed ? wt_fail(err, WT_E_MEMORY, "no memory for the overlaps") : WT_OK;
     *agrees = false;
@@ -39,7 +39,7 @@ wt_status master_agrees(const master_work *work, bool *agrees, wt_error *err)
         status = master_links(work, physical == 1, link, err);
         *agrees = status == WT_OK && all_agree(work, link);
     }
-    pool_free(&memory);
+    arena_free(&memory);
     return status;
 }
 
@@ -146,8 +146,8 @@ static wt_status doubt_shifts(master_work *work, wt_error *err)
     const bool may = work->route != WT_SHIFTS_OF_OVERLAP && !master_misfit_is_real(&work->lack);
     const bool fails = !may && !master_loss_is_off(&work->lack);
     double all = 0.0, steps = 0.0;
-    p->doubt = pool_numbers(&p->memory, work->s->n_curves);
-    p->doubts = pool_matrix(&p->memory, work->s->n_curves, work->s->n_curves);
+    p->doubt = arena_numbers(&p->memory, work->s->n_curves);
+    p->doubts = arena_matrix(&p->memory, work->s->n_curves, work->s->n_curves);
     if (p->memory.failed)
         return wt_fail(err, WT_E_MEMORY, "no memory for the overlaps");
     for (size_t i = 0; i < n; i++) {
@@ -174,7 +174,7 @@ static wt_status doubt_shifts(master_work *work, wt_error *err)
     return WT_OK;
 }
 
-void master_keep_own(master_work *work)
+void master_keep_original(master_work *work)
 {
     for (size_t i = 0; i < work->set.n; i++)
         work->own_a[i] = work->placed[i] && work->no_spectrum[0] == '\0'
@@ -182,21 +182,21 @@ void master_keep_own(master_work *work)
                              : (double)NAN;
 }
 
-wt_status master_doubt(master_work *work, wt_error *err)
+wt_status master_uncertainty(master_work *work, wt_error *err)
 {
-    double *b = pool_numbers(&work->memory, work->set.n);
+    double *b = arena_numbers(&work->memory, work->set.n);
     if (b == NULL)
         return wt_fail(err, WT_E_MEMORY, "no memory for the overlaps");
     const double b0 = spectrum_b(work->s, work->curve[work->anchor]);
     for (size_t i = 0; i < work->set.n; i++)
         if (work->placed[i])
             b[i] = (spectrum_b(work->s, work->curve[i]) - b0) / M_LN10;
-    master_keep_own(work);
+    master_keep_original(work);
     const wt_status status = overlap_chain(&work->set, work->anchor, b, NULL, work->link, err);
     return status == WT_OK ? doubt_shifts(work, err) : status;
 }
 
-bool master_doubts_all(const master_work *work)
+bool master_all_uncertain(const master_work *work)
 {
     const double *doubt = work->posterior->doubt;
     bool all = doubt != NULL;

@@ -82,44 +82,44 @@ static wt_status find_transition(const wt_master *m, double *temperature, wt_err
     return WT_OK;
 }
 
-static void hand_on(const wt_parselog *from, wt_parselog *to)
+static void hand_on(const wt_log *from, wt_log *to)
 {
-    for (size_t i = 0; i < wt_parselog_count(from); i++) {
-        const wt_log_entry e = wt_parselog_get(from, i);
+    for (size_t i = 0; i < wt_log_count(from); i++) {
+        const wt_log_entry e = wt_log_get(from, i);
         for (size_t k = 0; k < e.count; k++)
-            wt_parselog_add(to, e.severity, e.file, e.place, "%s", e.text);
+            wt_log_add(to, e.severity, e.file, e.place, "%s", e.text);
     }
 }
 
 /* Where the isotherm in the middle is one of a glass, flat, the one that changes most is the
  * reference, unless one is asked for. */
-static wt_status fit_somewhere(const wt_sweep *sweep, wt_master_options options, wt_parselog *log,
+static wt_status fit_somewhere(const wt_sweep *sweep, wt_master_options options, wt_log *log,
                                wt_master *master, wt_error *err)
 {
     double better;
     wt_error flat = WT_ERROR_INIT;
-    wt_parselog *words = wt_parselog_new(); /* a second fit has the same to say */
+    wt_log *words = wt_log_new(); /* a second fit has the same to say */
     if (words == NULL)
         return wt_fail(err, WT_E_MEMORY, "no memory for the remarks of a fit");
     const wt_status status = master_fit_once(sweep, &options, words, master, &better, &flat);
     const bool only = isnan(better) || !isnan(options.reference_temperature);
     if (only)
         hand_on(words, log);
-    wt_parselog_free(words);
+    wt_log_free(words);
     if (only) {
         if (status != WT_OK && err != NULL)
             *err = flat;
         return status;
     }
-    wt_parselog_add(log, WT_WARNING, NULL, NULL,
-                    "the isotherm in the middle is too flat to shift others onto it: the reference "
-                    "is %.2f °C, where the modulus changes most with frequency",
-                    better - WT_ZERO_CELSIUS);
+    wt_log_add(log, WT_WARNING, NULL, NULL,
+               "the isotherm in the middle is too flat to shift others onto it: the reference "
+               "is %.2f °C, where the modulus changes most with frequency",
+               better - WT_ZERO_CELSIUS);
     options.reference_temperature = better;
     return master_fit_once(sweep, &options, log, master, &better, err);
 }
 
-wt_status wt_master_fit(const wt_sweep *sweep, const wt_master_options *options, wt_parselog *log,
+wt_status wt_master_fit(const wt_sweep *sweep, const wt_master_options *options, wt_log *log,
                         wt_master *master, wt_error *err)
 {
     wt_master_options own = options != NULL ? *options : wt_master_options_defaults();

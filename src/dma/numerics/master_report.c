@@ -226,7 +226,7 @@ static wt_status fill_curve(const master_work *work, wt_master *m, wt_error *err
     const spectrum *s = work->s;
     const bool of_step = s->loading != WT_OSCILLATION;
     wt_posterior *p = work->posterior;
-    p->measured_factor = pool_numbers(&p->memory, s->n);
+    p->measured_factor = arena_numbers(&p->memory, s->n);
     struct order *order = malloc((s->n + 1) * sizeof *order);
     m->log_frequency = malloc(4 * (s->n + 1) * sizeof *m->log_frequency);
     m->isotherm = malloc((s->n + 1) * sizeof *m->isotherm);
@@ -382,8 +382,8 @@ static wt_status fill_series(master_work *work, wt_master *m, wt_error *err)
 
 /* ---- the whole ------------------------------------------------------------------------------- */
 
-wt_status master_report(master_work *work, const wt_sweep *sweep, wt_parselog *log,
-                        wt_master *master, wt_error *err)
+wt_status master_report(master_work *work, const wt_sweep *sweep, wt_log *log, wt_master *master,
+                        wt_error *err)
 {
     wt_master m = {.deformation = sweep->deformation,
                    .loading = sweep->loading,
@@ -427,7 +427,7 @@ wt_status master_report(master_work *work, const wt_sweep *sweep, wt_parselog *l
     m.holds_from = m.holds_to = (double)NAN;
     m.lack_of_fit_p = (double)NAN;
     if (!work->options.series_only)
-        master_judge(work, &m);
+        master_assess(work, &m);
     master_notes(work, sweep, &m, log);
     work->s->prior = NULL; /* of the work */
     m.posterior = work->posterior;

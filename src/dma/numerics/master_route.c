@@ -53,7 +53,7 @@ static wt_status try_part(const master_work *whole, size_t first, size_t last, b
     if (status == WT_OK && work.tested && !master_misfit_is_real(&work.lack))
         status = master_agrees(&work, holds, err);
     posterior_free(work.posterior);
-    pool_free(&work.memory);
+    arena_free(&work.memory);
     const bool none = status == WT_E_CONVERGENCE || status == WT_E_RANGE ||
                       status == WT_E_NO_OVERLAP || status == WT_E_MISSING;
     return none ? WT_OK : status;
@@ -167,9 +167,9 @@ static wt_status fit_spectrum(master_work *work, wt_error *err)
         status = fit_plainly(work, &failure);
     if (!overlap && status == WT_OK && work->tested && master_misfit_is_likely(&work->lack) &&
         work->set.used[STORAGE])
-        status = master_doubt(work, &failure);
+        status = master_uncertainty(work, &failure);
     if (!overlap && status == WT_OK && master_misfit_is_real(&work->lack) &&
-        master_doubts_all(work)) {
+        master_all_uncertain(work)) {
         status = master_may_overlap(work, &overlap, err);
         if (status != WT_OK)
             return status;
@@ -179,7 +179,7 @@ static wt_status fit_spectrum(master_work *work, wt_error *err)
             *err = failure;
         return status;
     }
-    master_keep_own(work);
+    master_keep_original(work);
     work->posterior->doubt = NULL; /* that of the spectrum of all */
     work->posterior->doubts = NULL;
     status = find_part(work, err);
@@ -193,7 +193,7 @@ static wt_status fit_spectrum(master_work *work, wt_error *err)
     return status == WT_OK ? master_find_noise(work, err) : status;
 }
 
-wt_status master_fit_once(const wt_sweep *sweep, const wt_master_options *options, wt_parselog *log,
+wt_status master_fit_once(const wt_sweep *sweep, const wt_master_options *options, wt_log *log,
                           wt_master *master, double *better, wt_error *err)
 {
     master_work work = {.options = *options};
@@ -218,6 +218,6 @@ wt_status master_fit_once(const wt_sweep *sweep, const wt_master_options *option
         status = master_report(&work, sweep, log, master, err);
     *better = status == WT_E_NO_OVERLAP ? steeper_reference(&work) : (double)NAN;
     posterior_free(work.posterior);
-    pool_free(&work.memory);
+    arena_free(&work.memory);
     return status;
 }

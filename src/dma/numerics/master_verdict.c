@@ -99,7 +99,7 @@ static void because_gross(const master_work *work, wt_master *m)
         where, 100.0 * missed[STORAGE], 100.0 * missed[LOSS]);
 }
 
-void master_judge(const master_work *work, wt_master *m)
+void master_assess(const master_work *work, wt_master *m)
 {
     size_t determined = 0;
     const bool failed = work->posterior->doubt != NULL; /* why shifts are withheld */

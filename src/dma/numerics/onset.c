@@ -77,13 +77,13 @@ static wt_status place_onset(const double *x, const double *z, size_t n, wt_onse
                              wt_error *err)
 {
     double places[PLACES];
-    smooth s;
+    gaussian_process s;
     for (int i = 0; i < PLACES; i++)
         places[i] = x[0] + (x[n - 1] - x[0]) * i / (PLACES - 1);
-    wt_status status = smooth_new(x, z, n, false, &s, err);
+    wt_status status = gaussian_process_new(x, z, n, false, &s, err);
     if (status == WT_OK)
         status = smooth_of_slopes(&s, places, PLACES, meeting_place, &onset->at, err);
-    smooth_free(&s);
+    gaussian_process_free(&s);
     if (status == WT_OK && !isnan(onset->at.value))
         *onset = (wt_onset){true, onset->at, n, ""};
     else

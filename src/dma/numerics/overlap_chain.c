@@ -217,15 +217,15 @@ wt_status overlap_chain(const shift_set *set, size_t anchor, const double *b, co
     link[anchor] = (overlap_link){.placed = true, .onto = anchor};
     if (!set->used[STORAGE])
         return WT_OK;
-    pool memory = {0};
+    arena memory = {0};
     struct chain c = {.set = set, .b = b, .other_b = other_b};
     for (int q = 0; q < MODULI; q++)
-        c.slope[q] = pool_numbers(&memory, set->n_points);
-    c.first = pool_alloc(&memory, n, sizeof *c.first);
-    c.overlap.gap = pool_alloc(&memory, 2 * longest, sizeof *c.overlap.gap);
-    c.overlap.scratch = pool_numbers(&memory, 2 * longest);
+        c.slope[q] = arena_numbers(&memory, set->n_points);
+    c.first = arena_alloc(&memory, n, sizeof *c.first);
+    c.overlap.gap = arena_alloc(&memory, 2 * longest, sizeof *c.overlap.gap);
+    c.overlap.scratch = arena_numbers(&memory, 2 * longest);
     if (memory.failed) {
-        pool_free(&memory);
+        arena_free(&memory);
         return wt_fail(err, WT_E_MEMORY, "no memory for the overlaps");
     }
     for (size_t i = 0, k = 0; i < n; k += set->curves[i++].n) {
@@ -240,6 +240,6 @@ wt_status overlap_chain(const shift_set *set, size_t anchor, const double *b, co
     for (size_t i = anchor; i-- > 0;)
         for (size_t k = 1; k <= NEIGHBOURS && i + k <= anchor && !link[i].placed; k++)
             (void)link_to(&c, link, i + k, i);
-    pool_free(&memory);
+    arena_free(&memory);
     return WT_OK;
 }

@@ -59,13 +59,13 @@ static bool choose_points(const double *y, size_t n, size_t top, size_t asked, s
 
 /* ---- the place of a maximum ------------------------------------------------------------------ */
 
-static double falling_probability(const smooth *s, double x)
+static double falling_probability(const gaussian_process *s, double x)
 {
     return smooth_below(s, x, SMOOTH_SLOPE, 0);
 }
 
 typedef struct slope_level {
-    const smooth *s;
+    const gaussian_process *s;
     double level;
 } slope_level;
 
@@ -76,7 +76,7 @@ static bool falls_less(double x, void *user)
 }
 
 /* Where it becomes as probable that the curve falls as `level`, between two places. */
-static double slope_crossing(const smooth *s, double low, double high, double level)
+static double slope_crossing(const gaussian_process *s, double low, double high, double level)
 {
     slope_level l = {s, level};
     root_halve(falls_less, &l, &low, &high, 0, HALVINGS);
@@ -85,7 +85,7 @@ static double slope_crossing(const smooth *s, double low, double high, double le
 
 /* The maximum nearest to the largest point, with the places where it is 97.5 % sure to rise and to
  * fall; NaN where the points do not tell. */
-static wt_interval find_top(const smooth *s, double from, double to, double largest)
+static wt_interval find_top(const gaussian_process *s, double from, double to, double largest)
 {
     const double step = (to - from) / GRID;
     double probable[GRID + 1];
@@ -118,11 +118,11 @@ static wt_interval find_top(const smooth *s, double from, double to, double larg
 
 /* ---- peak ------------------------------------------------------------------------------------ */
 
-static double relative_misfit(const smooth *s, const double *x, const double *z, size_t n)
+static double relative_misfit(const gaussian_process *s, const double *x, const double *z, size_t n)
 {
     double squares = 0;
     for (size_t i = 0; i < n; i++) {
-        const double off = z[i] - smooth_mean(s, x[i], SMOOTH_VALUE);
+        const double off = z[i] - gaussian_process_mean(s, x[i], SMOOTH_VALUE);
         squares += off * off;
     }
     return sqrt(squares / (double)n);
@@ -133,8 +133,8 @@ static double relative_misfit(const smooth *s, const double *x, const double *z,
 static wt_status place_peak(const double *x, const double *z, size_t n, double largest_x,
                             double largest_y, bool parabola, wt_peak *peak, wt_error *err)
 {
-    smooth s;
-    wt_status status = smooth_new(x, z, n, parabola, &s, err);
+    gaussian_process s;
+    wt_status status = gaussian_process_new(x, z, n, parabola, &s, err);
     if (status == WT_OK) {
         peak->at = find_top(&s, x[0], x[n - 1], largest_x);
         peak->n = n;
@@ -144,7 +144,7 @@ static wt_status place_peak(const double *x, const double *z, size_t n, double l
     if (status == WT_OK && !peak->found) {
         tell_no_peak(peak, "no peak that stands out of the scatter of the points");
     } else if (status == WT_OK) {
-        const wt_interval height = smooth_interval(&s, peak->at.value);
+        const wt_interval height = gaussian_process_interval(&s, peak->at.value);
         peak->misfit = relative_misfit(&s, x, z, n);
         if (parabola)
             peak->misfit /= height.value;
@@ -155,7 +155,7 @@ static wt_status place_peak(const double *x, const double *z, size_t n, double l
             largest_y * height.standard_error * (parabola ? 1 : exp(height.value));
         peak->why_not = closed ? "" : "so few points do not bound it";
     }
-    smooth_free(&s);
+    gaussian_process_free(&s);
     return status;
 }
 
@@ -234,8 +234,8 @@ static wt_status add_peaks(peak_list *list, size_t first, size_t last, wt_error 
     return status == WT_OK && warm != top ? add_peaks(list, warm, last, err) : status;
 }
 
-wt_status wt_peaks_beside(const double *x, const double *y, size_t n, size_t most, wt_peak *peaks,
-                          size_t *n_peaks, wt_error *err)
+wt_status wt_secondary_peaks(const double *x, const double *y, size_t n, size_t most,
+                             wt_peak *peaks, size_t *n_peaks, wt_error *err)
 {
     peak_list list = {.x = x, .y = y, .peaks = peaks, .most = most};
     for (size_t i = 1; i < n; i++)
@@ -260,15 +260,15 @@ wt_status wt_value_between(const double *x, const double *y, size_t n, double at
     double z[NEIGHBOURS];
     for (size_t i = 0; i < most; i++)
         z[i] = log(y[first + i]);
-    smooth s;
-    const wt_status status = smooth_new(x + first, z, most, false, &s, err);
+    gaussian_process s;
+    const wt_status status = gaussian_process_new(x + first, z, most, false, &s, err);
     if (status == WT_OK) {
-        const wt_interval log_value = smooth_interval(&s, at);
+        const wt_interval log_value = gaussian_process_interval(&s, at);
         value->value = exp(log_value.value);
         value->low = exp(log_value.low);
         value->high = exp(log_value.high);
         value->standard_error = value->value * log_value.standard_error;
     }
-    smooth_free(&s);
+    gaussian_process_free(&s);
     return status;
 }

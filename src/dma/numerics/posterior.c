@@ -26,7 +26,7 @@ void posterior_free(wt_posterior *p)
     if (p == NULL)
         return;
     spectrum_free(&p->frame);
-    pool_free(&p->memory);
+    arena_free(&p->memory);
     free(p);
 }
 
@@ -55,7 +55,7 @@ wt_status posterior_keep(wt_posterior *p, wt_vertical_shift kind, const vertical
     const spectrum *s = &p->frame;
     const size_t n = s->n_unknowns, n_curves = s->n_curves;
     posterior_cell *c = &p->cells[p->n_cells++];
-    *c = (posterior_cell){.value = pool_numbers(&p->memory, n),
+    *c = (posterior_cell){.value = arena_numbers(&p->memory, n),
                           .noise = {s->noise[STORAGE], s->noise[LOSS]},
                           .smoothness = s->smooth,
                           .geometry = v->geometry,
@@ -64,11 +64,11 @@ wt_status posterior_keep(wt_posterior *p, wt_vertical_shift kind, const vertical
                           .settled = s->settled};
     const bool counts = log_weight > posterior_best(p)->log_weight + 2.0 * log(least_share);
     if (counts) {
-        c->covariance = pool_matrix(&p->memory, n, n);
-        c->root = pool_matrix(&p->memory, n, n);
+        c->covariance = arena_matrix(&p->memory, n, n);
+        c->root = arena_matrix(&p->memory, n, n);
     }
     if (counts && kind == WT_VERTICAL_TIED)
-        c->smooth = pool_numbers(&p->memory, n_curves * n_curves);
+        c->smooth = arena_numbers(&p->memory, n_curves * n_curves);
     if (p->memory.failed)
         return wt_fail(err, WT_E_MEMORY, "no memory for the fits");
     p->step_left = fmax(p->step_left, spectrum_step_left(s));
@@ -141,10 +141,10 @@ static void shifts_of(const wt_posterior *p, const posterior_cell *cell)
 static void part_alloc(wt_posterior *p, posterior_part *part)
 {
     const size_t n = p->frame.n_curves;
-    part->pull = pool_vector(&p->memory, n);
-    part->inner = pool_matrix(&p->memory, n, n);
-    part->outer = pool_matrix(&p->memory, n, LAW_MOST);
-    part->inverse = pool_matrix(&p->memory, n, n);
+    part->pull = arena_vector(&p->memory, n);
+    part->inner = arena_matrix(&p->memory, n, n);
+    part->outer = arena_matrix(&p->memory, n, LAW_MOST);
+    part->inverse = arena_matrix(&p->memory, n, n);
 }
 
 /* What the law does to spectrum and shifts. */
@@ -152,12 +152,12 @@ static wt_status part_fill(wt_posterior *p, posterior_part *part, wt_error *err)
 {
     const law_data *data = &p->data;
     const size_t n = data->n, k = part->law.n_unknowns;
-    gsl_matrix *x = pool_matrix(&p->memory, n, k), *mx = pool_matrix(&p->memory, n, k);
-    gsl_vector *gap = pool_vector(&p->memory, n);
+    gsl_matrix *x = arena_matrix(&p->memory, n, k), *mx = arena_matrix(&p->memory, n, k);
+    gsl_vector *gap = arena_vector(&p->memory, n);
     part_alloc(p, part);
     if (p->memory.failed)
         return wt_fail(err, WT_E_MEMORY, "no memory for the law");
-    gsl_matrix *root = pool_matrix(&p->memory, n, n);
+    gsl_matrix *root = arena_matrix(&p->memory, n, n);
     const wt_status status = root == NULL || root->data == NULL
                                  ? wt_fail(err, WT_E_MEMORY, "no memory for the law")
                                  : law_gls_covariance(data, part->spread, root, err);
@@ -215,7 +215,7 @@ static wt_status weigh_parts(wt_posterior *p, gsl_matrix *root, wt_error *err)
 {
     size_t n = 0;
     double sum = 0.0;
-    p->parts = pool_alloc(&p->memory, p->n_cells * LAW_SPREADS, sizeof *p->parts);
+    p->parts = arena_alloc(&p->memory, p->n_cells * LAW_SPREADS, sizeof *p->parts);
     if (p->parts == NULL)
         return wt_fail(err, WT_E_MEMORY, "no memory for the mixture");
     wt_status status = fit_parts(p, p->parts, &n, root, err);
@@ -235,7 +235,7 @@ static wt_status weigh_parts(wt_posterior *p, gsl_matrix *root, wt_error *err)
 /* Without a law the cells are the parts. */
 static wt_status parts_without_law(wt_posterior *p, wt_error *err)
 {
-    p->parts = pool_alloc(&p->memory, p->n_cells, sizeof *p->parts);
+    p->parts = arena_alloc(&p->memory, p->n_cells, sizeof *p->parts);
     for (size_t i = 0; p->parts != NULL && i < p->n_cells; i++) {
         posterior_part *part = &p->parts[p->n_parts];
         *part = (posterior_part){.cell = &p->cells[i], .weight = p->cells[i].weight};
@@ -254,7 +254,7 @@ static wt_status factor_doubts(wt_posterior *p, wt_error *err)
     const size_t n = p->frame.n_curves;
     if (p->doubts == NULL)
         return WT_OK;
-    gsl_matrix *root = p->doubts_root = pool_matrix(&p->memory, n, n);
+    gsl_matrix *root = p->doubts_root = arena_matrix(&p->memory, n, n);
     if (p->memory.failed)
         return wt_fail(err, WT_E_MEMORY, "no memory for the law");
     for (size_t i = 0; i < n; i++)
@@ -274,14 +274,14 @@ static wt_status factor_doubts(wt_posterior *p, wt_error *err)
 wt_status posterior_close(wt_posterior *p, double reference, wt_error *err)
 {
     const size_t n = p->frame.n_curves;
-    gsl_matrix *root = pool_matrix(&p->memory, n, n);
+    gsl_matrix *root = arena_matrix(&p->memory, n, n);
     wt_error failure = WT_ERROR_INIT;
     p->data = (law_data){.n = n,
                          .temperature = p->temperature,
-                         .log_a = pool_numbers(&p->memory, n),
-                         .covariance = pool_matrix(&p->memory, n, n),
+                         .log_a = arena_numbers(&p->memory, n),
+                         .covariance = arena_matrix(&p->memory, n, n),
                          .slope = p->slope,
-                         .scratch = pool_numbers(&p->memory, n * (LAW_MOST + 2))};
+                         .scratch = arena_numbers(&p->memory, n * (LAW_MOST + 2))};
     if (p->memory.failed)
         return wt_fail(err, WT_E_MEMORY, "no memory for the law");
     const wt_status doubts = factor_doubts(p, err);

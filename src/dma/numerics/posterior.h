@@ -33,7 +33,7 @@ typedef struct posterior_part {
 } posterior_part;
 
 struct wt_posterior {
-    pool memory;
+    arena memory;
     spectrum frame;      /* the spectrum: terms, columns, data */
     double *temperature; /* [n_curves] */
     double *mean_b;      /* [n_curves] prior of ln b */

@@ -342,7 +342,7 @@ struct stream {
 
 static double draw_uniform(struct stream *s)
 {
-    s->state = mix64(s->state);
+    s->state = splitmix64(s->state);
     return ((double)(s->state >> 11) + 0.5) * 0x1p-53;
 }
 
@@ -355,7 +355,7 @@ static double draw_normal(struct stream *s)
 /* Neighbouring draws go through the mixture evenly: steps of the golden section. */
 static const posterior_part *part_of_draw(const wt_posterior *p, uint64_t seed, size_t index)
 {
-    struct stream start = {mix64(seed)};
+    struct stream start = {splitmix64(seed)};
     double at = fmod(draw_uniform(&start) + (double)index * 0.6180339887498949, 1.0);
     for (size_t i = 0; i + 1 < p->n_parts; i++) {
         if (at < p->parts[i].weight)
@@ -368,7 +368,7 @@ static const posterior_part *part_of_draw(const wt_posterior *p, uint64_t seed, 
 /* Where the spectrum of a draw ends, evenly, too: of one part the draws have all places. */
 size_t posterior_place(uint64_t seed, size_t index)
 {
-    struct stream start = {mix64(mix64(seed))};
+    struct stream start = {splitmix64(splitmix64(seed))};
     const double at =
         fmod(draw_uniform(&start) + (double)index * 0.7548776662466927, 1.0); /* plastic number */
     return (size_t)(at * SPECTRUM_ENDS);
@@ -419,12 +419,12 @@ wt_status posterior_draw(const wt_posterior *p, uint64_t seed, size_t index, dou
 {
     const size_t n = p->frame.n_unknowns, n_curves = p->frame.n_curves;
     const posterior_part *part = part_of_draw(p, seed, index);
-    struct stream s = {mix64(mix64(seed) ^ (uint64_t)index)};
-    pool memory = {0};
-    gsl_vector *e = pool_vector(&memory, n), *gap = pool_vector(&memory, n_curves),
-               *pull = pool_vector(&memory, n_curves);
+    struct stream s = {splitmix64(splitmix64(seed) ^ (uint64_t)index)};
+    arena memory = {0};
+    gsl_vector *e = arena_vector(&memory, n), *gap = arena_vector(&memory, n_curves),
+               *pull = arena_vector(&memory, n_curves);
     if (memory.failed) {
-        pool_free(&memory);
+        arena_free(&memory);
         return wt_fail(err, WT_E_MEMORY, "no memory for a draw");
     }
     for (size_t u = 0; u < n; u++)
@@ -448,6 +448,6 @@ wt_status posterior_draw(const wt_posterior *p, uint64_t seed, size_t index, dou
     }
     keep_linear(p, part, value);
     posterior_smooth_b(p, part->cell, value, log_b);
-    pool_free(&memory);
+    arena_free(&memory);
     return WT_OK;
 }

@@ -58,7 +58,7 @@ static const wt_param rows[] = {
 PARAM_TABLE(wt_reduction_params, wt_reduction, rows, wt_reduction_defaults, NO_PARTS)
 
 typedef struct reducer {
-    pool memory;
+    arena memory;
     const wt_prony *from;
     size_t n;               /* points */
     double *x;              /* [n] ln w */
@@ -375,20 +375,20 @@ static wt_status prepare_reduction(reducer *r, const wt_reduction *options, wt_e
     r->long_term = isnan(options->long_term) ? 0 : options->long_term;
     r->fitted = isnan(options->long_term) && from->equilibrium_modulus > 0;
     const size_t n = 2 * r->most + 1;
-    r->x = pool_numbers(&r->memory, r->n);
+    r->x = arena_numbers(&r->memory, r->n);
     for (int q = 0; q < MODULI; q++) {
-        r->y[q] = pool_numbers(&r->memory, r->n);
-        r->weight[q] = pool_numbers(&r->memory, r->n);
-        r->off[q] = pool_numbers(&r->memory, r->n);
-        r->row[q] = pool_numbers(&r->memory, n);
+        r->y[q] = arena_numbers(&r->memory, r->n);
+        r->weight[q] = arena_numbers(&r->memory, r->n);
+        r->off[q] = arena_numbers(&r->memory, r->n);
+        r->row[q] = arena_numbers(&r->memory, n);
     }
-    r->unknown = pool_numbers(&r->memory, n);
-    r->trial = pool_numbers(&r->memory, n);
-    r->best = pool_numbers(&r->memory, n);
-    r->normal = pool_matrix(&r->memory, n, n);
-    r->factor = pool_matrix(&r->memory, n, n);
-    r->gradient = pool_vector(&r->memory, n);
-    r->move = pool_vector(&r->memory, n);
+    r->unknown = arena_numbers(&r->memory, n);
+    r->trial = arena_numbers(&r->memory, n);
+    r->best = arena_numbers(&r->memory, n);
+    r->normal = arena_matrix(&r->memory, n, n);
+    r->factor = arena_matrix(&r->memory, n, n);
+    r->gradient = arena_vector(&r->memory, n);
+    r->move = arena_vector(&r->memory, n);
     if (r->memory.failed)
         return wt_fail(err, WT_E_MEMORY, "no memory to reduce the series");
     for (size_t k = 0; k < r->n; k++) {
@@ -449,7 +449,7 @@ wt_status wt_prony_reduce(const wt_prony *from, const wt_reduction *options, wt_
     wt_status status = param_check(wt_reduction_params(), &o, err);
     if (status == WT_OK)
         status = prepare_reduction(&r, &o, err);
-    double *kept = status == WT_OK ? pool_numbers(&r.memory, 2 * r.most + 1) : NULL;
+    double *kept = status == WT_OK ? arena_numbers(&r.memory, 2 * r.most + 1) : NULL;
     if (status == WT_OK && kept == NULL)
         status = wt_fail(err, WT_E_MEMORY, "no memory to reduce the series");
     if (status == WT_OK) {
@@ -463,6 +463,6 @@ wt_status wt_prony_reduce(const wt_prony *from, const wt_reduction *options, wt_
         }
         status = hand_out(&r, kept, terms, to, err);
     }
-    pool_free(&r.memory);
+    arena_free(&r.memory);
     return status;
 }

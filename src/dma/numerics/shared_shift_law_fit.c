@@ -72,12 +72,12 @@ static wt_status add_member(law_samples *c, const wt_master *master, size_t samp
                       .first = c->n,
                       .reference = shape->reference,
                       .coldest = shape->coldest};
-    m->temperature = pool_numbers(&c->memory, m->n);
-    m->log_a = pool_numbers(&c->memory, m->n);
-    m->slope = pool_numbers(&c->memory, m->n);
-    m->covariance = pool_matrix(&c->memory, m->n, m->n);
+    m->temperature = arena_numbers(&c->memory, m->n);
+    m->log_a = arena_numbers(&c->memory, m->n);
+    m->slope = arena_numbers(&c->memory, m->n);
+    m->covariance = arena_matrix(&c->memory, m->n, m->n);
     for (size_t i = 0; i < LAW_SPREADS; i++)
-        m->root[i] = pool_matrix(&c->memory, m->n, m->n);
+        m->root[i] = arena_matrix(&c->memory, m->n, m->n);
     if (c->memory.failed)
         return wt_fail(err, WT_E_MEMORY, "no memory for a common law");
     memset(m->log_a, 0, m->n * sizeof *m->log_a);
@@ -204,14 +204,14 @@ static bool is_law(const law_samples *c, const law_model *model, const solution 
 static void fit_at_spread(law_samples *c, const law_model *model, size_t spread, solution *s)
 {
     const size_t n = model->n_unknowns;
-    pool *memory = &c->memory;
-    gsl_vector *off = pool_vector(memory, c->n), *right = pool_vector(memory, n),
-               *step = pool_vector(memory, n);
-    gsl_matrix *columns = pool_matrix(memory, LOCAL, c->n), *cross = pool_matrix(memory, n, n),
-               *damped = pool_matrix(memory, n, n);
-    double *next = pool_numbers(memory, n), damping = 1e-3;
-    s->unknown = pool_numbers(memory, n);
-    s->covariance = pool_matrix(memory, n, n);
+    arena *memory = &c->memory;
+    gsl_vector *off = arena_vector(memory, c->n), *right = arena_vector(memory, n),
+               *step = arena_vector(memory, n);
+    gsl_matrix *columns = arena_matrix(memory, LOCAL, c->n), *cross = arena_matrix(memory, n, n),
+               *damped = arena_matrix(memory, n, n);
+    double *next = arena_numbers(memory, n), damping = 1e-3;
+    s->unknown = arena_numbers(memory, n);
+    s->covariance = arena_matrix(memory, n, n);
     s->good = false;
     if (memory->failed)
         return;
@@ -297,10 +297,10 @@ static wt_law_kind kind_of_all(const wt_master *const *masters, size_t n)
 }
 
 static wt_status gather_samples(law_samples *c, const wt_master *const *masters, size_t n,
-                                wt_common_law *common, wt_error *err)
+                                wt_shared_shift_law *common, wt_error *err)
 {
     wt_status status = WT_OK;
-    c->members = pool_alloc(&c->memory, n, sizeof *c->members);
+    c->members = arena_alloc(&c->memory, n, sizeof *c->members);
     if (c->members == NULL)
         return wt_fail(err, WT_E_MEMORY, "no memory for a common law");
     for (size_t i = 0; status == WT_OK && i < n; i++) {
@@ -334,7 +334,7 @@ static wt_status gather_samples(law_samples *c, const wt_master *const *masters,
     return WT_OK;
 }
 
-static wt_status make_common_law(law_samples *c, wt_common_law *common, wt_error *err)
+static wt_status make_common_law(law_samples *c, wt_shared_shift_law *common, wt_error *err)
 {
     const law_model of_all = common_model(c, false), of_each = common_model(c, true);
     solution one[LAW_SPREADS], own[LAW_SPREADS];
@@ -361,32 +361,32 @@ static wt_status make_common_law(law_samples *c, wt_common_law *common, wt_error
     return WT_OK;
 }
 
-wt_status wt_common_law_fit(const wt_master *const *masters, size_t n, wt_common how,
-                            double reference, wt_common_law *common_law, wt_error *err)
+wt_status wt_shared_shift_law_fit(const wt_master *const *masters, size_t n, wt_common how,
+                                  double reference, wt_shared_shift_law *common_law, wt_error *err)
 {
     if (masters == NULL || common_law == NULL || n < FEWEST || how == WT_COMMON_NONE)
         return wt_fail(err, WT_E_ARG, "a common law needs two samples or more");
     law_samples c = {.how = how, .reference = reference, .kind = kind_of_all(masters, n)};
-    wt_common_law made = {.n_members = n, .members = calloc(n, sizeof *made.members)};
+    wt_shared_shift_law made = {.n_members = n, .members = calloc(n, sizeof *made.members)};
     gsl_quiet();
     wt_status status = made.members == NULL
                            ? wt_fail(err, WT_E_MEMORY, "no memory for a common law")
                            : gather_samples(&c, masters, n, &made, err);
     if (status == WT_OK)
         status = make_common_law(&c, &made, err);
-    pool_free(&c.memory);
+    arena_free(&c.memory);
     if (status == WT_OK)
         *common_law = made;
     else
-        wt_common_law_clear(&made);
+        wt_shared_shift_law_clear(&made);
     return status;
 }
 
-void wt_common_law_clear(wt_common_law *common)
+void wt_shared_shift_law_clear(wt_shared_shift_law *common)
 {
     if (common == NULL)
         return;
     free(common->members);
     free(common->points);
-    *common = (wt_common_law){0};
+    *common = (wt_shared_shift_law){0};
 }

@@ -23,7 +23,7 @@ typedef struct law_member {
 } law_member;
 
 typedef struct law_samples {
-    pool memory;
+    arena memory;
     wt_common how;
     wt_law_kind kind;
     double reference, coldest; /* of the common law */
@@ -54,12 +54,13 @@ double common_value(const law_samples *c, const law_model *model, size_t k, cons
                     double temperature, double by[LOCAL]);
 
 /* Constants, and how far samples are moved. */
-void common_fill_law(const law_samples *c, const solution one[LAW_SPREADS], wt_common_law *common);
+void common_fill_law(const law_samples *c, const solution one[LAW_SPREADS],
+                     wt_shared_shift_law *common);
 /* Chance that samples of one law differ so much: by the spreads that their own laws leave. */
 double common_chance(const law_samples *c, const solution one[LAW_SPREADS],
                      const solution own[LAW_SPREADS]);
 /* Isotherm i of sample k. */
 void common_fill_point(const law_samples *c, size_t k, size_t i, const solution one[LAW_SPREADS],
-                       const solution own[LAW_SPREADS], bool compared, wt_common_point *point);
+                       const solution own[LAW_SPREADS], bool compared, wt_shared_law_point *point);
 
 #endif

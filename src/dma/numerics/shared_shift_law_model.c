@@ -135,7 +135,7 @@ static wt_interval own_less_common(const law_samples *c, size_t k, const solutio
 }
 
 void common_fill_point(const law_samples *c, size_t k, size_t i, const solution one[LAW_SPREADS],
-                       const solution own[LAW_SPREADS], bool compared, wt_common_point *point)
+                       const solution own[LAW_SPREADS], bool compared, wt_shared_law_point *point)
 {
     const law_member *m = &c->members[k];
     const law_model of_all = common_model(c, false);
@@ -152,11 +152,11 @@ void common_fill_point(const law_samples *c, size_t k, size_t i, const solution 
         law[n++] = (mixture_part){one[w].weight, value, sqrt(variance_of(&one[w], at, by))};
         offset += one[w].weight * one[w].unknown[at[OFFSET]];
     }
-    *point = (wt_common_point){.sample = m->sample,
-                               .temperature = m->temperature[i],
-                               .log_a = m->log_a[i] - offset,
-                               .log_a_error = sqrt(gsl_matrix_get(m->covariance, i, i)),
-                               .law = mixture_interval(law, n)};
+    *point = (wt_shared_law_point){.sample = m->sample,
+                                   .temperature = m->temperature[i],
+                                   .log_a = m->log_a[i] - offset,
+                                   .log_a_error = sqrt(gsl_matrix_get(m->covariance, i, i)),
+                                   .law = mixture_interval(law, n)};
     const double unknown = (double)NAN;
     point->difference = compared ? own_less_common(c, k, one, own, m->temperature[i])
                                  : (wt_interval){unknown, unknown, unknown, unknown};
@@ -189,7 +189,8 @@ static wt_interval to_c2(wt_interval x, double lead)
     return y;
 }
 
-void common_fill_law(const law_samples *c, const solution one[LAW_SPREADS], wt_common_law *common)
+void common_fill_law(const law_samples *c, const solution one[LAW_SPREADS],
+                     wt_shared_shift_law *common)
 {
     const law_model m = common_model(c, false);
     const wt_interval unknown = {(double)NAN, (double)NAN, (double)NAN, (double)NAN};
@@ -209,7 +210,7 @@ void common_fill_law(const law_samples *c, const solution one[LAW_SPREADS], wt_c
         common->spread += one[i].weight * law_spread(i);
     for (size_t k = 0; k < c->n_members; k++) {
         common_places(c, &m, k, at);
-        wt_common_member *member = &common->members[c->members[k].sample];
+        wt_shared_law_member *member = &common->members[c->members[k].sample];
         member->used = true;
         member->moved = at[MOVED] != NO_PLACE ? of_unknown(one, at[MOVED]) : (wt_interval){0};
     }

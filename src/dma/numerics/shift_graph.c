@@ -10,8 +10,8 @@ const double master_largest_sigma = 0.2;
 wt_status master_links(const master_work *work, bool physical, overlap_link *link, wt_error *err)
 {
     const size_t n = work->set.n;
-    pool memory = {0};
-    double *none = pool_numbers(&memory, n), *rubber = pool_numbers(&memory, n);
+    arena memory = {0};
+    double *none = arena_numbers(&memory, n), *rubber = arena_numbers(&memory, n);
     wt_status status =
         memory.failed ? wt_fail(err, WT_E_MEMORY, "no memory for the overlaps") : WT_OK;
     for (size_t i = 0; status == WT_OK && i < n; i++)
@@ -19,7 +19,7 @@ wt_status master_links(const master_work *work, bool physical, overlap_link *lin
     if (status == WT_OK)
         status = overlap_chain(&work->set, work->anchor, physical ? rubber : none,
                                physical ? none : rubber, link, err);
-    pool_free(&memory);
+    arena_free(&memory);
     return status;
 }
 

@@ -32,7 +32,7 @@ static const double odd_tried = 0.25;
 
 struct search {
     law_data *data;
-    pool memory;
+    arena memory;
     gsl_matrix *root[LAW_SPREADS]; /* of the covariance with each spread */
     double best;                   /* score */
     double largest;                /* likelihood that goes with it */
@@ -46,7 +46,7 @@ static wt_status make_roots(struct search *search, wt_error *err)
     wt_status status = WT_OK;
     for (size_t i = 0; i < LAW_SPREADS && status == WT_OK; i++) {
         if (search->root[i] == NULL)
-            search->root[i] = pool_matrix(&search->memory, n, n);
+            search->root[i] = arena_matrix(&search->memory, n, n);
         status = search->memory.failed
                      ? wt_fail(err, WT_E_MEMORY, "no memory for the law")
                      : law_gls_covariance(search->data, law_spread(i), search->root[i], err);
@@ -158,10 +158,10 @@ static wt_status odd_gains(struct search *search, const law_shape *shape, double
 {
     const law_data *data = search->data;
     const size_t n = data->n, k = law_unknowns(shape);
-    pool *m = &search->memory;
-    gsl_matrix *scratch = pool_matrix(m, n, n), *inverse = pool_matrix(m, n, n),
-               *x = pool_matrix(m, n, k), *mx = pool_matrix(m, n, k);
-    gsl_vector *gap = pool_vector(m, n), *pull = pool_vector(m, n);
+    arena *m = &search->memory;
+    gsl_matrix *scratch = arena_matrix(m, n, n), *inverse = arena_matrix(m, n, n),
+               *x = arena_matrix(m, n, k), *mx = arena_matrix(m, n, k);
+    gsl_vector *gap = arena_vector(m, n), *pull = arena_vector(m, n);
     double least[LAW_SPREADS];
     wt_status status = m->failed ? wt_fail(err, WT_E_MEMORY, "no memory for the law") : WT_OK;
     for (size_t i = 0; status == WT_OK && i < LAW_SPREADS; i++) {
@@ -194,7 +194,7 @@ static wt_status find_odd(struct search *search, wt_error *err)
 {
     const struct search plain = *search;
     const size_t n = search->data->n;
-    double *gain = pool_numbers(&search->memory, n);
+    double *gain = arena_numbers(&search->memory, n);
     wt_status status =
         gain == NULL ? wt_fail(err, WT_E_MEMORY, "no memory for the law") : make_roots(search, err);
     if (status == WT_OK)
@@ -271,7 +271,7 @@ wt_status law_choose(law_data *data, double reference, gsl_matrix *root, law_sha
     wt_status status = choose_law(&search, &start, root, err);
     if (status == WT_OK && data->n >= LEAST_ODD)
         status = find_odd(&search, err);
-    pool_free(&search.memory);
+    arena_free(&search.memory);
     *chosen = search.chosen;
     return status;
 }

@@ -48,7 +48,7 @@ typedef struct spectrum_modes {
 } spectrum_modes;
 
 typedef struct spectrum {
-    pool memory;        /* of all below */
+    arena memory;       /* of all below */
     wt_loading loading; /* of a step x is ln of 1/t, and E(t) or 1/J(t) in the place of STORAGE */
     spectrum_modes *modes; /* of creep */
     /* data: the curves that take part, point by point */

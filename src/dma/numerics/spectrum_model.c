@@ -25,41 +25,41 @@ static const double flattest = 0.01, steepest = 1.5;
 
 static wt_status allocate_spectrum(spectrum *s, wt_error *err)
 {
-    pool *m = &s->memory;
+    arena *m = &s->memory;
     const size_t most = s->n_linear + 2 * s->n_curves;
     const size_t smooth = s->n_curves < SPECTRUM_MOST_SMOOTH ? s->n_curves : SPECTRUM_MOST_SMOOTH;
     const size_t border = s->n_linear + smooth;
-    s->first = pool_alloc(m, s->n_curves + 1, sizeof *s->first);
-    s->column_a = pool_alloc(m, s->n_curves, sizeof *s->column_a);
-    s->column_b = pool_alloc(m, s->n_curves, sizeof *s->column_b);
-    s->given = pool_alloc(m, s->n_curves, sizeof *s->given);
-    s->given_a = pool_numbers(m, s->n_curves);
-    s->given_b = pool_numbers(m, s->n_curves);
-    s->x = pool_numbers(m, s->n);
-    s->copy = pool_numbers(m, s->n);
+    s->first = arena_alloc(m, s->n_curves + 1, sizeof *s->first);
+    s->column_a = arena_alloc(m, s->n_curves, sizeof *s->column_a);
+    s->column_b = arena_alloc(m, s->n_curves, sizeof *s->column_b);
+    s->given = arena_alloc(m, s->n_curves, sizeof *s->given);
+    s->given_a = arena_numbers(m, s->n_curves);
+    s->given_b = arena_numbers(m, s->n_curves);
+    s->x = arena_numbers(m, s->n);
+    s->copy = arena_numbers(m, s->n);
     for (int q = 0; q < MODULI; q++) {
-        s->y[q] = pool_numbers(m, s->n);
-        s->weight[q] = pool_numbers(m, s->n);
-        s->was[q] = pool_numbers(m, s->n);
-        s->spread[q] = pool_numbers(m, s->n);
-        s->residual[q] = pool_numbers(m, s->n);
-        s->row[q] = pool_numbers(m, (s->n + TILE_ROWS - 1) * (s->n_linear + 2));
+        s->y[q] = arena_numbers(m, s->n);
+        s->weight[q] = arena_numbers(m, s->n);
+        s->was[q] = arena_numbers(m, s->n);
+        s->spread[q] = arena_numbers(m, s->n);
+        s->residual[q] = arena_numbers(m, s->n);
+        s->row[q] = arena_numbers(m, (s->n + TILE_ROWS - 1) * (s->n_linear + 2));
         s->normal[q] = bordered_new(m, s->n_linear, s->n_curves);
     }
-    s->kappa = pool_numbers(m, s->n_curves);
-    s->bend = pool_numbers(m, s->n_terms);
-    s->term = pool_numbers(m, s->n_linear);
-    s->time = pool_numbers(m, s->n_terms);
-    s->value = pool_numbers(m, most);
-    s->trial = pool_numbers(m, most);
+    s->kappa = arena_numbers(m, s->n_curves);
+    s->bend = arena_numbers(m, s->n_terms);
+    s->term = arena_numbers(m, s->n_linear);
+    s->time = arena_numbers(m, s->n_terms);
+    s->value = arena_numbers(m, most);
+    s->trial = arena_numbers(m, most);
     s->precision = bordered_new(m, border, s->n_curves);
     s->covariance = bordered_new(m, border, s->n_curves);
     s->factor = bordered_new(m, border, s->n_curves);
-    s->scratch = pool_matrix(m, border, border);
-    s->border = pool_numbers(m, border);
-    s->side = pool_numbers(m, BLOCK_SIDE * s->n_curves);
-    s->gradient = pool_vector(m, most);
-    s->direction = pool_vector(m, most);
+    s->scratch = arena_matrix(m, border, border);
+    s->border = arena_numbers(m, border);
+    s->side = arena_numbers(m, BLOCK_SIDE * s->n_curves);
+    s->gradient = arena_vector(m, most);
+    s->direction = arena_vector(m, most);
     if (s->loading == WT_CREEP)
         spectrum_modes_new(s);
     return m->failed
@@ -69,7 +69,7 @@ static wt_status allocate_spectrum(spectrum *s, wt_error *err)
 
 void spectrum_free(spectrum *s)
 {
-    pool_free(&s->memory);
+    arena_free(&s->memory);
     *s = (spectrum){0};
 }
 
@@ -266,8 +266,8 @@ WIDE_PART void add_terms(const double *term, const double *time, double first, w
                          double *storage_at, double *loss_at)
 {
     wide e, z;
-    wide_load(&e, term);
-    wide_load(&z, time);
+    simd_load(&e, term);
+    simd_load(&z, time);
     z *= first;
     const wide share = z / (1.0 + z * z), loss = e * share, storage = loss * z;
     sum[STORAGE] += storage;
@@ -275,8 +275,8 @@ WIDE_PART void add_terms(const double *term, const double *time, double first, w
     sum[MODULI + STORAGE] += 2.0 * loss * share;
     sum[MODULI + LOSS] += loss * (1.0 - 2.0 * z * share);
     if (storage_at != NULL) {
-        wide_store(storage_at, &storage);
-        wide_store(loss_at, &loss);
+        simd_store(storage_at, &storage);
+        simd_store(loss_at, &loss);
     }
 }
 
@@ -301,7 +301,7 @@ static void sum_terms(const spectrum *s, const double *term, double first, doubl
         }
     }
     for (int i = 0; i < SUMS; i++)
-        total[i] = wide_sum(&sum[i]);
+        total[i] = simd_sum(&sum[i]);
 }
 
 WIDE_REGISTERS

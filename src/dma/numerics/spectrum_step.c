@@ -84,20 +84,20 @@ static double find_root(between *b, size_t k)
 
 void spectrum_modes_new(spectrum *s)
 {
-    pool *m = &s->memory;
-    spectrum_modes *modes = pool_alloc(m, 1, sizeof *modes);
+    arena *m = &s->memory;
+    spectrum_modes *modes = arena_alloc(m, 1, sizeof *modes);
     const size_t n = s->n_terms;
     if (modes == NULL)
         return; /* the pool says so */
-    modes->of = pool_numbers(m, s->n_linear);
-    modes->index = pool_alloc(m, n, sizeof *modes->index);
-    modes->modulus = pool_numbers(m, n);
-    modes->rate = pool_numbers(m, n);
-    modes->root = pool_numbers(m, n);
-    modes->slope = pool_numbers(m, n);
-    modes->bend = pool_numbers(m, n);
-    modes->decay = pool_numbers(m, n);
-    modes->share = pool_numbers(m, n * n);
+    modes->of = arena_numbers(m, s->n_linear);
+    modes->index = arena_alloc(m, n, sizeof *modes->index);
+    modes->modulus = arena_numbers(m, n);
+    modes->rate = arena_numbers(m, n);
+    modes->root = arena_numbers(m, n);
+    modes->slope = arena_numbers(m, n);
+    modes->bend = arena_numbers(m, n);
+    modes->decay = arena_numbers(m, n);
+    modes->share = arena_numbers(m, n * n);
     s->modes = modes;
 }
 

@@ -61,7 +61,7 @@ typedef struct explanation {
 
 struct extra {
     const spectrum *s;
-    pool memory;
+    arena memory;
     size_t n;             /* columns that are filled */
     double *column;       /* [MOST_COLUMNS * 2 longest] of one isotherm: whitened, E' then E'' */
     size_t longest;       /* points of an isotherm */
@@ -320,8 +320,8 @@ static void add_together(struct extra *x, const struct columns *c)
 static wt_status take_out_together(struct extra *x, wt_error *err)
 {
     const size_t m = x->s->n_linear;
-    gsl_vector *value = pool_vector(&x->memory, m);
-    gsl_matrix *vector = pool_matrix(&x->memory, m, m);
+    gsl_vector *value = arena_vector(&x->memory, m);
+    gsl_matrix *vector = arena_matrix(&x->memory, m, m);
     gsl_eigen_symmv_workspace *work = gsl_eigen_symmv_alloc(m);
     if (x->memory.failed || work == NULL) {
         gsl_eigen_symmv_free(work);
@@ -366,9 +366,9 @@ static wt_status explain_isotherms(struct extra *x, struct columns *c, wt_error 
 static wt_status fill_of_all(struct extra *x, struct columns *c, wt_error *err)
 {
     const spectrum *s = x->s;
-    double *share = x->share = pool_numbers(&x->memory, PARTINGS * s->n_terms);
-    double *const part[MODULI] = {pool_numbers(&x->memory, s->n_linear),
-                                  pool_numbers(&x->memory, s->n_linear)};
+    double *share = x->share = arena_numbers(&x->memory, PARTINGS * s->n_terms);
+    double *const part[MODULI] = {arena_numbers(&x->memory, s->n_linear),
+                                  arena_numbers(&x->memory, s->n_linear)};
     if (x->memory.failed)
         return wt_fail(err, WT_E_MEMORY, "no memory for the test of superposition");
     follow_partings(s, share);
@@ -501,11 +501,11 @@ static void make_room(struct extra *x, struct columns *c)
         const size_t points = s->first[i + 1] - s->first[i];
         x->longest = points > x->longest ? points : x->longest;
     }
-    x->column = pool_numbers(&x->memory, MOST_COLUMNS * MODULI * x->longest);
-    x->together = pool_matrix(&x->memory, s->n_linear, s->n_linear);
-    x->toward = pool_numbers(&x->memory, s->n_linear);
+    x->column = arena_numbers(&x->memory, MOST_COLUMNS * MODULI * x->longest);
+    x->together = arena_matrix(&x->memory, s->n_linear, s->n_linear);
+    x->toward = arena_numbers(&x->memory, s->n_linear);
     for (size_t i = 0; i < MOST_COLUMNS; i++)
-        c->border[i] = pool_numbers(&x->memory, s->n_linear);
+        c->border[i] = arena_numbers(&x->memory, s->n_linear);
 }
 
 wt_status superposition_test(const spectrum *s, double uncertainty, lack_of_fit *result,
@@ -537,6 +537,6 @@ wt_status superposition_test(const spectrum *s, double uncertainty, lack_of_fit 
         explain_partings(&x, &c);
         judge_columns(&x, result);
     }
-    pool_free(&x.memory);
+    arena_free(&x.memory);
     return status;
 }

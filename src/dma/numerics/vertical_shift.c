@@ -29,14 +29,14 @@ double vertical_physical(const vertical *v, double temperature)
     return log(t0 / temperature) + v->expansion * (temperature - t0);
 }
 
-void vertical_make_room(pool *memory, size_t n, vertical *v)
+void vertical_make_room(arena *memory, size_t n, vertical *v)
 {
     const size_t most = n < SPECTRUM_MOST_SMOOTH ? n : SPECTRUM_MOST_SMOOTH;
-    v->room.precision = pool_numbers(memory, n);
-    v->room.smooth = pool_matrix(memory, n, most);
-    v->left = pool_numbers(memory, n);
-    v->root = pool_matrix(memory, most, most);
-    v->room.at = pool_numbers(memory, most);
+    v->room.precision = arena_numbers(memory, n);
+    v->room.smooth = arena_matrix(memory, n, most);
+    v->left = arena_numbers(memory, n);
+    v->root = arena_matrix(memory, most, most);
+    v->room.at = arena_numbers(memory, most);
 }
 
 /* The departure as a few numbers times `smooth`: the covariance by the factor of Cholesky with the

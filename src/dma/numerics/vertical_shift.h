@@ -17,7 +17,7 @@ typedef struct vertical {
 /* ln b of rubber elasticity. */
 double vertical_physical(const vertical *v, double temperature);
 /* Room for a prior of so many curves. */
-void vertical_make_room(pool *memory, size_t n, vertical *v);
+void vertical_make_room(arena *memory, size_t n, vertical *v);
 /* Fills the prior of the curves of a spectrum, which borrows mean and room. Free shifts are so but
  * for the anchor, which is clamped as all are; without an error of the geometry it is held. */
 wt_status vertical_prior(vertical *v, wt_vertical_shift kind, const double *temperature,

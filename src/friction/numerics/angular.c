@@ -545,10 +545,10 @@ void angular_weigh(angular_law *angular, const angular_weight *weight)
     choose_pieces(angular, false);
 }
 
-wt_status angular_new(const wt_material *material, double tolerance, pool *memory,
+wt_status angular_new(const wt_material *material, double tolerance, arena *memory,
                       angular_law **angular, wt_error *err)
 {
-    angular_law *made = pool_alloc(memory, 1, sizeof *made);
+    angular_law *made = arena_alloc(memory, 1, sizeof *made);
     if (made == NULL)
         return wt_fail(err, WT_E_MEMORY, "out of memory for the angular integrals");
     made->material = material;

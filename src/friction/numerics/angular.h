@@ -23,7 +23,7 @@ typedef struct angular_law angular_law;
 
 /* The material is borrowed. Relative errors are to be far below `tolerance`. The law lives in the
  * pool, but what it makes later does not: to be cleared before the pool is freed. */
-wt_status angular_new(const wt_material *material, double tolerance, pool *memory,
+wt_status angular_new(const wt_material *material, double tolerance, arena *memory,
                       angular_law **angular, wt_error *err) WT_NODISCARD;
 void angular_clear(angular_law *angular); /* NULL: nothing */
 /* Weighs both from the beginning, before anything is covered. The weight is borrowed. */

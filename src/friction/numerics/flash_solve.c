@@ -56,9 +56,9 @@ static size_t most_nodes(const flash_law *law)
     return flash_whole_rows(most) + RULE_MOST;
 }
 
-flash_scratch *flash_scratch_new(const wt_friction_workspace *ws, pool *memory)
+flash_scratch *flash_scratch_new(const wt_friction_workspace *ws, arena *memory)
 {
-    flash_scratch *s = pool_alloc(memory, 1, sizeof *s);
+    flash_scratch *s = arena_alloc(memory, 1, sizeof *s);
     if (s == NULL)
         return NULL;
     const size_t n = most_nodes(ws->flash);
@@ -67,17 +67,17 @@ flash_scratch *flash_scratch_new(const wt_friction_workspace *ws, pool *memory)
         &s->omega, &s->x,       &s->j1,       &s->j2,        &s->loss_j1,       &s->loss_j2,
         &s->g,     &s->running, &s->area,     &s->mu,        &s->heat,          &s->coarse};
     for (size_t i = 0; i < COUNT_OF(by_node); i++)
-        *by_node[i] = pool_numbers(memory, n);
+        *by_node[i] = arena_numbers(memory, n);
     if (flash_has_layer(ws->flash))
-        s->further = pool_numbers(memory, n);
-    s->steps = pool_numbers(memory, DEPTH * n);
-    s->changes = pool_numbers(memory, DEPTH * n);
+        s->further = arena_numbers(memory, n);
+    s->steps = arena_numbers(memory, DEPTH * n);
+    s->changes = arena_numbers(memory, DEPTH * n);
     double **const by_wave[] = {&s->wave, &s->square, &s->sum, &s->amount[0], &s->amount[1]};
     size_t waves = 0;
     for (size_t k = 0; k < FLASH_GRIDS; k++)
         waves = ws->flash->grid[k].n_k > waves ? ws->flash->grid[k].n_k : waves;
     for (size_t i = 0; i < COUNT_OF(by_wave); i++)
-        *by_wave[i] = pool_numbers(memory, waves);
+        *by_wave[i] = arena_numbers(memory, waves);
     return s;
 }
 
@@ -273,11 +273,11 @@ static double dot(const double *a, const double *b, size_t n)
     wide sum = {0}, x, y;
     size_t i = 0;
     for (; i + WIDE <= n; i += WIDE) {
-        wide_load(&x, a + i);
-        wide_load(&y, b + i);
+        simd_load(&x, a + i);
+        simd_load(&y, b + i);
         sum += x * y;
     }
-    double rest = wide_sum(&sum);
+    double rest = simd_sum(&sum);
     for (; i < n; i++)
         rest += a[i] * b[i];
     return rest;

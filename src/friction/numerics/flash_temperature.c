@@ -132,17 +132,17 @@ static void copy_nodes(flash_grid *grid, const double *q, const double *factor1,
 }
 
 static wt_status place_grid(const wt_friction_workspace *ws, flash_grid *grid,
-                            const panel_plan *plan, pool *memory, wt_error *err)
+                            const panel_plan *plan, arena *memory, wt_error *err)
 {
     scale_grid all;
-    pool own = {0};
+    arena own = {0};
     grid_init(&all, plan, grid->rule, &own);
     const size_t room = (plan->n_panels + 1) * grid->rule->n;
     double **const numbers[] = {&grid->q,       &grid->log_q, &grid->weight, &grid->factor1,
                                 &grid->factor2, &grid->f,     &grid->g};
     const size_t n_numbers = ws->softening != NULL ? COUNT_OF(numbers) : 5;
     for (size_t i = 0; i < n_numbers; i++)
-        *numbers[i] = pool_numbers(memory, room);
+        *numbers[i] = arena_numbers(memory, room);
     wt_status status = WT_OK;
     if (own.failed || memory->failed)
         status = wt_fail(err, WT_E_MEMORY, "out of memory for a flash temperature");
@@ -161,22 +161,22 @@ static wt_status place_grid(const wt_friction_workspace *ws, flash_grid *grid,
                        soft ? all.f + at : NULL, soft ? all.g + at : NULL, all.half_width[p]);
         }
     }
-    pool_free(&own);
+    arena_free(&own);
     return status;
 }
 
 /* ---- lattices -------------------------------------------------------------------------------- */
 
 /* k at which a factor 4 q / (k^2 + 4 q^2) differs by `digits` from that of 0, for any q. */
-static wt_status make_lattice(const flash_law *law, flash_grid *grid, double digits, pool *memory,
+static wt_status make_lattice(const flash_law *law, flash_grid *grid, double digits, arena *memory,
                               wt_error *err)
 {
     const size_t n = grid->n;
     const double last = log(law->q0) - 0.5 * digits;
     const size_t n_k = flash_whole_rows(1 + (size_t)((grid->first - last) / grid->step));
-    grid->square = pool_numbers(memory, n_k);
-    grid->in = pool_numbers(memory, n_k * flash_whole_rows(n));
-    grid->out = pool_numbers(memory, n_k * n);
+    grid->square = arena_numbers(memory, n_k);
+    grid->in = arena_numbers(memory, n_k * flash_whole_rows(n));
+    grid->out = arena_numbers(memory, n_k * n);
     grid->n_k = n_k;
     if (memory->failed)
         return wt_fail(err, WT_E_MEMORY, "out of memory for a flash temperature");
@@ -216,14 +216,14 @@ static size_t levels_for(double tolerance)
 
 static wt_status place_grids(wt_friction_workspace *ws, flash_law *law, wt_error *err)
 {
-    pool own = {0};
+    arena own = {0};
     panel_plan plan;
     size_t ladder = 0;
     while (law->tolerance < ladders[ladder].tolerance)
         ladder++;
     panel_plan_init(&plan, ws->roughness, PANEL_WIDTH, levels_for(law->tolerance), NULL, NULL, 0, 0,
                     ws->softening, &own);
-    double *bounds = pool_numbers(&own, plan.capacity + 1);
+    double *bounds = arena_numbers(&own, plan.capacity + 1);
     wt_status status =
         own.failed ? wt_fail(err, WT_E_MEMORY, "out of memory for a flash temperature") : WT_OK;
     if (status == WT_OK)
@@ -240,7 +240,7 @@ static wt_status place_grids(wt_friction_workspace *ws, flash_law *law, wt_error
         if (status == WT_OK)
             status = make_lattice(law, grid, digits, &ws->memory, err);
     }
-    pool_free(&own);
+    arena_free(&own);
     return status;
 }
 
@@ -269,7 +269,7 @@ wt_status flash_new(wt_friction_workspace *ws, wt_error *err)
 {
     const wt_friction_options *o = &ws->options;
     wt_status status = check_law(o, &ws->layer_law, err);
-    flash_law *law = status == WT_OK ? pool_alloc(&ws->memory, 1, sizeof *law) : NULL;
+    flash_law *law = status == WT_OK ? arena_alloc(&ws->memory, 1, sizeof *law) : NULL;
     if (status == WT_OK && law == NULL)
         status = wt_fail(err, WT_E_MEMORY, "out of memory for a flash temperature");
     if (status != WT_OK)
@@ -289,7 +289,7 @@ wt_status flash_new(wt_friction_workspace *ws, wt_error *err)
     status = place_grids(ws, law, err);
     const gauss_rule *coarse = law->grid[FLASH_COARSE].rule, *fine = law->grid[FLASH_FINE].rule;
     if (status == WT_OK)
-        law->refine = pool_numbers(&ws->memory, coarse->n * fine->n);
+        law->refine = arena_numbers(&ws->memory, coarse->n * fine->n);
     if (law->refine != NULL)
         fill_refine(coarse, fine, law->refine);
     else if (status == WT_OK)

@@ -83,7 +83,7 @@ void flash_log_layer(const flash_law *law, const double *rise, size_t n, double 
 wt_status flash_new(struct wt_friction_workspace *ws, wt_error *err) WT_NODISCARD;
 
 /* NULL or a failed pool when out of memory. */
-flash_scratch *flash_scratch_new(const struct wt_friction_workspace *ws, pool *memory);
+flash_scratch *flash_scratch_new(const struct wt_friction_workspace *ws, arena *memory);
 
 /* A solution. */
 typedef struct flash_solution {

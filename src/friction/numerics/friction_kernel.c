@@ -61,7 +61,7 @@ static size_t levels_for(double tolerance)
 }
 
 wt_status friction_scratch_init(friction_scratch *scratch, const wt_friction_workspace *ws,
-                                size_t n_cuts, pool *memory, wt_error *err)
+                                size_t n_cuts, arena *memory, wt_error *err)
 {
     *scratch = (friction_scratch){0};
     panel_plan_init(&scratch->plan, ws->roughness, ws->plan.width, ws->plan.levels, ws->knots,
@@ -75,15 +75,15 @@ wt_status friction_scratch_init(friction_scratch *scratch, const wt_friction_wor
                                 &scratch->loss_j1, &scratch->loss_j2};
     const size_t n_by_node = ws->softening != NULL ? COUNT_OF(by_node) : 6;
     for (size_t i = 0; i < n_by_node; i++)
-        *by_node[i] = pool_alloc(memory, (panels + 2) * RULE_MOST, sizeof **by_node[i]);
-    scratch->knots = pool_alloc(memory, ws->n_knots + 1, sizeof *scratch->knots);
+        *by_node[i] = arena_alloc(memory, (panels + 2) * RULE_MOST, sizeof **by_node[i]);
+    scratch->knots = arena_alloc(memory, ws->n_knots + 1, sizeof *scratch->knots);
     double **const by_panel[] = {&scratch->bounds,   &scratch->panel_mu,   &scratch->panel_g,
                                  &scratch->error_mu, &scratch->error_g,    &scratch->rough_g,
                                  &scratch->rough_mu, &scratch->of_variance};
     for (size_t i = 0; i < COUNT_OF(by_panel); i++)
-        *by_panel[i] = pool_alloc(memory, panels + 1, sizeof **by_panel[i]);
+        *by_panel[i] = arena_alloc(memory, panels + 1, sizeof **by_panel[i]);
     if (flash_has_layer(ws->flash))
-        scratch->further = pool_numbers(memory, (panels + 2) * RULE_MOST);
+        scratch->further = arena_numbers(memory, (panels + 2) * RULE_MOST);
     if (ws->flash != NULL)
         scratch->flash = flash_scratch_new(ws, memory);
     return memory->failed ? no_memory(err) : WT_OK;
@@ -127,7 +127,7 @@ static wt_status make_rules(wt_friction_workspace *ws, wt_error *err)
 /* The plan of all velocities. */
 static wt_status prepare_plan(wt_friction_workspace *ws, wt_error *err)
 {
-    double *bounds = pool_alloc(&ws->memory, ws->plan.capacity + 1, sizeof *bounds);
+    double *bounds = arena_alloc(&ws->memory, ws->plan.capacity + 1, sizeof *bounds);
     if (ws->memory.failed)
         return no_memory(err);
     panel_plan_lay(&ws->plan, ws->roughness, NULL, 0, NULL, 0, bounds);
@@ -171,7 +171,7 @@ static wt_status begin_layer(wt_friction_workspace *ws, wt_error *err)
     wt_layer_state *layer = &ws->options.layer;
     if (!layer_has_moduli(layer))
         return WT_OK;
-    ws->own = pool_alloc(&ws->memory, 1, sizeof *ws->own);
+    ws->own = arena_alloc(&ws->memory, 1, sizeof *ws->own);
     if (ws->own == NULL)
         return no_memory(err);
     const wt_status status =
@@ -189,7 +189,7 @@ static wt_status begin_layer(wt_friction_workspace *ws, wt_error *err)
     *layer = (wt_layer_state){.thickness = layer->thickness, .modulus_ratio = 1};
     if (more == 0)
         return WT_OK;
-    double *all = pool_numbers(&ws->memory, ws->n_knots + more);
+    double *all = arena_numbers(&ws->memory, ws->n_knots + more);
     if (all == NULL)
         return no_memory(err);
     for (size_t k = 0; k < ws->n_knots + more; k++)
@@ -204,9 +204,9 @@ static wt_status begin_layer(wt_friction_workspace *ws, wt_error *err)
 static void prepare_knots(wt_friction_workspace *ws)
 {
     if (ws->n_knots > 0)
-        ws->slopes = pool_numbers(&ws->memory, ws->n_knots + 1);
+        ws->slopes = arena_numbers(&ws->memory, ws->n_knots + 1);
     if (ws->n_knots > 0)
-        ws->log_knots = pool_numbers(&ws->memory, ws->n_knots);
+        ws->log_knots = arena_numbers(&ws->memory, ws->n_knots);
     if (ws->slopes == NULL || ws->log_knots == NULL)
         return;
     grid_slopes(ws->material, ws->knots, ws->n_knots, ws->slopes);
@@ -247,7 +247,7 @@ wt_status wt_friction_workspace_new(const wt_material *material, const wt_roughn
     if (material->law->breaks != NULL && material->law->angular == NULL)
         ws->knots = material->law->breaks(material, &ws->n_knots);
     ws->threads = wt_thread_count(o.threads);
-    ws->scratch = pool_alloc(&ws->memory, ws->threads, sizeof *ws->scratch);
+    ws->scratch = arena_alloc(&ws->memory, ws->threads, sizeof *ws->scratch);
     status = begin_anisotropy(ws, err);
     if (status == WT_OK)
         status = begin_layer(ws, err);
@@ -288,7 +288,7 @@ void wt_friction_workspace_free(wt_friction_workspace *ws)
         angular_clear(ws->angular);
     angular_clear(ws->loss);
     friction_side_clear(ws->side);
-    pool_free(&ws->memory);
+    arena_free(&ws->memory);
     free(ws);
 }
 

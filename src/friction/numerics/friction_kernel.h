@@ -40,7 +40,7 @@ typedef struct friction_scratch {
 } friction_scratch;
 
 struct wt_friction_workspace {
-    pool memory; /* of all that is pointed to below */
+    arena memory; /* of all that is pointed to below */
     const wt_material *material;
     const wt_roughness *roughness;
     wt_friction_options options;
@@ -110,7 +110,7 @@ void friction_record_add(friction_record *record, const double *q, const double 
 
 /* Room for `n_cuts` more cuts than roughness and material make themselves. */
 wt_status friction_scratch_init(friction_scratch *scratch, const wt_friction_workspace *ws,
-                                size_t n_cuts, pool *memory, wt_error *err) WT_NODISCARD;
+                                size_t n_cuts, arena *memory, wt_error *err) WT_NODISCARD;
 
 /* J1 and J2 at n wavenumbers and their frequencies, omega and x = ln omega, where a layer is
  * shifted `further` (ln, NULL: as the bulk), with a softening those of the loss modulus, too; under

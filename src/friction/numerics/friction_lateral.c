@@ -19,10 +19,10 @@ struct friction_side {
 };
 
 wt_status friction_side_new(const wt_material *material, const wt_friction_options *options,
-                            const layer_moduli *own, pool *memory, friction_side **side,
+                            const layer_moduli *own, arena *memory, friction_side **side,
                             wt_error *err)
 {
-    friction_side *made = pool_alloc(memory, 1, sizeof *made);
+    friction_side *made = arena_alloc(memory, 1, sizeof *made);
     if (made == NULL)
         return wt_fail(err, WT_E_MEMORY, "out of memory for the force to the side");
     *side = made;

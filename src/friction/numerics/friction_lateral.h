@@ -16,7 +16,7 @@ typedef struct friction_side friction_side;
 
 /* Lives in the pool; to be cleared before that is freed. */
 wt_status friction_side_new(const wt_material *material, const wt_friction_options *options,
-                            const layer_moduli *own, pool *memory, friction_side **side,
+                            const layer_moduli *own, arena *memory, friction_side **side,
                             wt_error *err) WT_NODISCARD;
 void friction_side_clear(friction_side *side); /* NULL: nothing */
 /* As angular_cover. */

@@ -84,8 +84,8 @@ wt_status wt_friction_profile(wt_friction_workspace *workspace, double pressure,
 
     friction_load at = friction_load_at(workspace, pressure, velocity);
     friction_scratch scratch;
-    pool memory = {0};
-    double *cuts = pool_alloc(&memory, n, sizeof *cuts);
+    arena memory = {0};
+    double *cuts = arena_alloc(&memory, n, sizeof *cuts);
     status = friction_scratch_init(&scratch, workspace, n, &memory, err);
     if (status == WT_OK)
         status = friction_heat(workspace, &scratch, &at, err);
@@ -96,6 +96,6 @@ wt_status wt_friction_profile(wt_friction_workspace *workspace, double pressure,
                                   : 0,
                    &scratch, wavenumber, n, cuts, nodes);
     workspace->scratch[0].nodes += scratch.nodes;
-    pool_free(&memory);
+    arena_free(&memory);
     return status;
 }

@@ -126,11 +126,11 @@ static double strain_above(double t, void *user)
     return ratio * ratio - 1;
 }
 
-static wt_status find_cuts(strain_law *s, pool *memory, wt_error *err)
+static wt_status find_cuts(strain_law *s, arena *memory, wt_error *err)
 {
     const wt_roughness *r = s->roughness;
     const double length = log1p((r->q1 - r->q0) / r->q0);
-    s->cuts = pool_numbers(memory, s->n);
+    s->cuts = arena_numbers(memory, s->n);
     if (s->cuts == NULL)
         return wt_fail(err, WT_E_MEMORY, "out of memory for a table of strain");
     double from = 0;
@@ -183,14 +183,14 @@ wt_status wt_softening_check(const wt_softening *table, wt_error *err)
 }
 
 wt_status softening_new(const wt_softening *table, double factor, const wt_material *material,
-                        const wt_roughness *roughness, pool *memory, strain_law **made,
+                        const wt_roughness *roughness, arena *memory, strain_law **made,
                         wt_error *err)
 {
     const wt_status status = wt_softening_check(table, err);
     if (status != WT_OK)
         return status;
-    strain_law *s = pool_alloc(memory, 1, sizeof *s);
-    double *numbers = pool_numbers(memory, 3 * table->n);
+    strain_law *s = arena_alloc(memory, 1, sizeof *s);
+    double *numbers = arena_numbers(memory, 3 * table->n);
     if (s == NULL || numbers == NULL)
         return wt_fail(err, WT_E_MEMORY, "out of memory for a table of strain");
     *s = (strain_law){.roughness = roughness,

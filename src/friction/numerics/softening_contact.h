@@ -30,7 +30,7 @@ typedef struct strain_law {
 
 /* Of a checked table. Roughness and material are borrowed. */
 wt_status softening_new(const wt_softening *table, double factor, const wt_material *material,
-                        const wt_roughness *roughness, pool *memory, strain_law **made,
+                        const wt_roughness *roughness, arena *memory, strain_law **made,
                         wt_error *err) WT_NODISCARD;
 /* Strain at a wavenumber. */
 double softening_strain(const strain_law *s, double q);

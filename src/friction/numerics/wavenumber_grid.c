@@ -113,7 +113,7 @@ static size_t graded_most(const double *knots, size_t n)
 
 void panel_plan_init(panel_plan *plan, const wt_roughness *roughness, double width, size_t levels,
                      const double *knots, const double *slopes, size_t n_knots, size_t n_cuts,
-                     const strain_law *softening, pool *memory)
+                     const strain_law *softening, arena *memory)
 {
     size_t n_roughness = 0;
     (void)roughness_breaks(roughness, &n_roughness);
@@ -130,9 +130,9 @@ void panel_plan_init(panel_plan *plan, const wt_roughness *roughness, double wid
         steep_most(knots, slopes, n_knots, length) + n_cuts + 32 +
         (size_t)((spectrum_powers(roughness, NULL) + closed_slope * length) / most_rise) +
         (softening != NULL ? softening->n_cuts : 0) + (size_t)(length / PANEL_WIDTH);
-    plan->core = pool_alloc(memory, levels + 1, sizeof *plan->core);
-    plan->panels = pool_alloc(memory, plan->capacity, sizeof *plan->panels);
-    plan->powers = pool_numbers(memory, n_roughness + 1);
+    plan->core = arena_alloc(memory, levels + 1, sizeof *plan->core);
+    plan->panels = arena_alloc(memory, plan->capacity, sizeof *plan->panels);
+    plan->powers = arena_numbers(memory, n_roughness + 1);
     if (plan->powers != NULL)
         (void)spectrum_powers(roughness, plan->powers);
 }
@@ -263,28 +263,28 @@ grid_panel grid_half(const grid_panel *panel, bool upper)
 
 /* ---- nodes ----------------------------------------------------------------------------------- */
 
-void grid_init(scale_grid *grid, const panel_plan *plan, const gauss_rule *rule, pool *memory)
+void grid_init(scale_grid *grid, const panel_plan *plan, const gauss_rule *rule, arena *memory)
 {
     const size_t nodes = (plan->capacity + 1) * rule->n;
     const size_t core_nodes = (plan->levels + 1) * rule->n;
     *grid = (scale_grid){
         .rule = rule,
-        .t = pool_alloc(memory, nodes, sizeof *grid->t),
-        .q = pool_alloc(memory, nodes, sizeof *grid->q),
-        .factor1 = pool_alloc(memory, nodes, sizeof *grid->factor1),
-        .factor2 = pool_alloc(memory, nodes, sizeof *grid->factor2),
-        .half_width = pool_alloc(memory, plan->capacity + 1, sizeof *grid->half_width),
-        .core_t = pool_alloc(memory, core_nodes, sizeof *grid->core_t),
-        .core_q = pool_alloc(memory, core_nodes, sizeof *grid->core_q),
-        .core_factor1 = pool_alloc(memory, core_nodes, sizeof *grid->core_factor1),
-        .core_factor2 = pool_alloc(memory, core_nodes, sizeof *grid->core_factor2),
-        .core_half_width = pool_alloc(memory, plan->levels + 1, sizeof *grid->core_half_width)};
+        .t = arena_alloc(memory, nodes, sizeof *grid->t),
+        .q = arena_alloc(memory, nodes, sizeof *grid->q),
+        .factor1 = arena_alloc(memory, nodes, sizeof *grid->factor1),
+        .factor2 = arena_alloc(memory, nodes, sizeof *grid->factor2),
+        .half_width = arena_alloc(memory, plan->capacity + 1, sizeof *grid->half_width),
+        .core_t = arena_alloc(memory, core_nodes, sizeof *grid->core_t),
+        .core_q = arena_alloc(memory, core_nodes, sizeof *grid->core_q),
+        .core_factor1 = arena_alloc(memory, core_nodes, sizeof *grid->core_factor1),
+        .core_factor2 = arena_alloc(memory, core_nodes, sizeof *grid->core_factor2),
+        .core_half_width = arena_alloc(memory, plan->levels + 1, sizeof *grid->core_half_width)};
     if (plan->softening == NULL)
         return;
-    grid->f = pool_alloc(memory, nodes, sizeof *grid->f);
-    grid->g = pool_alloc(memory, nodes, sizeof *grid->g);
-    grid->core_f = pool_alloc(memory, core_nodes, sizeof *grid->core_f);
-    grid->core_g = pool_alloc(memory, core_nodes, sizeof *grid->core_g);
+    grid->f = arena_alloc(memory, nodes, sizeof *grid->f);
+    grid->g = arena_alloc(memory, nodes, sizeof *grid->g);
+    grid->core_f = arena_alloc(memory, core_nodes, sizeof *grid->core_f);
+    grid->core_g = arena_alloc(memory, core_nodes, sizeof *grid->core_g);
 }
 
 /* Fills t, q and dt/ds (into factor1) on one panel; returns the half width in s. */

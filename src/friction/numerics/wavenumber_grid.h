@@ -54,7 +54,7 @@ void grid_slopes(const wt_material *material, const double *knots, size_t n_knot
  * The pool tells whether there was memory. */
 void panel_plan_init(panel_plan *plan, const wt_roughness *roughness, double width, size_t levels,
                      const double *knots, const double *slopes, size_t n_knots, size_t n_cuts,
-                     const strain_law *softening, pool *memory);
+                     const strain_law *softening, arena *memory);
 /* Lays the panels: cut at the breaks of roughness and softening, at `cuts` (plain, t rising) and at
  * `knots` (of the material: square-root maps to their right; t rising, also outside the range).
  * `bounds` is scratch for capacity + 1 numbers. */
@@ -79,7 +79,7 @@ typedef struct scale_grid {
 } scale_grid;
 
 /* Likewise, for any plan of this capacity. The rule is borrowed. */
-void grid_init(scale_grid *grid, const panel_plan *plan, const gauss_rule *rule, pool *memory);
+void grid_init(scale_grid *grid, const panel_plan *plan, const gauss_rule *rule, arena *memory);
 /* Begins it anew. */
 void grid_begin(scale_grid *grid, const panel_plan *plan);
 /* Makes the panels from the `first` up to the `last` ready, which is left out; and the core of a

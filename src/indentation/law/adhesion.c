@@ -208,12 +208,12 @@ WIDE_REGISTERS static double step_on(const adhesion *law, double k, balance_bloc
     bases_at(law, k, b->bare, BLOCK, base, rise);
     for (size_t i = 0; i < BLOCK; i += WIDE) {
         wide bare, low, high, at, excess, slope;
-        wide_load(&bare, b->bare + i);
-        wide_load(&low, b->low + i);
-        wide_load(&high, b->high + i);
-        wide_load(&at, b->position + i);
-        wide_load(&excess, base + i);
-        wide_load(&slope, rise + i);
+        simd_load(&bare, b->bare + i);
+        simd_load(&low, b->low + i);
+        simd_load(&high, b->high + i);
+        simd_load(&at, b->position + i);
+        simd_load(&excess, base + i);
+        simd_load(&slope, rise + i);
         excess -= at;
         const wide_bits above = excess > 0.0;
         choose(&low, &above, &low, &bare);
@@ -225,9 +225,9 @@ WIDE_REGISTERS static double step_on(const adhesion *law, double k, balance_bloc
         const wide share = (next - bare) / next, other = -share;
         wide_raise(&largest, &share);
         wide_raise(&largest, &other);
-        wide_store(b->low + i, &low);
-        wide_store(b->high + i, &high);
-        wide_store(b->bare + i, &next);
+        simd_store(b->low + i, &low);
+        simd_store(b->high + i, &high);
+        simd_store(b->bare + i, &next);
     }
     for (size_t j = 0; j < WIDE; j++)
         most = largest[j] > most ? largest[j] : most;
@@ -280,20 +280,20 @@ WIDE_REGISTERS static void guess(const branch *nodes, const size_t node[BLOCK], 
     }
     for (size_t i = 0; i < BLOCK; i += WIDE) {
         wide z, low, high, up, base, span, near_low, near_high, at;
-        wide_load(&z, b->position + i);
-        wide_load(&low, b->low + i);
-        wide_load(&high, b->high + i);
-        wide_load(&up, part[0] + i);
-        wide_load(&base, part[1] + i);
-        wide_load(&span, part[2] + i);
-        wide_load(&near_low, part[3] + i);
-        wide_load(&near_high, part[4] + i);
-        wide_load(&at, part[5] + i);
+        simd_load(&z, b->position + i);
+        simd_load(&low, b->low + i);
+        simd_load(&high, b->high + i);
+        simd_load(&up, part[0] + i);
+        simd_load(&base, part[1] + i);
+        simd_load(&span, part[2] + i);
+        simd_load(&near_low, part[3] + i);
+        simd_load(&near_high, part[4] + i);
+        simd_load(&at, part[5] + i);
         const wide t = (z - base) / span, u = 1.0 - t, line = low + up * t;
         wide place = line + u * t * (u * near_low - t * near_high);
         const wide_bits cubic = (at > 0.0) & (place > low) & (place < high);
         choose(&place, &cubic, &place, &line);
-        wide_store(b->bare + i, &place);
+        simd_store(b->bare + i, &place);
     }
 }
 

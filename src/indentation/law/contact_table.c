@@ -161,10 +161,10 @@ WIDE_PART void columns_of(const wt_contact_table *table, const wide_bits *number
 {
     const double *from = (const double *)table->pieces + k;
     wide a, b, c, d; /* no array, which would go through memory in halves */
-    wide_load(&a, from + (*number)[0] * PIECE);
-    wide_load(&b, from + (*number)[1] * PIECE);
-    wide_load(&c, from + (*number)[2] * PIECE);
-    wide_load(&d, from + (*number)[3] * PIECE);
+    simd_load(&a, from + (*number)[0] * PIECE);
+    simd_load(&b, from + (*number)[1] * PIECE);
+    simd_load(&c, from + (*number)[2] * PIECE);
+    simd_load(&d, from + (*number)[3] * PIECE);
     const wide even = __builtin_shufflevector(a, b, 0, 4, 2, 6),
                odd = __builtin_shufflevector(a, b, 1, 5, 3, 7),
                even2 = __builtin_shufflevector(c, d, 0, 4, 2, 6),
@@ -184,7 +184,7 @@ typedef struct values_at {
 WIDE_PART bool in_pieces(const wt_contact_table *table, const double *delta, size_t i, values_at to)
 {
     wide d, c[2 * WIDE]; /* as in a piece */
-    wide_load(&d, delta + i);
+    simd_load(&d, delta + i);
     d -= table->switch_depth;
     const wide_bits number = ((wide_bits)d >> SHIFT) - (int64_t)table->first;
     const wide_bits out = (d <= 0.0) | (number < 0) | (number >= (int64_t)table->n);
@@ -194,16 +194,16 @@ WIDE_PART bool in_pieces(const wt_contact_table *table, const double *delta, siz
     columns_of(table, &number, WIDE, c + WIDE);
     const wide t = (d - c[6]) * c[7];
     const wide value = c[0] + t * (c[1] + t * (c[2] + t * (c[3] + t * (c[4] + t * c[5]))));
-    wide_store(to.g + i, &value);
+    simd_store(to.g + i, &value);
     if (to.slope != NULL) {
         const wide rise =
             (c[1] + t * (2 * c[2] + t * (3 * c[3] + t * (4 * c[4] + t * 5 * c[5])))) * c[7];
-        wide_store(to.slope + i, &rise);
+        simd_store(to.slope + i, &rise);
     }
     if (to.curvature != NULL) {
         const wide bend =
             (2 * c[2] + t * (6 * c[3] + t * (12 * c[4] + t * 20 * c[5]))) * c[7] * c[7];
-        wide_store(to.curvature + i, &bend);
+        simd_store(to.curvature + i, &bend);
     }
     return true;
 }

@@ -39,7 +39,7 @@ static void add_word(char list[LIST], const char *word, size_t after)
 }
 
 /* With the name that was meant, if any is near. */
-static void advise_shape(wt_error *err, size_t shape, const nearest_name *near)
+static void advise_shape(wt_error *err, size_t shape, const spell_suggestion *near)
 {
     char examples[LIST] = "";
     for (size_t i = 0; i < N_SHAPES; i++)
@@ -52,7 +52,7 @@ static void advise_shape(wt_error *err, size_t shape, const nearest_name *near)
 }
 
 static wt_status tip_syntax(wt_error *err, size_t shape, const char *text, const char *expected,
-                            const nearest_name *found)
+                            const spell_suggestion *found)
 {
     wt_status status = wt_fail(err, WT_E_ARG, "tip \"%s\" is not understood", text);
     wt_error_expected(err, "%s", expected);
@@ -67,31 +67,31 @@ static wt_status parse_item(const char *text, size_t shape, const char *item, si
     const char *equals = memchr(item, '=', length);
     if (equals == NULL)
         return tip_syntax(err, shape, text, "name=value",
-                          &(nearest_name){.word = item, .length = length});
+                          &(spell_suggestion){.word = item, .length = length});
     size_t name_length = (size_t)(equals - item), key = 0;
     while (key < TIP_N_DIMENSIONS && (strlen(tip_dimensions[key].name) != name_length ||
                                       strncmp(tip_dimensions[key].name, item, name_length) != 0))
         key++;
     if (key == TIP_N_DIMENSIONS || !(shapes[shape].allowed & 1u << key)) {
         char names[LIST] = "";
-        nearest_name near = nearest_to(item, name_length);
+        spell_suggestion near = nearest_to(item, name_length);
         for (size_t i = 0; i < TIP_N_DIMENSIONS; i++)
             if (shapes[shape].allowed & 1u << i) {
                 add_word(names, tip_dimensions[i].name, shapes[shape].allowed >> (i + 1));
-                nearest_try(&near, tip_dimensions[i].name, strlen(tip_dimensions[i].name));
+                spell_suggestion_try(&near, tip_dimensions[i].name, strlen(tip_dimensions[i].name));
             }
         return tip_syntax(err, shape, text, names, &near);
     }
     if (*seen & 1u << key)
         return tip_syntax(err, shape, text, "every name once",
-                          &(nearest_name){.word = item, .length = length});
+                          &(spell_suggestion){.word = item, .length = length});
     *seen |= 1u << key;
 
     char value[64];
     size_t value_length = length - name_length - 1;
     if (value_length >= sizeof value)
         return tip_syntax(err, shape, text, "a number with its unit",
-                          &(nearest_name){.word = equals + 1, .length = value_length});
+                          &(spell_suggestion){.word = equals + 1, .length = value_length});
     memcpy(value, equals + 1, value_length);
     value[value_length] = '\0';
     wt_status status = wt_estimate_parse(value, tip_dimensions[key].quantity, &values[key], err);
@@ -109,14 +109,14 @@ static wt_status parse_item(const char *text, size_t shape, const char *item, si
 static wt_status find_shape(const char *text, size_t length, size_t *shape, wt_error *err)
 {
     char names[LIST] = "";
-    nearest_name near = nearest_to(text, length);
+    spell_suggestion near = nearest_to(text, length);
     size_t meant = N_SHAPES;
     for (*shape = 0; *shape < N_SHAPES; ++*shape) {
         if (strlen(shapes[*shape].name) == length &&
             strncmp(shapes[*shape].name, text, length) == 0)
             return WT_OK;
         add_word(names, shapes[*shape].name, N_SHAPES - 1 - *shape);
-        nearest_try(&near, shapes[*shape].name, strlen(shapes[*shape].name));
+        spell_suggestion_try(&near, shapes[*shape].name, strlen(shapes[*shape].name));
         if (near.name == shapes[*shape].name)
             meant = *shape;
     }
@@ -236,8 +236,8 @@ size_t wt_tip_describe(const wt_tip *tip, char *buffer, size_t size)
 }
 
 /* What stands behind a word, up to a comma or the end, as a quantity; false if it is none. */
-static bool quantity_behind(const char *words, const char *word, const char *unit,
-                            wt_quantity quantity, double *value)
+static bool quantity_after(const char *words, const char *word, const char *unit,
+                           wt_quantity quantity, double *value)
 {
     char text[48];
     const char *at = strstr(words, word);
@@ -256,10 +256,10 @@ bool tip_from_description(const char *words, wt_tip *tip)
     double sides = 0;
     const bool cone = strncmp(words, "blunted cone, ", 14) == 0;
     *tip = (wt_tip){.shape = WT_TIP_BLUNTED_PYRAMID};
-    if (!(cone || quantity_behind(words, "blunted pyramid, ", " ", WT_Q_NONE, &sides)) ||
-        !quantity_behind(words, "half-angle ", "deg", WT_Q_ANGLE, &tip->half_angle) ||
-        !quantity_behind(words, "cap radius ", "", WT_Q_LENGTH, &tip->radius) ||
-        !quantity_behind(words, "transition radius b ", "", WT_Q_LENGTH, &tip->transition_radius))
+    if (!(cone || quantity_after(words, "blunted pyramid, ", " ", WT_Q_NONE, &sides)) ||
+        !quantity_after(words, "half-angle ", "deg", WT_Q_ANGLE, &tip->half_angle) ||
+        !quantity_after(words, "cap radius ", "", WT_Q_LENGTH, &tip->radius) ||
+        !quantity_after(words, "transition radius b ", "", WT_Q_LENGTH, &tip->transition_radius))
         return false;
     tip->sides = (unsigned)sides;
     return wt_tip_check(tip, NULL) == WT_OK;
@@ -281,13 +281,13 @@ bool tip_of_any_description(const char *words, wt_tip *tip)
             continue;
         *tip = (wt_tip){.shape = plain[i].shape};
         return (plain[i].round
-                    ? quantity_behind(words, "radius ", "", WT_Q_LENGTH, &tip->radius)
-                    : quantity_behind(words, "half-angle ", "deg", WT_Q_ANGLE, &tip->half_angle)) &&
+                    ? quantity_after(words, "radius ", "", WT_Q_LENGTH, &tip->radius)
+                    : quantity_after(words, "half-angle ", "deg", WT_Q_ANGLE, &tip->half_angle)) &&
                wt_tip_check(tip, NULL) == WT_OK;
     }
-    if (!quantity_behind(words, "sharp pyramid, ", " ", WT_Q_NONE, &sides))
+    if (!quantity_after(words, "sharp pyramid, ", " ", WT_Q_NONE, &sides))
         return tip_from_description(words, tip);
     *tip = (wt_tip){.shape = WT_TIP_BLUNTED_PYRAMID, .sides = (unsigned)sides};
-    return quantity_behind(words, "half-angle ", "deg", WT_Q_ANGLE, &tip->half_angle) &&
+    return quantity_after(words, "half-angle ", "deg", WT_Q_ANGLE, &tip->half_angle) &&
            wt_tip_check(tip, NULL) == WT_OK;
 }

@@ -221,9 +221,9 @@ static double noise_covariance(const dwell_nodes *n, size_t i, size_t k, double 
     return exp(-fmax(0, n->from[k] - n->to[i]) / time) * (-expm1(-x) / x) * (-expm1(-y) / y);
 }
 
-static bool make_factor(dwell_nodes *n, const noise *v, pool *memory)
+static bool make_factor(dwell_nodes *n, const noise *v, arena *memory)
 {
-    n->factor = pool_matrix(memory, n->n, n->n);
+    n->factor = arena_matrix(memory, n->n, n->n);
     if (memory->failed)
         return false;
     for (size_t i = 0; i < n->n; i++)
@@ -239,15 +239,15 @@ static bool make_factor(dwell_nodes *n, const noise *v, pool *memory)
     return gsl_linalg_cholesky_decomp1(n->factor) == GSL_SUCCESS;
 }
 
-const char *dwell_nodes_make(const wt_dwell_history *h, double stiffness, pool *memory,
+const char *dwell_nodes_make(const wt_dwell_history *h, double stiffness, arena *memory,
                              dwell_nodes *nodes)
 {
     double **const arrays[] = {&nodes->time, &nodes->position, &nodes->force,
                                &nodes->from, &nodes->to,       &nodes->count};
     *nodes = (dwell_nodes){0};
     for (size_t i = 0; i < sizeof arrays / sizeof arrays[0]; i++)
-        *arrays[i] = pool_numbers(memory, MOST_NODES);
-    double *residual = pool_numbers(memory, h->n_approach);
+        *arrays[i] = arena_numbers(memory, MOST_NODES);
+    double *residual = arena_numbers(memory, h->n_approach);
     if (memory->failed)
         return "";
     const double end = h->position[h->n_approach - 1],

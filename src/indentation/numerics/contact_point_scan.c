@@ -89,9 +89,9 @@ WIDE_REGISTERS static void weigh(projection *p, bool weighted)
     for (size_t i = 0; i < s->n; i += WIDE) {
         wide weights = {0.0}, position = {0.0}, force = {0.0};
         if (i + WIDE <= s->n) {
-            wide_load(&weights, weight + i);
-            wide_load(&position, s->position + i);
-            wide_load(&force, s->force + i);
+            simd_load(&weights, weight + i);
+            simd_load(&position, s->position + i);
+            simd_load(&force, s->force + i);
         }
         for (size_t j = i; j < s->n && i + WIDE > s->n; j++) {
             weights[j - i] = weight[j];
@@ -106,13 +106,13 @@ WIDE_REGISTERS static void weigh(projection *p, bool weighted)
         zf += wz * force;
         ff += wf * force;
     }
-    p->s_w = wide_sum(&w);
+    p->s_w = simd_sum(&w);
     p->inverse_w = 1.0 / p->s_w;
-    p->origin_position = wide_sum(&z) / p->s_w;
-    p->origin_force = wide_sum(&f) / p->s_w;
-    p->s_zz = wide_sum(&zz) - wide_sum(&z) * p->origin_position;
-    p->s_zf = wide_sum(&zf) - wide_sum(&z) * p->origin_force;
-    p->s_ff = wide_sum(&ff) - wide_sum(&f) * p->origin_force;
+    p->origin_position = simd_sum(&z) / p->s_w;
+    p->origin_force = simd_sum(&f) / p->s_w;
+    p->s_zz = simd_sum(&zz) - simd_sum(&z) * p->origin_position;
+    p->s_zf = simd_sum(&zf) - simd_sum(&z) * p->origin_force;
+    p->s_ff = simd_sum(&ff) - simd_sum(&f) * p->origin_force;
     p->inverse_zz = 1.0 / p->s_zz;
 }
 
@@ -165,10 +165,10 @@ WIDE_REGISTERS static curve_minimum to_minimum(const projection *p, double conta
     for (size_t i = first; i < p->samples->n; i += WIDE) {
         wide weight = {0.0}, value = {0.0}, f = {0.0}, z = {0.0};
         if (i + WIDE <= p->samples->n) {
-            wide_load(&weight, w->weight + i);
-            wide_load(&value, w->g + i);
-            wide_load(&f, force + i);
-            wide_load(&z, position + i);
+            simd_load(&weight, w->weight + i);
+            simd_load(&value, w->g + i);
+            simd_load(&f, force + i);
+            simd_load(&z, position + i);
         }
         for (size_t j = i; j < p->samples->n && i + WIDE > p->samples->n; j++) {
             weight[j - i] = w->weight[j];
@@ -183,7 +183,7 @@ WIDE_REGISTERS static curve_minimum to_minimum(const projection *p, double conta
         gz += weighted * (z - p->origin_position);
     }
     const projected at =
-        project(p, (contact_sums){wide_sum(&g), wide_sum(&gg), wide_sum(&gf), wide_sum(&gz)});
+        project(p, (contact_sums){simd_sum(&g), simd_sum(&gg), simd_sum(&gf), simd_sum(&gz)});
     const double offset0 = at.offset - at.tilt * p->origin_position; /* at position 0 */
     const double c = (contact + offset0 / k) / (1.0 - at.tilt / k);
     return (curve_minimum){c, at.modulus, offset0 + at.tilt * c, at.tilt, at.cost};
@@ -291,11 +291,11 @@ WIDE_REGISTERS static contact_sums sums_of(const scan_octave *o, size_t first, c
     size_t i = 0;
     for (; i + WIDE <= n; i += WIDE) {
         wide weight, force, position, value, square;
-        wide_load(&weight, o->weight + first + i);
-        wide_load(&force, o->force + first + i);
-        wide_load(&position, o->position + first + i);
-        wide_load(&value, g + i);
-        wide_load(&square, gg + i);
+        simd_load(&weight, o->weight + first + i);
+        simd_load(&force, o->force + first + i);
+        simd_load(&position, o->position + first + i);
+        simd_load(&value, g + i);
+        simd_load(&square, gg + i);
         s += weight * value;
         ss += weight * square;
         sf += force * value;
@@ -307,7 +307,7 @@ WIDE_REGISTERS static contact_sums sums_of(const scan_octave *o, size_t first, c
         sf[0] += o->force[first + i] * g[i];
         sz[0] += o->position[first + i] * g[i];
     }
-    return (contact_sums){wide_sum(&s), wide_sum(&ss), wide_sum(&sf), wide_sum(&sz)};
+    return (contact_sums){simd_sum(&s), simd_sum(&ss), simd_sum(&sf), simd_sum(&sz)};
 }
 
 static double cost_of(const projection *p, const scan_octave *o, size_t first, const double *g,

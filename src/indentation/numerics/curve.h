@@ -121,13 +121,13 @@ static inline double curve_dot(const double *a, const double *b, size_t n)
     wide sum = {0.0}, x, y;
     size_t i = 0;
     for (; i + WIDE <= n; i += WIDE) {
-        wide_load(&x, a + i);
-        wide_load(&y, b + i);
+        simd_load(&x, a + i);
+        simd_load(&y, b + i);
         sum += x * y;
     }
     for (; i < n; i++)
         sum[0] += a[i] * b[i];
-    return wide_sum(&sum);
+    return simd_sum(&sum);
 }
 
 /* The same of one. */
@@ -136,12 +136,12 @@ static inline double curve_sum(const double *a, size_t n)
     wide sum = {0.0}, x;
     size_t i = 0;
     for (; i + WIDE <= n; i += WIDE) {
-        wide_load(&x, a + i);
+        simd_load(&x, a + i);
         sum += x;
     }
     for (; i < n; i++)
         sum[0] += a[i];
-    return wide_sum(&sum);
+    return simd_sum(&sum);
 }
 
 /* Of finite numbers; n > 0. */
@@ -153,7 +153,7 @@ curve_span curve_span_of(const double *x, size_t n);
 double curve_select(double *x, size_t n, size_t k, double largest);
 
 /* The reason of a verdict. */
-void curve_say(char reason[160], const char *format, ...) WT_PRINTF(2, 3);
+void curve_set_reason(char reason[160], const char *format, ...) WT_PRINTF(2, 3);
 /* A value as short text with its unit. */
 typedef struct si_text {
     char words[40];

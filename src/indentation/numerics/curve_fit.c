@@ -394,7 +394,7 @@ static void fit_once(const curve_fitting *of, const curve_branch *retract, doubl
     report(f, fit);
     find_rates(f, approach, fit);
     report_spectrum(f, fit);
-    fit->verdict = curve_judge(f, fit);
+    fit->verdict = curve_assess(f, fit);
     if (f->options->contact_estimators)
         curve_estimate_contact(f, fit->contact_by);
     if (f->options->fit_retract)

@@ -141,7 +141,8 @@ void curve_allow_loss(curve_fitting *f);
  * the error that is stated for the other tips. */
 bool curve_unknown_loss(const curve_fitting *f);
 
-/* ---- verdict: curve_judge.c ------------------------------------------------------------------ */
+/* ---- verdict: curve_assess.c ------------------------------------------------------------------
+ */
 
 /* What the law misses goes into the parameters and their errors: misfit.c. */
 void curve_add_misfit(curve_fitting *f);
@@ -153,7 +154,7 @@ bool curve_leaves_the_sample(curve_fitting *f, char reason[160]);
 /* To a reason, whole or not at all. */
 void curve_append_note(char reason[160], const char *text);
 /* The verdict on a fit, with its reason. */
-wt_curve_verdict curve_judge(curve_fitting *f, wt_indent_fit *fit);
+wt_curve_verdict curve_assess(curve_fitting *f, wt_indent_fit *fit);
 /* Force up to which a saturated curve may be fitted [N]. */
 double curve_linear_to(const curve_fitting *f);
 /* To the reason of a refusal: what the verdict on the forces below is. */

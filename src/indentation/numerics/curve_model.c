@@ -33,8 +33,8 @@ WIDE_REGISTERS static void sum_baseline(curve_law *m, size_t n)
     for (size_t i = 0; i < n; i += WIDE) {
         wide position = m->z0 - (wide){0.0}, force = m->f0 - (wide){0.0};
         if (i + WIDE <= n) {
-            wide_load(&position, s->position + i);
-            wide_load(&force, s->force + i);
+            simd_load(&position, s->position + i);
+            simd_load(&force, s->force + i);
         }
         for (size_t j = i; j < n && i + WIDE > n; j++) {
             position[j - i] = s->position[j];
@@ -48,11 +48,11 @@ WIDE_REGISTERS static void sum_baseline(curve_law *m, size_t n)
         zf += position * force;
         ff += force * force;
     }
-    m->z = wide_sum(&z);
-    m->zz = wide_sum(&zz);
-    m->f = wide_sum(&f);
-    m->zf = wide_sum(&zf);
-    m->ff = wide_sum(&ff);
+    m->z = simd_sum(&z);
+    m->zz = simd_sum(&zz);
+    m->f = simd_sum(&f);
+    m->zf = simd_sum(&zf);
+    m->ff = simd_sum(&ff);
 }
 
 /* In the plain residual noise decides which samples are in contact: none is left to the sums. Nor
@@ -94,10 +94,10 @@ WIDE_REGISTERS static double step_on(const curve_law *m, const double p[N], size
     size_t i = first;
     for (; i + WIDE <= s->n; i += WIDE) {
         wide z, delta, g, slope;
-        wide_load(&z, s->position + i);
-        wide_load(&delta, w->delta + i);
-        wide_load(&g, w->g + i);
-        wide_load(&slope, w->slope + i);
+        simd_load(&z, s->position + i);
+        simd_load(&delta, w->delta + i);
+        simd_load(&g, w->g + i);
+        simd_load(&slope, w->slope + i);
         z -= p[CURVE_C];
         const wide out = -delta;
         wide step = (k * (z - delta) - e * g) / (k + e * slope);
@@ -108,8 +108,8 @@ WIDE_REGISTERS static double step_on(const curve_law *m, const double p[N], size
         wide_raise(&most, &back);
         g += slope * step;
         delta += step;
-        wide_store(w->g + i, &g);
-        wide_store(w->delta + i, &delta);
+        simd_store(w->g + i, &g);
+        simd_store(w->delta + i, &delta);
     }
     for (size_t j = 0; j < WIDE; j++)
         largest = most[j] > largest ? most[j] : largest;
@@ -317,10 +317,10 @@ WIDE_REGISTERS static size_t sum_four(const curve_law *m, const double p[N], nor
     size_t i = m->n_baseline;
     for (; i + WIDE <= s->n; i += WIDE) {
         wide slope, g, r, z;
-        wide_load(&slope, w->slope + i);
-        wide_load(&g, by_modulus + i);
-        wide_load(&r, w->residual + i);
-        wide_load(&z, s->position + i);
+        simd_load(&slope, w->slope + i);
+        simd_load(&g, by_modulus + i);
+        simd_load(&r, w->residual + i);
+        simd_load(&z, s->position + i);
         const wide balanced = 1.0 / (1.0 + soft * slope), by_e = g * balanced,
                    by_c = with_c * (p[CURVE_T] + p[CURVE_E] * slope * balanced),
                    by_t = with_t * (z - p[CURVE_C]);
@@ -340,7 +340,7 @@ WIDE_REGISTERS static size_t sum_four(const curve_law *m, const double p[N], nor
         if (!m->adhesive)
             continue;
         wide by_w;
-        wide_load(&by_w, w->by_work + i);
+        simd_load(&by_w, w->by_work + i);
         by_w *= balanced;
         ew += by_e * by_w;
         cw += by_c * by_w;
@@ -349,26 +349,26 @@ WIDE_REGISTERS static size_t sum_four(const curve_law *m, const double p[N], nor
         ww += by_w * by_w;
         wr += by_w * r;
     }
-    to->jj[CURVE_E][CURVE_E] += wide_sum(&ee);
-    to->jj[CURVE_E][CURVE_C] += wide_sum(&ec);
-    to->jj[CURVE_E][CURVE_F0] += wide_sum(&ef);
-    to->jj[CURVE_E][CURVE_T] += wide_sum(&et);
-    to->jj[CURVE_C][CURVE_C] += wide_sum(&cc);
-    to->jj[CURVE_C][CURVE_F0] += wide_sum(&cf);
-    to->jj[CURVE_C][CURVE_T] += wide_sum(&ct);
+    to->jj[CURVE_E][CURVE_E] += simd_sum(&ee);
+    to->jj[CURVE_E][CURVE_C] += simd_sum(&ec);
+    to->jj[CURVE_E][CURVE_F0] += simd_sum(&ef);
+    to->jj[CURVE_E][CURVE_T] += simd_sum(&et);
+    to->jj[CURVE_C][CURVE_C] += simd_sum(&cc);
+    to->jj[CURVE_C][CURVE_F0] += simd_sum(&cf);
+    to->jj[CURVE_C][CURVE_T] += simd_sum(&ct);
     to->jj[CURVE_F0][CURVE_F0] += (double)(i - m->n_baseline);
-    to->jj[CURVE_F0][CURVE_T] += wide_sum(&tf);
-    to->jj[CURVE_T][CURVE_T] += wide_sum(&tt);
-    to->jj[CURVE_E][CURVE_W] += wide_sum(&ew);
-    to->jj[CURVE_C][CURVE_W] += wide_sum(&cw);
-    to->jj[CURVE_F0][CURVE_W] += wide_sum(&fw);
-    to->jj[CURVE_T][CURVE_W] += wide_sum(&tw);
-    to->jj[CURVE_W][CURVE_W] += wide_sum(&ww);
-    to->jr[CURVE_E] += wide_sum(&er);
-    to->jr[CURVE_C] += wide_sum(&cr);
-    to->jr[CURVE_F0] += wide_sum(&fr);
-    to->jr[CURVE_T] += wide_sum(&tr);
-    to->jr[CURVE_W] += wide_sum(&wr);
+    to->jj[CURVE_F0][CURVE_T] += simd_sum(&tf);
+    to->jj[CURVE_T][CURVE_T] += simd_sum(&tt);
+    to->jj[CURVE_E][CURVE_W] += simd_sum(&ew);
+    to->jj[CURVE_C][CURVE_W] += simd_sum(&cw);
+    to->jj[CURVE_F0][CURVE_W] += simd_sum(&fw);
+    to->jj[CURVE_T][CURVE_W] += simd_sum(&tw);
+    to->jj[CURVE_W][CURVE_W] += simd_sum(&ww);
+    to->jr[CURVE_E] += simd_sum(&er);
+    to->jr[CURVE_C] += simd_sum(&cr);
+    to->jr[CURVE_F0] += simd_sum(&fr);
+    to->jr[CURVE_T] += simd_sum(&tr);
+    to->jr[CURVE_W] += simd_sum(&wr);
     return i;
 }
 

@@ -102,13 +102,13 @@ wt_curve_verdict curve_no_contact(curve_fitting *f, char reason[160])
     const double fall = force_fall(&f->input.samples);
     const si_text change = curve_si(fabs(fall), "N"), noise = curve_si(f->input.step_noise, "N");
     if (fall > contact_noise * f->input.step_noise) {
-        curve_say(reason,
-                  "the force falls by %s towards the sample (noise %s): sign of the deflection?",
-                  change.words, noise.words);
+        curve_set_reason(
+            reason, "the force falls by %s towards the sample (noise %s): sign of the deflection?",
+            change.words, noise.words);
         return WT_CURVE_NEGATIVE;
     }
-    curve_say(reason, "the force changes by %s from start to end (noise %s)", change.words,
-              noise.words);
+    curve_set_reason(reason, "the force changes by %s from start to end (noise %s)", change.words,
+                     noise.words);
     return WT_CURVE_NO_CONTACT;
 }
 
@@ -127,8 +127,8 @@ bool curve_leaves_the_sample(curve_fitting *f, char reason[160])
     n = curve_scan(f->table, s, true, false, f->workspace, minima);
     if (n > 0 && minima[0].contact_point > s->position[0] &&
         minima[0].cost < reverse_ratio * cost) {
-        curve_say(reason, "the force falls by %s along the segment: it leaves the sample",
-                  curve_si(fall, "N").words);
+        curve_set_reason(reason, "the force falls by %s along the segment: it leaves the sample",
+                         curve_si(fall, "N").words);
         return true;
     }
     curve_reverse(s);
@@ -143,32 +143,32 @@ static wt_curve_verdict contact_verdict(const curve_fitting *f, const wt_indent_
     const curve_samples *samples = &f->input.samples;
     const double length = s->p[CURVE_C] - samples->position[0];
     if (length <= 0.0) {
-        curve_say(reason, "contact is found %s before the first sample",
-                  curve_si(-length, "m").words);
+        curve_set_reason(reason, "contact is found %s before the first sample",
+                         curve_si(-length, "m").words);
         return WT_CURVE_NO_BASELINE;
     }
     if (!(fit->max_force > contact_noise * s->noise)) {
-        curve_say(reason, "largest force %s is %.1f times the noise of %s, %g needed",
-                  curve_si(fit->max_force, "N").words, fit->max_force / s->noise,
-                  curve_si(s->noise, "N").words, contact_noise);
+        curve_set_reason(reason, "largest force %s is %.1f times the noise of %s, %g needed",
+                         curve_si(fit->max_force, "N").words, fit->max_force / s->noise,
+                         curve_si(s->noise, "N").words, contact_noise);
         return WT_CURVE_NO_CONTACT;
     }
     if (s->first_contact < CURVE_BASELINE_SAMPLES) {
-        curve_say(reason, "baseline of %zu samples, %d needed", s->first_contact,
-                  CURVE_BASELINE_SAMPLES);
+        curve_set_reason(reason, "baseline of %zu samples, %d needed", s->first_contact,
+                         CURVE_BASELINE_SAMPLES);
         return WT_CURVE_NO_BASELINE;
     }
     if (f->range_empty || curve_in_range(f) < CURVE_CONTACT_SAMPLES) {
-        curve_say(reason, "%zu samples in contact%s, %d needed", curve_in_range(f),
-                  f->range_empty || samples->gap_to > samples->gap_from ||
-                          samples->n < f->input.n_all - f->n_snap
-                      ? " in the range of the fit"
-                      : "",
-                  CURVE_CONTACT_SAMPLES);
+        curve_set_reason(reason, "%zu samples in contact%s, %d needed", curve_in_range(f),
+                         f->range_empty || samples->gap_to > samples->gap_from ||
+                                 samples->n < f->input.n_all - f->n_snap
+                             ? " in the range of the fit"
+                             : "",
+                         CURVE_CONTACT_SAMPLES);
         return WT_CURVE_TOO_SHORT;
     }
     if (s->sensitivity_gain > rigid_gain) {
-        curve_say(
+        curve_set_reason(
             reason,
             "1 %% of deflection sensitivity would change the modulus by %s%.0f %%, %g %% allowed",
             s->sensitivity_gain > told_gain ? "more than " : "",
@@ -203,12 +203,13 @@ static bool beyond_contact_law(const curve_fitting *f, char reason[160])
     const wt_tip *tip = contact_table_tip(f->table);
     const double reach = thin_sample_reach(tip, depth);
     if (!contact_law_holds(tip, depth) && !(reach > THIN_SAMPLE_REACH)) {
-        curve_say(reason, "doubtful: %s deep, %.1f radii of the tip; the contact law holds to %g",
-                  curve_si(depth, "m").words, depth / tip->radius, ROUND_TIP_REACH);
+        curve_set_reason(reason,
+                         "doubtful: %s deep, %.1f radii of the tip; the contact law holds to %g",
+                         curve_si(depth, "m").words, depth / tip->radius, ROUND_TIP_REACH);
         return true;
     }
     if (reach > THIN_SAMPLE_REACH)
-        curve_say(
+        curve_set_reason(
             reason,
             "doubtful: contact radius %.2f of the thickness of the sample; its law holds to %g",
             reach, THIN_SAMPLE_REACH);
@@ -244,22 +245,23 @@ static wt_curve_verdict interval_verdict(const curve_fitting *f, const wt_indent
         return WT_CURVE_ACCEPTED;
     if (f->contact_error * f->contact_error > 0.5 * error * error) {
         const curve_minimum *first = &f->minima[0], *second = &f->minima[1];
-        curve_say(reason, "a contact point %s away gives %s instead of %s at %.3f times the cost",
-                  curve_si(fabs(second->contact_point - first->contact_point), "m").words,
-                  curve_si(second->reduced_modulus / first->reduced_modulus * e, "Pa").words,
-                  curve_si(e, "Pa").words, second->cost / first->cost);
+        curve_set_reason(reason,
+                         "a contact point %s away gives %s instead of %s at %.3f times the cost",
+                         curve_si(fabs(second->contact_point - first->contact_point), "m").words,
+                         curve_si(second->reduced_modulus / first->reduced_modulus * e, "Pa").words,
+                         curve_si(e, "Pa").words, second->cost / first->cost);
         return WT_CURVE_AMBIGUOUS;
     }
     if (fit->misfit_error * fit->misfit_error > 0.5 * error * error * e * e) {
-        curve_say(reason, "misfit: %s, %g %% allowed; %s", misfit_text(fit).words,
-                  100.0 * f->options->largest_error, cause_of_misfit(f));
+        curve_set_reason(reason, "misfit: %s, %g %% allowed; %s", misfit_text(fit).words,
+                         100.0 * f->options->largest_error, cause_of_misfit(f));
         return f->snap_on > 0.0 || f->pull_off > 0.0 ? WT_CURVE_ADHESIVE
                : f->solution.bent                    ? WT_CURVE_DRIFT
                                                      : WT_CURVE_POOR_FIT;
     }
-    curve_say(reason, "standard error %.0f %% of the modulus of %s, %g %% allowed%s", 100.0 * error,
-              curve_si(e, "Pa").words, 100.0 * f->options->largest_error,
-              f->solution.bent ? "; baseline bent" : "");
+    curve_set_reason(reason, "standard error %.0f %% of the modulus of %s, %g %% allowed%s",
+                     100.0 * error, curve_si(e, "Pa").words, 100.0 * f->options->largest_error,
+                     f->solution.bent ? "; baseline bent" : "");
     return WT_CURVE_IMPRECISE;
 }
 
@@ -270,7 +272,7 @@ static wt_curve_verdict law_verdict(const curve_fitting *f, const wt_indent_fit 
     const curve_solution *s = &f->solution;
     const double departure = baseline_departure(f);
     if (force_flattens(f)) {
-        curve_say(
+        curve_set_reason(
             reason,
             "the force flattens towards its top (chance %s by noise): detector, or the sample "
             "gives way",
@@ -278,7 +280,7 @@ static wt_curve_verdict law_verdict(const curve_fitting *f, const wt_indent_fit 
         return WT_CURVE_SATURATED;
     }
     if (!s->converged || isnan(s->standard_error[CURVE_E])) {
-        curve_say(reason, "the least-squares fit found no minimum within its iterations");
+        curve_set_reason(reason, "the least-squares fit found no minimum within its iterations");
         return WT_CURVE_POOR_FIT;
     }
     const wt_curve_verdict verdict = interval_verdict(f, fit, reason);
@@ -287,36 +289,39 @@ static wt_curve_verdict law_verdict(const curve_fitting *f, const wt_indent_fit 
     if (beyond_contact_law(f, reason))
         return WT_CURVE_DOUBTFUL;
     if (curve_unknown_loss(f)) {
-        curve_say(reason,
-                  "doubtful: %.0f %% of the work lost; what loss does under a punch is known with "
-                  "the DMA only",
-                  100.0 * f->loss);
+        curve_set_reason(
+            reason,
+            "doubtful: %.0f %% of the work lost; what loss does under a punch is known with "
+            "the DMA only",
+            100.0 * f->loss);
         return WT_CURVE_DOUBTFUL;
     }
     if (isnan(fit->misfit_error) && f->options->least_chance > 0.0 && !f->kind.plain) {
-        curve_say(reason, "doubtful: what a misfit makes of the modulus is not known: the samples "
-                          "do not tell it from their noise; a longer approach would");
+        curve_set_reason(reason,
+                         "doubtful: what a misfit makes of the modulus is not known: the samples "
+                         "do not tell it from their noise; a longer approach would");
         return WT_CURVE_DOUBTFUL;
     }
     if (!(s->lack.chance >= f->options->least_chance) &&
         fit->misfit_error > f->options->doubtful_error * fit->modulus.value) {
-        curve_say(reason, "doubtful: misfit: %s; %s", misfit_text(fit).words, cause_of_misfit(f));
+        curve_set_reason(reason, "doubtful: misfit: %s; %s", misfit_text(fit).words,
+                         cause_of_misfit(f));
         return WT_CURVE_DOUBTFUL;
     }
     const double pull = fmax(f->snap_on, f->pull_off > 0.0 ? f->pull_off : 0.0);
     if (departure > baseline_bend * fit->max_force && pull > 0.0) {
-        curve_say(reason, "doubtful: adhesion: a pull of %s, and %s before contact; %s",
-                  curve_si(pull, "N").words, curve_si(departure, "N").words,
-                  "a longer baseline would tell them apart");
+        curve_set_reason(reason, "doubtful: adhesion: a pull of %s, and %s before contact; %s",
+                         curve_si(pull, "N").words, curve_si(departure, "N").words,
+                         "a longer baseline would tell them apart");
         return WT_CURVE_DOUBTFUL;
     }
     if (departure > baseline_bend * fit->max_force) {
-        curve_say(reason, "doubtful: baseline departs from a line by %s, %.0f %% of %s",
-                  curve_si(departure, "N").words, 100.0 * departure / fit->max_force,
-                  curve_si(fit->max_force, "N").words);
+        curve_set_reason(reason, "doubtful: baseline departs from a line by %s, %.0f %% of %s",
+                         curve_si(departure, "N").words, 100.0 * departure / fit->max_force,
+                         curve_si(fit->max_force, "N").words);
         return WT_CURVE_DOUBTFUL;
     }
-    curve_say(reason, "accepted");
+    curve_set_reason(reason, "accepted");
     return WT_CURVE_ACCEPTED;
 }
 
@@ -331,55 +336,56 @@ static void add_notes(const curve_fitting *f, const wt_indent_fit *fit, char rea
 {
     char text[160];
     if (f->kind.adhesive && f->kind.constant_pull) {
-        curve_say(text, "; with a constant pull of %s",
-                  curve_si(fit->contact_pull.value, "N").words);
+        curve_set_reason(text, "; with a constant pull of %s",
+                         curve_si(fit->contact_pull.value, "N").words);
         curve_append_note(reason, text);
     } else if (f->kind.adhesive) {
-        curve_say(text, "; with adhesion of %.3g mJ/m^2", 1e3 * fit->work_of_adhesion.value);
+        curve_set_reason(text, "; with adhesion of %.3g mJ/m^2", 1e3 * fit->work_of_adhesion.value);
         curve_append_note(reason, text);
     } else if (f->snap_on > 0.0) {
-        curve_say(text, "; snap-on of %s left out (%zu samples)", curve_si(f->snap_on, "N").words,
-                  f->n_snap);
+        curve_set_reason(text, "; snap-on of %s left out (%zu samples)",
+                         curve_si(f->snap_on, "N").words, f->n_snap);
         curve_append_note(reason, text);
     }
     if (f->pull_off > 0.0 && isnan(fit->pull_off_work) &&
         !(contact_table_tip(f->table)->sample_thickness > 0.0)) {
-        curve_say(text, "; a pull-off of %s needs no work of adhesion from 1 nJ/m^2 to 1 kJ/m^2",
-                  curve_si(f->pull_off, "N").words);
+        curve_set_reason(text,
+                         "; a pull-off of %s needs no work of adhesion from 1 nJ/m^2 to 1 kJ/m^2",
+                         curve_si(f->pull_off, "N").words);
         curve_append_note(reason, text);
     }
     if (f->another_rubber && !f->kind.adhesive)
         curve_append_note(reason, "; not of the spectrum of the DMA");
     if (!curve_fits(f) && strstr(reason, "misfit") == NULL) {
-        curve_say(text, "; misfit: %s", misfit_text(fit).words);
+        curve_set_reason(text, "; misfit: %s", misfit_text(fit).words);
         curve_append_note(reason, text);
     }
     if (f->unknown_loss && f->kind.memory) {
         curve_append_note(reason, "; the spectrum of the DMA does not describe its loss");
     } else if (fabs(f->loss_bias) >= least_bias) {
-        curve_say(
+        curve_set_reason(
             text,
             "; %.0f %% of the work lost: with a memory of time^-%.2g, %.2g %% %s than without",
             100.0 * fit->loss, f->loss_power, 100.0 * fabs(f->loss_bias),
             f->loss_bias > 0.0 ? "less" : "more");
         curve_append_note(reason, text);
     } else if (f->unknown_loss) {
-        curve_say(text, "; %.0f %% of the work lost: %s", 100.0 * fit->loss,
-                  fit->loss > most_tried ? "how near |E*| is not known"
-                                         : "|E*| at 1/(loading time) within 20 %");
+        curve_set_reason(text, "; %.0f %% of the work lost: %s", 100.0 * fit->loss,
+                         fit->loss > most_tried ? "how near |E*| is not known"
+                                                : "|E*| at 1/(loading time) within 20 %");
         curve_append_note(reason, text);
     }
     if (fit->interference_amplitude > 0.0) {
-        curve_say(text, "; interference of %s and a period of %s fitted",
-                  curve_si(fit->interference_amplitude, "N").words,
-                  curve_si(fit->interference_period, "m").words);
+        curve_set_reason(text, "; interference of %s and a period of %s fitted",
+                         curve_si(fit->interference_amplitude, "N").words,
+                         curve_si(fit->interference_period, "m").words);
         curve_append_note(reason, text);
     }
     if (f->solution.bent)
         curve_append_note(reason, "; baseline bent, which the error holds");
     const double error = fit->modulus.standard_error / fit->modulus.value;
     if (error > large_error) {
-        curve_say(text, "; standard error %.0f %%", 100.0 * error);
+        curve_set_reason(text, "; standard error %.0f %%", 100.0 * error);
         curve_append_note(reason, text);
     }
     const struct {
@@ -390,7 +396,7 @@ static void add_notes(const curve_fitting *f, const wt_indent_fit *fit, char rea
                     {f->input.n_spikes, "spikes left out"}};
     for (size_t i = 0; i < sizeof left_out / sizeof left_out[0]; i++)
         if (left_out[i].n > 0) {
-            curve_say(text, "; %zu %s", left_out[i].n, left_out[i].what);
+            curve_set_reason(text, "; %zu %s", left_out[i].n, left_out[i].what);
             curve_append_note(reason, text);
         }
     if (!f->range_settled)
@@ -404,18 +410,19 @@ static wt_curve_verdict judge_below(const curve_fitting *f, wt_curve_verdict ver
     static const char doubtful[] = "doubtful: ";
     char all[160], text[160];
     memcpy(all, reason, sizeof all);
-    curve_say(reason,
-              "doubtful: fitted up to %s, above which the force flattens: detector, or the sample "
-              "gives way",
-              curve_si(f->options->fit_force, "N").words);
+    curve_set_reason(
+        reason,
+        "doubtful: fitted up to %s, above which the force flattens: detector, or the sample "
+        "gives way",
+        curve_si(f->options->fit_force, "N").words);
     if (verdict == WT_CURVE_DOUBTFUL) {
-        curve_say(text, "; %s", all + strlen(doubtful));
+        curve_set_reason(text, "; %s", all + strlen(doubtful));
         curve_append_note(reason, text);
     }
     return WT_CURVE_DOUBTFUL;
 }
 
-wt_curve_verdict curve_judge(curve_fitting *f, wt_indent_fit *fit)
+wt_curve_verdict curve_assess(curve_fitting *f, wt_indent_fit *fit)
 {
     wt_curve_verdict verdict = contact_verdict(f, fit, fit->reason);
     if (verdict != WT_CURVE_ACCEPTED)
@@ -437,6 +444,7 @@ double curve_linear_to(const curve_fitting *f)
 void curve_judge_nothing_below(double limit, wt_curve_verdict below, char reason[160])
 {
     char text[160];
-    curve_say(text, "; up to %s: %s", curve_si(limit, "N").words, wt_curve_verdict_text(below));
+    curve_set_reason(text, "; up to %s: %s", curve_si(limit, "N").words,
+                     wt_curve_verdict_text(below));
     curve_append_note(reason, text);
 }

@@ -243,10 +243,10 @@ depth_value depth_value_of(depth_pool *d, const depth_fit *fit, double at,
 }
 
 void depth_pool_make(depth_pool *d, const wt_contact_table *table, double poisson_ratio,
-                     const wt_depth_curve *curve, size_t n, pool *memory)
+                     const wt_depth_curve *curve, size_t n, arena *memory)
 {
-    wt_depth_curve *sorted = pool_alloc(memory, n, sizeof *sorted);
-    *d = (depth_pool){.curve = sorted, .value = pool_numbers(memory, n)};
+    wt_depth_curve *sorted = arena_alloc(memory, n, sizeof *sorted);
+    *d = (depth_pool){.curve = sorted, .value = arena_numbers(memory, n)};
     gsl_quiet();
     for (size_t i = 0; i < n && !memory->failed; i++)
         if (!isnan(curve[i].loss_error))

@@ -41,7 +41,7 @@ typedef struct depth_value {
 
 /* Curves sorted, their mean if they are enough; memory.failed where that has no room. */
 void depth_pool_make(depth_pool *d, const wt_contact_table *table, double poisson_ratio,
-                     const wt_depth_curve *curve, size_t n, pool *memory);
+                     const wt_depth_curve *curve, size_t n, arena *memory);
 /* Least squares from `start`; the member `thin` of the mean says what a tied layer is tied to. */
 depth_fit depth_fit_law(depth_pool *d, depth_law law, const double *start,
                         wt_error *err) WT_NODISCARD;

@@ -52,15 +52,15 @@ static wt_status check_group(const wt_group *group, wt_error *err)
 }
 
 /* In an order that does not depend on that of the curves, so that sums have the same bits. */
-static wt_status make_units(const wt_group *group, bool use_spots, pool *memory, units *u,
+static wt_status make_units(const wt_group *group, bool use_spots, arena *memory, units *u,
                             wt_error *err)
 {
     wt_status status = check_group(group, err);
     if (status != WT_OK)
         return status;
     gsl_quiet();
-    curve *curves = pool_alloc(memory, group->n, sizeof *curves);
-    *u = (units){pool_numbers(memory, group->n), 0};
+    curve *curves = arena_alloc(memory, group->n, sizeof *curves);
+    *u = (units){arena_numbers(memory, group->n), 0};
     if (memory->failed)
         return wt_fail(err, WT_E_MEMORY, "no memory for a group of %zu moduli", group->n);
     for (size_t i = 0; i < group->n; i++)
@@ -96,11 +96,11 @@ static int by_cell(const void *a, const void *b)
 
 /* Variance of the mean of a group by its curves alone, which scatter about the mean of their spot
  * and rate; 0 where no two of them share both. */
-static double curve_variance(const wt_group *group, pool *memory)
+static double curve_variance(const wt_group *group, arena *memory)
 {
     if (group->spot == NULL)
         return 0; /* each is a spot */
-    cell *cells = pool_alloc(memory, group->n, sizeof *cells);
+    cell *cells = arena_alloc(memory, group->n, sizeof *cells);
     double sum = 0, freedom = 0;
     if (cells == NULL)
         return (double)NAN; /* memory->failed says why */
@@ -122,10 +122,10 @@ static double curve_variance(const wt_group *group, pool *memory)
     return freedom > 0 ? sum / freedom / (double)group->n : 0;
 }
 
-static wt_status summarise_group(const wt_group *group, const units *u, pool *memory,
+static wt_status summarise_group(const wt_group *group, const units *u, arena *memory,
                                  wt_group_summary *summary, wt_error *err)
 {
-    double *sorted = pool_numbers(memory, group->n);
+    double *sorted = arena_numbers(memory, group->n);
     if (sorted == NULL)
         return wt_fail(err, WT_E_MEMORY, "no memory for a group of %zu moduli", group->n);
     memcpy(sorted, group->modulus, group->n * sizeof *sorted);
@@ -163,18 +163,18 @@ static wt_status summarise_group(const wt_group *group, const units *u, pool *me
 wt_status wt_group_summarise(const wt_group *group, wt_group_summary *summary, wt_error *err)
 {
     units u;
-    pool memory = {0};
+    arena memory = {0};
     wt_status status = make_units(group, group->spot != NULL, &memory, &u, err);
     if (status == WT_OK)
         status = summarise_group(group, &u, &memory, summary, err);
-    pool_free(&memory);
+    arena_free(&memory);
     return status;
 }
 
 /* ---- two groups ------------------------------------------------------------------------------ */
 
 /* Bulk and track; the units are spots if both name them. */
-static wt_status summarise_both(const wt_group *const groups[2], pool *memory, wt_comparison *c,
+static wt_status summarise_both(const wt_group *const groups[2], arena *memory, wt_comparison *c,
                                 wt_error *err)
 {
     wt_group_summary *const summaries[2] = {&c->bulk, &c->track};
@@ -198,7 +198,7 @@ static bool few_spots(const compare_units *u)
 }
 
 /* given: how much the spots of both groups scatter. */
-static wt_unsettled why_unsettled(const compare_units *u, bool given)
+static wt_verdict_undecided_reason why_unsettled(const compare_units *u, bool given)
 {
     const bool lone = u->n[0] < 2 || u->n[1] < 2;
     if ((few_spots(u) && !given) || (lone && u->rates_by == WT_RATES_BETWEEN))
@@ -243,7 +243,7 @@ static void put_interval(const compare_units *u, moments a, moments b, double kn
 }
 
 static wt_status compare_values(const compare_units *u, const wt_estimate *offset,
-                                const wt_group *const groups[2], pool *memory, wt_comparison *c,
+                                const wt_group *const groups[2], arena *memory, wt_comparison *c,
                                 wt_error *err)
 {
     const moments a = moments_of(u->value[0], u->n[0]);
@@ -294,7 +294,7 @@ wt_status wt_compare(const wt_group *bulk, const wt_group *track, const wt_estim
                        .mann_whitney_u = none,
                        .mann_whitney_p = none,
                        .mann_whitney_smallest_p = none};
-    pool memory = {0};
+    arena memory = {0};
     compare_units u;
     wt_status status = summarise_both(groups, &memory, &c, err);
     if (status == WT_OK)
@@ -309,7 +309,7 @@ wt_status wt_compare(const wt_group *bulk, const wt_group *track, const wt_estim
         c.interaction_p = u.interaction_p;
         status = compare_values(&u, offset, groups, &memory, &c, err);
     }
-    pool_free(&memory);
+    arena_free(&memory);
     if (status == WT_OK)
         *result = c;
     return status;

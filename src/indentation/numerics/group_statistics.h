@@ -10,7 +10,7 @@
 typedef struct compare_units {
     double *value[2]; /* [n] ln E of the units of bulk and track, at one rate */
     size_t n[2], curves[2];
-    wt_rates_by rates_by;
+    wt_rate_matching rates_by;
     bool apart;                          /* no rate in common */
     bool known;                          /* the values are at one rate */
     double shift_variance;               /* of the difference, by the slope within the spots */
@@ -19,7 +19,7 @@ typedef struct compare_units {
     double interaction_p;                /* of one slope in both groups; NaN if not known */
 } compare_units;
 
-wt_status compare_units_make(const wt_group *const groups[2], bool by_spot, pool *memory,
+wt_status compare_units_make(const wt_group *const groups[2], bool by_spot, arena *memory,
                              compare_units *units, wt_error *err) WT_NODISCARD;
 
 /* One spot against so many or more: from three on they tell how much spots scatter. */
@@ -27,7 +27,7 @@ enum { COMPARE_MANY_SPOTS = 3 };
 /* Of the difference of two means, one of them of two units or more; `shift` adds to it, and `known`
  * as a normal variance. */
 t_error compare_welch(moments a, moments b, t_error shift, double known);
-wt_status compare_ranks(const compare_units *units, pool *memory, wt_comparison *result,
+wt_status compare_ranks(const compare_units *units, arena *memory, wt_comparison *result,
                         wt_error *err) WT_NODISCARD;
 
 #endif

@@ -94,11 +94,11 @@ typedef struct ranked {
 
 /* U of the track by the sum of its ranks, equal values sharing the mean of theirs; *ties is the sum
  * of t^3 - t over groups of t equal values. Exact: all are whole numbers or halves. */
-static wt_status rank_units(const compare_units *units, pool *memory, double *u, double *ties,
+static wt_status rank_units(const compare_units *units, arena *memory, double *u, double *ties,
                             wt_error *err)
 {
     const size_t m = units->n[1], n = m + units->n[0];
-    ranked *all = pool_alloc(memory, n, sizeof *all);
+    ranked *all = arena_alloc(memory, n, sizeof *all);
     if (all == NULL)
         return wt_fail(err, WT_E_MEMORY, "no memory for the comparison of two groups");
     for (size_t i = 0; i < n; i++)
@@ -120,7 +120,7 @@ static wt_status rank_units(const compare_units *units, pool *memory, double *u,
     return WT_OK;
 }
 
-wt_status compare_ranks(const compare_units *units, pool *memory, wt_comparison *result,
+wt_status compare_ranks(const compare_units *units, arena *memory, wt_comparison *result,
                         wt_error *err)
 {
     const size_t m = units->n[1], n = units->n[0];
@@ -141,7 +141,7 @@ wt_status compare_ranks(const compare_units *units, pool *memory, wt_comparison 
             variance > 0.0 ? fmin(1.0, 2.0 * gsl_cdf_ugaussian_Q(distance / sqrt(variance))) : 1.0;
         return WT_OK;
     }
-    double *counts = pool_numbers(memory, m * n + 1);
+    double *counts = arena_numbers(memory, m * n + 1);
     if (counts == NULL)
         return wt_fail(err, WT_E_MEMORY, "no memory for the comparison of two groups");
     count_rankings(m, n, counts);

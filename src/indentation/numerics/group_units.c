@@ -249,23 +249,23 @@ static void make_values(const spot *spots, size_t n, compare_units *u)
     }
 }
 
-wt_status compare_units_make(const wt_group *const groups[2], bool by_spot, pool *memory,
+wt_status compare_units_make(const wt_group *const groups[2], bool by_spot, arena *memory,
                              compare_units *units, wt_error *err)
 {
     const size_t all = groups[0]->n + groups[1]->n;
-    cells c = {.cell = pool_alloc(memory, all, sizeof *c.cell)};
-    curve *curves = pool_alloc(memory, all, sizeof *curves);
-    spot *spots = pool_alloc(memory, all, sizeof *spots);
+    cells c = {.cell = arena_alloc(memory, all, sizeof *c.cell)};
+    curve *curves = arena_alloc(memory, all, sizeof *curves);
+    spot *spots = arena_alloc(memory, all, sizeof *spots);
     compare_units u = {.slope = (double)NAN,
                        .slope_error = (double)NAN,
                        .slope_df = (double)NAN,
                        .interaction_p = (double)NAN};
     for (int g = 0; g < 2; g++)
-        u.value[g] = pool_numbers(memory, groups[g]->n);
+        u.value[g] = arena_numbers(memory, groups[g]->n);
     if (!memory->failed)
         for (int g = 0; g < 2; g++)
             add_cells(groups[g], g, by_spot, curves, &c);
-    rate *rates = memory->failed ? NULL : pool_alloc(memory, count_rates(&c), sizeof *rates);
+    rate *rates = memory->failed ? NULL : arena_alloc(memory, count_rates(&c), sizeof *rates);
     if (rates == NULL)
         return wt_fail(err, WT_E_MEMORY, "no memory for the comparison of two groups");
     level_rates(&c, rates, &u.apart);

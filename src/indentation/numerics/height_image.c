@@ -231,17 +231,17 @@ static double mean_depth(const patch *p, double radius)
     return 10 * n >= 9 * rings * spokes ? sum / (double)n : (double)NAN;
 }
 
-wt_status spot_dent_at(const wt_height_map *difference, double x, double y, double radius,
-                       spot_dent *dent, wt_error *err)
+wt_status spot_depression_at(const wt_height_map *difference, double x, double y, double radius,
+                             spot_depression *dent, wt_error *err)
 {
     patch p = {.z = NULL};
-    *dent = (spot_dent){(double)NAN, (double)NAN};
+    *dent = (spot_depression){(double)NAN, (double)NAN};
     if (!spot_covers(difference, x, y, 4 * radius) || !spot_covers(difference, x, y, radius))
         return WT_OK;
     const wt_status status = cut_patch(difference, x, y, radius, &p, err);
     if (status == WT_OK)
-        *dent = (spot_dent){mean_depth(&p, radius),
-                            mean_depth(&p, 2 * radius) * M_PI * 4 * radius * radius};
+        *dent = (spot_depression){mean_depth(&p, radius),
+                                  mean_depth(&p, 2 * radius) * M_PI * 4 * radius * radius};
     free(p.z);
     return status;
 }

@@ -59,11 +59,11 @@ void spot_difference(const wt_height_map *before, const wt_height_map *after,
 
 /* How far a difference lies below the lines that join its rows from two to four radii on the left
  * with the same on the right: rows are what was scanned at one go. */
-typedef struct spot_dent {
+typedef struct spot_depression {
     double depth, volume; /* mean within the radius [m], within two of them [m^3] */
-} spot_dent;
+} spot_depression;
 /* NaN where the difference does not cover it. WT_E_MEMORY. */
-wt_status spot_dent_at(const wt_height_map *difference, double x, double y, double radius,
-                       spot_dent *dent, wt_error *err) WT_NODISCARD;
+wt_status spot_depression_at(const wt_height_map *difference, double x, double y, double radius,
+                             spot_depression *dent, wt_error *err) WT_NODISCARD;
 
 #endif

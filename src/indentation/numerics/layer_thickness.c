@@ -63,7 +63,7 @@ typedef struct layer_step {
 
 /* Bulk and track with the slope of the bulk. */
 typedef struct layer_test {
-    depth_pool pool[2];
+    depth_pool arena[2];
     depth_value bulk;
     wt_estimate log_ratio;
     double ratio_df;
@@ -94,7 +94,7 @@ static double gain_of_ratio(depth_mean *m, const depth_fit *fit)
  * no error. */
 static double deviate_of(layer_test *t, const layer_step *step, double excess)
 {
-    depth_pool *track = &t->pool[1];
+    depth_pool *track = &t->arena[1];
     depth_fit for_all = step->fit;
     const depth_fit *const fit = &for_all;
     for_all.excess = excess;
@@ -116,14 +116,14 @@ static double deviate_of(layer_test *t, const layer_step *step, double excess)
 /* Whether the law reaches that thickness and is fitted there. */
 static bool take_step(layer_test *t, double log_thickness, layer_step *to, wt_error *err)
 {
-    depth_mean *m = &t->pool[1].mean;
+    depth_mean *m = &t->arena[1].mean;
     const double reach = 0.5 * m->widest / exp(log_thickness);
     const double of_layer = layer_log_ratio(t->log_ratio.value, reach);
     if (isnan(of_layer))
         return false;
     m->tie = (depth_tie){reach, t->log_ratio.value};
     const double start[] = {0.0, of_layer - t->log_ratio.value, 0.0};
-    *to = (layer_step){m->tie, depth_fit_law(&t->pool[1], DEPTH_TIED, start, err)};
+    *to = (layer_step){m->tie, depth_fit_law(&t->arena[1], DEPTH_TIED, start, err)};
     return to->fit.good &&
            thin_layer_holds(exp(to->fit.p[DEPTH_LEVEL] + t->log_ratio.value), reach);
 }
@@ -199,12 +199,12 @@ static wt_status make_profile(layer_test *t, wt_layer_profile *p, wt_error *err)
 {
     const double start[DEPTH_PARAMETERS] = {0.0};
     wt_error failure = WT_ERROR_INIT;
-    const depth_fit bulk = depth_fit_law(&t->pool[0], DEPTH_LINE, start, &failure),
-                    line = depth_fit_law(&t->pool[1], DEPTH_LINE, start, &failure);
+    const depth_fit bulk = depth_fit_law(&t->arena[0], DEPTH_LINE, start, &failure),
+                    line = depth_fit_law(&t->arena[1], DEPTH_LINE, start, &failure);
     const double top = log(thickest * p->contact_radius), end = log(thinnest * p->contact_radius);
     const double ratio = (end - top) / (WT_LAYER_STEPS - 1);
     if (bulk.good && line.good) {
-        t->bulk = depth_value_of(&t->pool[0], &bulk, bulk.p[DEPTH_SLOPE], by_slope, false,
+        t->bulk = depth_value_of(&t->arena[0], &bulk, bulk.p[DEPTH_SLOPE], by_slope, false,
                                  DEPTH_MORE_SHALLOW);
         p->log_thickness[0] = top;
         t->step[0].fit = line; /* as good as without end */
@@ -239,26 +239,26 @@ wt_status wt_layer_profile_make(const wt_contact_table *const table[2], double p
                                 wt_estimate log_ratio, double ratio_df, wt_layer_profile *profile,
                                 wt_error *err)
 {
-    pool memory = {0};
+    arena memory = {0};
     layer_test t = {.log_ratio = log_ratio, .ratio_df = ratio_df};
     wt_status status = WT_OK;
     bool thick = true;
     *profile = (wt_layer_profile){.thickness = {(double)NAN, (double)NAN, (double)NAN, (double)NAN},
                                   .least = (double)NAN};
     for (int g = 0; g < 2; g++) {
-        depth_pool_make(&t.pool[g], table[g], poisson_ratio, curve[g], n[g], &memory);
-        profile->n[g] = t.pool[g].n;
-        profile->n_units[g] = t.pool[g].n_units;
+        depth_pool_make(&t.arena[g], table[g], poisson_ratio, curve[g], n[g], &memory);
+        profile->n[g] = t.arena[g].n;
+        profile->n_units[g] = t.arena[g].n_units;
         thick = thick && !(contact_table_tip(table[g])->sample_thickness > 0.0);
     }
     if (memory.failed) {
         status = wt_fail(err, WT_E_MEMORY, "out of memory");
-    } else if (t.pool[0].known && t.pool[1].known && thick && isfinite(log_ratio.value) &&
+    } else if (t.arena[0].known && t.arena[1].known && thick && isfinite(log_ratio.value) &&
                log_ratio.standard_error >= 0.0) {
-        profile->depth = t.pool[1].mean.depth;
-        profile->contact_radius = 0.5 * t.pool[1].mean.widest;
+        profile->depth = t.arena[1].mean.depth;
+        profile->contact_radius = 0.5 * t.arena[1].mean.widest;
         status = make_profile(&t, profile, err);
     }
-    pool_free(&memory);
+    arena_free(&memory);
     return status;
 }

@@ -481,7 +481,7 @@ static bool weigh_sizes(misfit_sums *d, double largest, double freedom, mixture 
     misfit_candidate *const none = &to->part[0];
     double explained[CANDIDATES] = {0.0}, most = 0.0, best, sum = 0.0;
     length_sums of[KINDS];
-    if (!misfit_take_out_moves(d, none, to->tip))
+    if (!misfit_remove_bias(d, none, to->tip))
         return false;
     const size_t kinds = LENGTHS + d->any_radius;
     for (int l = 0; l < LENGTHS; l++)

@@ -105,7 +105,7 @@ static void spread_of_move(const misfit_sums *d, size_t i, double spread[N])
         spread[a] /= all;
 }
 
-bool misfit_take_out_moves(misfit_sums *d, misfit_candidate *none, double tip[N])
+bool misfit_remove_bias(misfit_sums *d, misfit_candidate *none, double tip[N])
 {
     const size_t n = d->n_moves;
     double t[M][M] = {{0.0}}, by[LEGENDRE][M], of_y[M], straight[N][CURVE_TIP_MOVES];

@@ -37,7 +37,7 @@ typedef struct misfit_candidate {
  * than the stated tip all of its deviation counts: which of its sizes is off the residual does not
  * say. tip: of the variances, that of the stated errors of the tip. False if there is no solution.
  */
-bool misfit_take_out_moves(misfit_sums *d, misfit_candidate *none, double tip[CURVE_N_PARAMETERS]);
+bool misfit_remove_bias(misfit_sums *d, misfit_candidate *none, double tip[CURVE_N_PARAMETERS]);
 
 static inline double misfit_dot(const double *a, const double *b, size_t n)
 {

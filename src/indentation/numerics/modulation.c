@@ -109,10 +109,10 @@ static size_t transform_length(size_t n)
 }
 
 /* The strongest frequency of the height [rad/s]. */
-static double strongest_frequency(samples *s, pool *memory)
+static double strongest_frequency(samples *s, arena *memory)
 {
     const size_t n = transform_length(s->n);
-    double c[2][COLUMNS], row[COLUMNS], *work = pool_numbers(memory, s->n);
+    double c[2][COLUMNS], row[COLUMNS], *work = arena_numbers(memory, s->n);
     gsl_fft_real_wavetable *table = gsl_fft_real_wavetable_alloc(n);
     gsl_fft_real_workspace *space = gsl_fft_real_workspace_alloc(n);
     size_t best = 0;
@@ -187,7 +187,7 @@ wt_status wt_modulation_fit(const double *time, const double *position, const do
     if (time == NULL || position == NULL || force == NULL || modulation == NULL)
         return wt_fail(err, WT_E_ARG, "no modulation");
     double c[2][COLUMNS];
-    pool memory = {0};
+    arena memory = {0};
     gsl_quiet();
     *modulation = (wt_modulation){.why_not = why_no_modulation(time, position, force, n)};
     if (modulation->why_not[0] != '\0')
@@ -198,7 +198,7 @@ wt_status wt_modulation_fit(const double *time, const double *position, const do
     const double omega =
         angular_frequency > 0 ? angular_frequency : strongest_frequency(&s, &memory);
     const bool failed = memory.failed;
-    pool_free(&memory);
+    arena_free(&memory);
     if (failed)
         return wt_fail(err, WT_E_MEMORY, "out of memory for a modulation");
     modulation->angular_frequency = omega;

@@ -192,7 +192,7 @@ wt_status wt_curve_depth_make(const wt_contact_table *table, double poisson_rati
 {
     const double unknown = (double)NAN;
     const wt_interval nothing = {unknown, unknown, unknown, unknown};
-    pool memory = {0};
+    arena memory = {0};
     depth_pool d;
     wt_status status = WT_OK;
     depth_pool_make(&d, table, poisson_ratio, curve, n, &memory);
@@ -210,6 +210,6 @@ wt_status wt_curve_depth_make(const wt_contact_table *table, double poisson_rati
         status = wt_fail(err, WT_E_MEMORY, "out of memory");
     else if (d.known)
         status = make(&d, to, err);
-    pool_free(&memory);
+    arena_free(&memory);
     return status;
 }

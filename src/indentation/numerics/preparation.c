@@ -88,17 +88,17 @@ curve_span curve_span_of(const double *x, size_t n)
     double rest[2 * WIDE];
     size_t i = 0;
     for (; i + 2 * WIDE <= n; i += 2 * WIDE) { /* two of each, for one would wait for itself */
-        wide_load(&now, x + i);
+        simd_load(&now, x + i);
         wide_lower(&low, &now);
         wide_raise(&high, &now);
-        wide_load(&now, x + i + WIDE);
+        simd_load(&now, x + i + WIDE);
         wide_lower(&low2, &now);
         wide_raise(&high2, &now);
     }
     wide_lower(&low, &low2);
     wide_raise(&high, &high2);
-    wide_store(rest, &low);
-    wide_store(rest + WIDE, &high);
+    simd_store(rest, &low);
+    simd_store(rest + WIDE, &high);
     curve_span span = {x[0], x[0]};
     for (size_t j = 0; j < WIDE; j++) {
         span.low = rest[j] < span.low ? rest[j] : span.low;
@@ -205,14 +205,14 @@ WIDE_REGISTERS static bool all_good(const double *height, const double *force, s
     size_t i = 1;
     for (; i + WIDE <= n; i += WIDE) {
         wide z, f, z_before, f_before;
-        wide_load(&z, height + i);
-        wide_load(&f, force + i);
-        wide_load(&z_before, height + i - 1);
-        wide_load(&f_before, force + i - 1);
+        simd_load(&z, height + i);
+        simd_load(&f, force + i);
+        simd_load(&z_before, height + i - 1);
+        simd_load(&f_before, force + i - 1);
         sum += 0.0 * z + 0.0 * f;
         same |= (z == z_before) & (f == f_before);
     }
-    bool good = !isnan(wide_sum(&sum)) && isfinite(height[0]) && isfinite(force[0]) &&
+    bool good = !isnan(simd_sum(&sum)) && isfinite(height[0]) && isfinite(force[0]) &&
                 (same[0] | same[1] | same[2] | same[3]) == 0;
     for (; i < n && good; i++)
         good = isfinite(height[i]) && isfinite(force[i]) &&
@@ -306,8 +306,8 @@ WIDE_REGISTERS static size_t quiet_until(const curve_samples *s, size_t i, doubl
     const double *force = s->force;
     while (i >= SPIKE_SIDE && i + SPIKE_SIDE + WIDE < s->n) {
         wide now, before;
-        wide_load(&now, force + i);
-        wide_load(&before, force + i - 1);
+        simd_load(&now, force + i);
+        simd_load(&before, force + i - 1);
         const wide step = now - before;
         const wide_bits any = (step > far) | (-step > far);
         if ((any[0] | any[1] | any[2] | any[3]) != 0)
@@ -358,7 +358,7 @@ static size_t limit_force(const curve_samples *s, const wt_indent_options *o)
     return (first_above + last_below + 1) / 2;
 }
 
-void curve_say(char reason[160], const char *format, ...)
+void curve_set_reason(char reason[160], const char *format, ...)
 {
     va_list arguments;
     va_start(arguments, format);
@@ -381,8 +381,9 @@ WIDE_REGISTERS static wt_curve_verdict turn_and_centre(curve_input *input, char 
     const curve_span all = curve_span_of(s->position, s->n);
     const double travel = mean(s->position + s->n - end, end) - mean(s->position, end);
     if (!(fabs(travel) > travel_share * (all.high - all.low))) {
-        curve_say(reason, "the height does not go one way: from start to end %s in a range of %s",
-                  curve_si(travel, "m").words, curve_si(all.high - all.low, "m").words);
+        curve_set_reason(reason,
+                         "the height does not go one way: from start to end %s in a range of %s",
+                         curve_si(travel, "m").words, curve_si(all.high - all.low, "m").words);
         return WT_CURVE_NO_APPROACH;
     }
     input->direction = travel > 0.0 ? 1.0 : -1.0;
@@ -402,14 +403,15 @@ static wt_curve_verdict advance_verdict(const curve_input *input, char reason[16
 {
     const double advance = advance_per_bending(&input->samples, input->step_noise) - 1.0;
     if (advance > -1.0 && advance < -rigid_share) { /* below -1: a force of the wrong sign */
-        curve_say(reason,
-                  "the lever bends %.3g times as far as the piezo moves: deflection sensitivity, "
-                  "spring constant or a unit is wrong",
-                  1.0 / (1.0 + advance));
+        curve_set_reason(
+            reason,
+            "the lever bends %.3g times as far as the piezo moves: deflection sensitivity, "
+            "spring constant or a unit is wrong",
+            1.0 / (1.0 + advance));
         return WT_CURVE_RIGID;
     }
     if (fabs(advance) < rigid_share) {
-        curve_say(
+        curve_set_reason(
             reason,
             "the tip advances %.1f %% of the bending of the lever, %g %% needed to tell a modulus",
             100.0 * advance, 100.0 * rigid_share);
@@ -428,12 +430,12 @@ wt_curve_verdict curve_prepare(const double *height, const double *force, size_t
     curve_samples *s = &input->samples;
     s->n = clean(height, force, n, input);
     if ((double)input->n_missing > missing_share * (double)n) {
-        curve_say(reason, "%zu of %zu samples are not numbers, %g %% allowed", input->n_missing, n,
-                  100.0 * missing_share);
+        curve_set_reason(reason, "%zu of %zu samples are not numbers, %g %% allowed",
+                         input->n_missing, n, 100.0 * missing_share);
         return WT_CURVE_NOT_FINITE;
     }
     if (s->n < CURVE_MIN_SAMPLES) {
-        curve_say(reason, "%zu different samples, %d needed", s->n, CURVE_MIN_SAMPLES);
+        curve_set_reason(reason, "%zu different samples, %d needed", s->n, CURVE_MIN_SAMPLES);
         return WT_CURVE_TOO_SHORT;
     }
 
@@ -443,8 +445,8 @@ wt_curve_verdict curve_prepare(const double *height, const double *force, size_t
     if (far > 0.0) /* once: again, it would wear down a contact that is noisier than the baseline */
         input->n_spikes = leave_out_spikes(s, far);
     if ((double)input->n_spikes > spike_share * (double)n) {
-        curve_say(reason, "%zu of %zu samples are spikes, %g %% allowed", input->n_spikes, n,
-                  100.0 * spike_share);
+        curve_set_reason(reason, "%zu of %zu samples are spikes, %g %% allowed", input->n_spikes, n,
+                         100.0 * spike_share);
         return WT_CURVE_NOT_FINITE;
     }
 
@@ -459,8 +461,8 @@ wt_curve_verdict curve_prepare(const double *height, const double *force, size_t
         s->n = limit_force(s, options);
     }
     if (s->n < CURVE_MIN_SAMPLES) {
-        curve_say(reason, "%zu samples below the limit of the force, %d needed", s->n,
-                  CURVE_MIN_SAMPLES);
+        curve_set_reason(reason, "%zu samples below the limit of the force, %d needed", s->n,
+                         CURVE_MIN_SAMPLES);
         return WT_CURVE_TOO_SHORT;
     }
 
@@ -468,7 +470,7 @@ wt_curve_verdict curve_prepare(const double *height, const double *force, size_t
         const double level = s->force[top] - mean(s->force, s->n / 10);
         const double travelled = s->position[s->n - 1] - s->position[top];
         input->flat_level = level;
-        curve_say(
+        curve_set_reason(
             reason,
             "force stands still at %s above its start over the last %zu samples (%s of travel)",
             curve_si(level, "N").words, s->n - top, curve_si(travelled, "m").words);

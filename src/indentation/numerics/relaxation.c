@@ -507,7 +507,7 @@ static const char *why_no_relaxation(const wt_dwell_history *h)
     return h->position[h->n_approach - 1] > h->contact_point ? "" : "not in contact";
 }
 
-static void fit_relaxation(dwell_task *t, pool *memory, wt_dwell *to)
+static void fit_relaxation(dwell_task *t, arena *memory, wt_dwell *to)
 {
     const wt_dwell_history *h = t->history;
     const double depth = h->position[h->n_approach - 1] - h->contact_point;
@@ -516,12 +516,12 @@ static void fit_relaxation(dwell_task *t, pool *memory, wt_dwell *to)
     const double s = h->modulus * slope;
     to->why_not =
         dwell_nodes_make(h, h->spring_constant * s / (h->spring_constant + s), memory, &t->nodes);
-    t->residual = pool_numbers(memory, t->nodes.n);
-    t->jacobian = pool_numbers(memory, N_PARAMETERS * t->nodes.n);
-    t->rippled = pool_numbers(memory, RIPPLES * t->nodes.n);
-    t->shifted = pool_numbers(memory, t->nodes.n);
-    t->depth = pool_numbers(memory, t->nodes.n);
-    t->pressed = pool_numbers(memory, t->nodes.n);
+    t->residual = arena_numbers(memory, t->nodes.n);
+    t->jacobian = arena_numbers(memory, N_PARAMETERS * t->nodes.n);
+    t->rippled = arena_numbers(memory, RIPPLES * t->nodes.n);
+    t->shifted = arena_numbers(memory, t->nodes.n);
+    t->depth = arena_numbers(memory, t->nodes.n);
+    t->pressed = arena_numbers(memory, t->nodes.n);
     if (to->why_not[0] != '\0' || memory->failed)
         return;
     begin_elastic(t, p);
@@ -537,7 +537,7 @@ wt_status wt_dwell_fit(const wt_contact_table *table, const wt_dwell_history *hi
     if (table == NULL || history == NULL || dwell == NULL || history->n_approach == 0)
         return wt_fail(err, WT_E_ARG, "no dwell");
     dwell_task t = {.table = table, .history = history};
-    pool memory = {0};
+    arena memory = {0};
     *dwell = (wt_dwell){.load_time = (double)NAN, .misfit = (double)NAN};
     dwell->why_not = why_no_relaxation(history);
     gsl_quiet();
@@ -546,7 +546,7 @@ wt_status wt_dwell_fit(const wt_contact_table *table, const wt_dwell_history *hi
         fit_relaxation(&t, &memory, dwell);
     if (status == WT_OK && memory.failed)
         status = wt_fail(err, WT_E_MEMORY, "out of memory for a dwell");
-    pool_free(&memory);
+    arena_free(&memory);
     hereditary_clear(&t.law);
     return status;
 }

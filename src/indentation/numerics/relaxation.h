@@ -18,7 +18,7 @@ typedef struct dwell_nodes {
 
 /* stiffness: dF/dz of the lever on the sample, of which what moves the height makes a noise in
  * contact. "", or why there are none; whether there was memory, the pool tells. */
-const char *dwell_nodes_make(const wt_dwell_history *h, double stiffness, pool *memory,
+const char *dwell_nodes_make(const wt_dwell_history *h, double stiffness, arena *memory,
                              dwell_nodes *nodes);
 
 #endif

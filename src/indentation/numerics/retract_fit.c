@@ -70,9 +70,9 @@ static void say_other_modulus(const curve_fitting *f, wt_indent_fit *fit)
     if (!wt_curve_usable(fit->verdict) || !(fabs(f->loss) < CURVE_LEAST_LOSS) ||
         !(fabs(fit->retract_modulus.value - fit->modulus.value) > NORMAL_95 * error))
         return;
-    curve_say(text, "; the retract gives %s +- %s",
-              curve_si(fit->retract_modulus.value, "Pa").words,
-              curve_si(fit->retract_modulus.standard_error, "Pa").words);
+    curve_set_reason(text, "; the retract gives %s +- %s",
+                     curve_si(fit->retract_modulus.value, "Pa").words,
+                     curve_si(fit->retract_modulus.standard_error, "Pa").words);
     curve_append_note(fit->reason, text);
 }
 

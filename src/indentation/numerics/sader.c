@@ -68,7 +68,7 @@ void wt_hydrodynamic_function(double reynolds, double *real, double *imaginary)
 
 /* ---- the fluid ------------------------------------------------------------------------------- */
 
-wt_fluid wt_fluid_at(wt_medium medium, double temperature)
+wt_fluid wt_medium_properties(wt_medium medium, double temperature)
 {
     const double t = temperature - WT_ZERO_CELSIUS, unknown = (double)NAN;
     if (medium == WT_MEDIUM_AIR) /* dry, at 1013.25 hPa; viscosity by Sutherland's law */

@@ -45,7 +45,7 @@ struct activation {
 
 /* ---- without load ---------------------------------------------------------------------------- */
 
-static double attempt_rate(wt_attempt attempt, double temperature)
+static double attempt_rate(wt_attempt_frequency attempt, double temperature)
 {
     return BOLTZMANN * temperature / (attempt == WT_ATTEMPT_H ? PLANCK : REDUCED_PLANCK);
 }
@@ -58,7 +58,7 @@ double wt_activation_background(const wt_activation *parameters)
                               : (double)NAN;
 }
 
-double wt_activation_least_barrier(double temperature, wt_attempt attempt, double rate)
+double wt_activation_least_barrier(double temperature, wt_attempt_frequency attempt, double rate)
 {
     return BOLTZMANN * temperature * log(attempt_rate(attempt, temperature) / rate);
 }
@@ -66,7 +66,7 @@ double wt_activation_least_barrier(double temperature, wt_attempt attempt, doubl
 /* T ln(A(T) / rate) = eps / kB: the left side rises as soon as A > rate. */
 typedef struct shelf {
     double barrier, rate;
-    wt_attempt attempt;
+    wt_attempt_frequency attempt;
 } shelf;
 
 static double shelf_excess(double temperature, void *user)
@@ -75,7 +75,7 @@ static double shelf_excess(double temperature, void *user)
     return wt_activation_least_barrier(temperature, s->attempt, s->rate) / s->barrier - 1;
 }
 
-double wt_activation_most_temperature(double barrier, wt_attempt attempt, double rate)
+double wt_activation_most_temperature(double barrier, wt_attempt_frequency attempt, double rate)
 {
     shelf s = {barrier, rate, attempt};
     double low = rate / attempt_rate(attempt, 1), high = fmax(1, 2 * low), found = (double)NAN;

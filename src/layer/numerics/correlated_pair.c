@@ -189,16 +189,16 @@ wt_status shared_pair_fit(const constant_pair *of, const bool *common, size_t n,
     for (size_t i = 0; i < n; i++)
         if (!(determinant(of[i].whole) > least_determinant * of[i].whole.energy * of[i].whole.wear))
             return wt_fail(err, WT_E_ARG, "a pair without a covariance shares nothing");
-    pool memory = {0};
+    arena memory = {0};
     pair_work w = {.of = of,
                    .common = common,
                    .n = n,
-                   .root = pool_numbers(&memory, 4 * n),
-                   .covariance = pool_numbers(&memory, BOTH * n * BOTH * n),
-                   .columns = pool_numbers(&memory, 3 * BOTH * n)};
+                   .root = arena_numbers(&memory, 4 * n),
+                   .covariance = arena_numbers(&memory, BOTH * n * BOTH * n),
+                   .columns = arena_numbers(&memory, 3 * BOTH * n)};
     if (!memory.failed)
         fit(&w, to);
     const wt_status status = memory.failed ? wt_fail(err, WT_E_MEMORY, "out of memory") : WT_OK;
-    pool_free(&memory);
+    arena_free(&memory);
     return status;
 }

@@ -45,7 +45,7 @@ wt_status wt_energy_source_friction(wt_friction_workspace *workspace, double pre
         return status;
     friction_load at = friction_load_at(workspace, pressure, velocity);
     friction_scratch scratch;
-    pool memory = {0};
+    arena memory = {0};
     wt_energy_source pair[2] = {{0}, {0}};
     status = friction_scratch_init(&scratch, workspace, 0, &memory, err);
     if (status == WT_OK)
@@ -85,6 +85,6 @@ wt_status wt_energy_source_friction(wt_friction_workspace *workspace, double pre
     wt_energy_source_clear(&pair[0]);
     wt_energy_source_clear(&pair[1]);
     workspace->scratch[0].nodes += scratch.nodes;
-    pool_free(&memory);
+    arena_free(&memory);
     return status;
 }

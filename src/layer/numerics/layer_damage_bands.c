@@ -153,8 +153,8 @@ static wt_status falling_band(const layer_loads *loads, damage *d, wt_layer_sect
     return status;
 }
 
-static wt_status several_bands(const layer_loads *loads, damage *d, wt_layer_section *section,
-                               wt_error *err)
+static wt_status record_group_bands(const layer_loads *loads, damage *d, wt_layer_section *section,
+                                    wt_error *err)
 {
     double from = below_bands(loads, d);
     while (from > 0) {
@@ -207,8 +207,8 @@ static wt_status section_at(layer_loads *loads, double time, bool edges, wt_laye
     if (unloaded >= 1)
         section_add(&s, (wt_layer_band){{.unit = "m"}, {.value = HUGE_VAL, .unit = "m"}});
     else if (any)
-        status =
-            loads->falls ? falling(loads, &d, edges, &s, err) : several_bands(loads, &d, &s, err);
+        status = loads->falls ? falling(loads, &d, edges, &s, err)
+                              : record_group_bands(loads, &d, &s, err);
     add_old_layer(&s, loads->start - s.worn);
     *section = s;
     return status;

@@ -243,11 +243,11 @@ wt_status wt_layer_loop_history(wt_layer_energy_fn energy, void *user, const wt_
                         "without wear, or with little, it has no balance: leave out acts-back");
         return WT_E_RANGE;
     }
-    layer_own *own = calloc(1, sizeof *own);
+    feedback_rate *own = calloc(1, sizeof *own);
     if (own == NULL)
         return wt_fail(err, WT_E_MEMORY, "out of memory for a layer that acts back");
     own_search o = {&s, bare.wear};
-    status = layer_own_make(log_formation_at, &o, 1 / bare.q_max, target, own, err);
+    status = feedback_rate_make(log_formation_at, &o, 1 / bare.q_max, target, own, err);
     if (status == WT_OK)
         status = s.status;
     layer_rates rates = {.own = own,
@@ -258,7 +258,7 @@ wt_status wt_layer_loop_history(wt_layer_energy_fn energy, void *user, const wt_
                          .log_ratio = log(bare.formation / bare.wear)};
     if (status == WT_OK)
         status = march_own(&s, &rates, time, n, points, err);
-    layer_own_clear(own);
+    feedback_rate_clear(own);
     free(own);
     return status;
 }

@@ -13,7 +13,7 @@
  */
 enum { ORDER = 24 };
 
-void layer_own_clear(layer_own *own)
+void feedback_rate_clear(feedback_rate *own)
 {
     for (size_t i = 0; i < own->n; i++) {
         gsl_cheb_free(own->panel[i].value);
@@ -22,11 +22,11 @@ void layer_own_clear(layer_own *own)
     own->n = 0;
 }
 
-wt_status layer_own_make(own_fn f, void *user, double first, double target, layer_own *own,
-                         wt_error *err)
+wt_status feedback_rate_make(own_fn f, void *user, double first, double target, feedback_rate *own,
+                             wt_error *err)
 {
     gsl_function function = {f, user};
-    *own = (layer_own){.target = target};
+    *own = (feedback_rate){.target = target};
     for (double low = 0, high = fmin(first, target); low < target; high *= 2) {
         if (own->n == OWN_PANELS)
             return wt_fail(err, WT_E_RANGE, "a layer is too thick beside the shortest wave");
@@ -43,7 +43,7 @@ wt_status layer_own_make(own_fn f, void *user, double first, double target, laye
     return WT_OK;
 }
 
-static const own_panel *panel_at(const layer_own *own, double thickness)
+static const own_panel *panel_at(const feedback_rate *own, double thickness)
 {
     size_t i = 0;
     while (i + 1 < own->n && thickness > own->panel[i].high)
@@ -51,12 +51,12 @@ static const own_panel *panel_at(const layer_own *own, double thickness)
     return &own->panel[i];
 }
 
-double layer_own_log(const layer_own *own, double thickness)
+double feedback_rate_log(const feedback_rate *own, double thickness)
 {
     return gsl_cheb_eval(panel_at(own, thickness)->value, thickness);
 }
 
-double layer_own_slope(const layer_own *own, double thickness)
+double feedback_rate_slope(const feedback_rate *own, double thickness)
 {
     return gsl_cheb_eval(panel_at(own, thickness)->slope, thickness);
 }

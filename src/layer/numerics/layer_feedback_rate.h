@@ -15,19 +15,19 @@ typedef struct own_panel {
 
 /* Each is as long as all before it: no layer is 2^64 times as thick as the shortest wave. */
 enum { OWN_PANELS = 64 };
-typedef struct layer_own {
+typedef struct feedback_rate {
     double target; /* where the motion ends [m] */
     size_t n;
     own_panel panel[OWN_PANELS];
-} layer_own;
+} feedback_rate;
 
 /* ln Qf at a thickness under itself. */
 typedef double (*own_fn)(double thickness, void *user);
 /* Panels from 0 to the target, of which the first is as long as `first`. */
-wt_status layer_own_make(own_fn f, void *user, double first, double target, layer_own *own,
-                         wt_error *err) WT_NODISCARD;
-void layer_own_clear(layer_own *own);
-double layer_own_log(const layer_own *own, double thickness);
-double layer_own_slope(const layer_own *own, double thickness);
+wt_status feedback_rate_make(own_fn f, void *user, double first, double target, feedback_rate *own,
+                             wt_error *err) WT_NODISCARD;
+void feedback_rate_clear(feedback_rate *own);
+double feedback_rate_log(const feedback_rate *own, double thickness);
+double feedback_rate_slope(const feedback_rate *own, double thickness);
 
 #endif

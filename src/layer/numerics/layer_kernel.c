@@ -182,7 +182,7 @@ energy_course rates_course(const layer_rates *rates, double depth, double length
 double layer_formation(const layer_rates *rates, double thickness)
 {
     if (rates->own != NULL)
-        return exp(layer_own_log(rates->own, thickness));
+        return exp(feedback_rate_log(rates->own, thickness));
     if (rates->formation == 0)
         return 0;
     const double fall = rates_log_tail(rates, thickness) - rates->log_power;
@@ -193,7 +193,7 @@ double layer_formation(const layer_rates *rates, double thickness)
 double layer_decay(const layer_rates *rates, double thickness)
 {
     if (rates->own != NULL)
-        return fabs(layer_own_slope(rates->own, thickness));
+        return fabs(feedback_rate_slope(rates->own, thickness));
     if (rates->formation == 0)
         return 0;
     return exp(rates_log_density(rates, thickness) - rates_log_tail(rates, thickness));

@@ -11,18 +11,18 @@
  * are those of the energy, or of the rate of an activated closure. */
 typedef struct layer_rates {
     const wt_energy_source *source;
-    activation *activated;       /* NULL: the energy closure */
-    const struct layer_own *own; /* formation under the layer itself; NULL: as on the bulk */
-    double q_min, q_max;         /* of the terms with power; 0 without any */
-    double formation;            /* Qf(0) [m/s], duty included */
-    double wear;                 /* [m/s], duty included */
-    double power;                /* per area [W/m^2] */
-    double log_power;            /* ln of the tail at the surface; 0 without power */
-    double log_ratio;            /* ln R; -infinity without power, +infinity without wear */
-    double threshold;            /* ln(U_c Lambda), or ln Lambda of an activated closure */
-    double background;           /* unloaded damage over Lambda [1/s]; 0 = none that counts */
-    double error;                /* relative, of a tail */
-    double wear_error;           /* relative, of the wear where it follows the power; else 0 */
+    activation *activated;           /* NULL: the energy closure */
+    const struct feedback_rate *own; /* formation under the layer itself; NULL: as on the bulk */
+    double q_min, q_max;             /* of the terms with power; 0 without any */
+    double formation;                /* Qf(0) [m/s], duty included */
+    double wear;                     /* [m/s], duty included */
+    double power;                    /* per area [W/m^2] */
+    double log_power;                /* ln of the tail at the surface; 0 without power */
+    double log_ratio;                /* ln R; -infinity without power, +infinity without wear */
+    double threshold;                /* ln(U_c Lambda), or ln Lambda of an activated closure */
+    double background;               /* unloaded damage over Lambda [1/s]; 0 = none that counts */
+    double error;                    /* relative, of a tail */
+    double wear_error;               /* relative, of the wear where it follows the power; else 0 */
     double duty;
     bool without_errors;
 } layer_rates;

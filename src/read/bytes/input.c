@@ -101,7 +101,7 @@ wt_status wt_input_open(const char *path, wt_input **input, wt_error *err)
     struct stat st;
     status = standard ? open_standard(in, &st, err) : open_file(in, path, &st, err);
     if (status == WT_OK)
-        status = wt_guard_read(path, err);
+        status = wt_protect_input(path, err);
     if (status == WT_OK && S_ISDIR(st.st_mode)) {
         status = wt_fail(err, WT_E_ARG, "is a folder");
         wt_error_file(err, path);
@@ -168,7 +168,7 @@ wt_status input_of_file(int file, size_t size, const char *name, wt_input **inpu
     return status;
 }
 
-wt_status wt_input_beside(const wt_input *input, wt_input **beside, wt_error *err)
+wt_status wt_input_sibling(const wt_input *input, wt_input **beside, wt_error *err)
 {
     *beside = NULL;
     if (input->whole || input->expected <= SCRATCH_ABOVE)

@@ -20,12 +20,12 @@ WIDE_REGISTERS static bool all_finite(const double *values, size_t n)
     wide sum = {0.0}, x; /* of zeros, or nan */
     size_t i = 0;
     for (; i + WIDE <= n; i += WIDE) {
-        wide_load(&x, values + i);
+        simd_load(&x, values + i);
         sum += 0.0 * x;
     }
     for (; i < n; i++)
         sum[0] += 0.0 * values[i];
-    return !isnan(wide_sum(&sum));
+    return !isnan(simd_sum(&sum));
 }
 
 size_t samples_mend(double *values, size_t n)

@@ -11,7 +11,7 @@
 
 int scratch_open(void)
 {
-    const char *const folder = temporary_place();
+    const char *const folder = temporary_directory();
     int file = open(folder, O_TMPFILE | O_RDWR | O_CLOEXEC, 0600);
     if (file >= 0)
         return file;

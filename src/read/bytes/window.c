@@ -94,6 +94,6 @@ bool input_has(wt_input *input, const char *words)
     }
     window_close(&w);
     if (status == WT_E_MEMORY)
-        shortage_note(ENOMEM);
+        resource_error_note(ENOMEM);
     return found;
 }

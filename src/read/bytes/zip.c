@@ -256,7 +256,7 @@ static size_t place_of(const zip_archive *a, const char *name)
     for (size_t n = strlen(name), i = 0; i < n; i += sizeof word) {
         word = 0;
         memcpy(&word, name + i, n - i < sizeof word ? n - i : sizeof word);
-        hash = mix64(hash ^ word);
+        hash = splitmix64(hash ^ word);
     }
     size_t at = (size_t)hash & (a->n_places - 1);
     while (a->places[at] != 0 && strcmp(archive_name(a, a->places[at] - 1), name) != 0)

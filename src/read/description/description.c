@@ -18,7 +18,7 @@ void description_free(text_description *d)
         regfree(&pattern->regex);
     for (size_t i = 0; i < DESCRIPTION_EXTENTS; i++)
         description_free(d->more[i]);
-    pool_free(&d->memory);
+    arena_free(&d->memory);
     free(d);
 }
 
@@ -64,7 +64,7 @@ bool pattern_match(const line_pattern *pattern, text_span line, regmatch_t *grou
         return false;
     const int code = regexec(&pattern->regex, line.text, n, groups, 0);
     if (code == REG_ESPACE)
-        shortage_note(ENOMEM);
+        resource_error_note(ENOMEM);
     return code == 0;
 }
 

@@ -166,7 +166,7 @@ typedef enum description_extent {
 } description_extent;
 
 typedef struct text_description {
-    pool memory; /* of all that is pointed to below */
+    arena memory; /* of all that is pointed to below */
     line_pattern *patterns;
     description_extent extent;
     struct text_description *more[DESCRIPTION_EXTENTS]; /* read since, description_need */

@@ -11,10 +11,10 @@
 
 /* What stands between a mark of the head and the next `end`. Heads are written plainly: a test
  * holds this against what XML makes of them. */
-static char *text_behind(text_description *d, const char *mark, char end)
+static char *text_after(text_description *d, const char *mark, char end)
 {
     const char *const from = strstr(strstr(d->xml, "<format "), mark) + strlen(mark);
-    return pool_text(&d->memory, from, (size_t)(strchrnul(from, end) - from));
+    return arena_text(&d->memory, from, (size_t)(strchrnul(from, end) - from));
 }
 
 wt_status description_of_library(const embedded_text *file, text_description **description,
@@ -24,11 +24,11 @@ wt_status description_of_library(const embedded_text *file, text_description **d
     if (d == NULL)
         return wt_fail(err, WT_E_MEMORY, "no memory for a format description");
     d->xml = file->text;
-    d->id = text_behind(d, " id=\"", '"');
-    d->version = text_behind(d, " version=\"", '"');
-    d->title = text_behind(d, "<title>", '<');
-    d->evidence = text_behind(d, "<evidence>", '<');
-    const char *const kinds = text_behind(d, " kinds=\"", '"');
+    d->id = text_after(d, " id=\"", '"');
+    d->version = text_after(d, " version=\"", '"');
+    d->title = text_after(d, "<title>", '<');
+    d->evidence = text_after(d, "<evidence>", '<');
+    const char *const kinds = text_after(d, " kinds=\"", '"');
     if (d->memory.failed) {
         description_free(d);
         return wt_fail(err, WT_E_MEMORY, "no memory for a format description");

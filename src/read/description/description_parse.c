@@ -33,7 +33,7 @@ static void keep_quiet(void *user, xmlErrorPtr error)
     (void)user;
     /* What it calls internal is memory too. */
     if (error != NULL && (error->code == XML_ERR_NO_MEMORY || error->code == XML_SCHEMAV_INTERNAL))
-        shortage_note(ENOMEM);
+        resource_error_note(ENOMEM);
 }
 
 wt_status description_xsd_new(description_xsd **schema, wt_error *err)
@@ -135,7 +135,7 @@ wt_status parse_document(description_xsd *schema, const char *xml, size_t length
     xmlFreeDoc(document);
     if (context != NULL)
         xmlFreeParserCtxt(context);
-    p.status = shortage_end(p.status, p.err);
+    p.status = resource_error_finish(p.status, p.err);
     if (p.status == WT_OK)
         *description = p.d;
     else
@@ -146,7 +146,7 @@ wt_status parse_document(description_xsd *schema, const char *xml, size_t length
 wt_status description_parse(description_xsd *schema, const char *xml, size_t length,
                             const char *name, text_description **description, wt_error *err)
 {
-    shortage_forget();
+    resource_error_clear();
     return parse_document(schema, xml, length, name, parse_format, description, err);
 }
 

@@ -30,7 +30,7 @@ void parse_complain(description_parser *p, const xmlNode *node, const char *mess
 
 void *parse_alloc(description_parser *p, size_t n, size_t size)
 {
-    void *items = pool_alloc(&p->d->memory, n, size);
+    void *items = arena_alloc(&p->d->memory, n, size);
     if (items == NULL)
         parse_no_memory(p);
     return items;
@@ -38,7 +38,7 @@ void *parse_alloc(description_parser *p, size_t n, size_t size)
 
 char *parse_text(description_parser *p, const char *text, size_t length)
 {
-    char *copy = pool_text(&p->d->memory, text, length);
+    char *copy = arena_text(&p->d->memory, text, length);
     if (copy == NULL)
         parse_no_memory(p);
     return copy;

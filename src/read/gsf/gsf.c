@@ -119,7 +119,7 @@ static void make_head(const gsf_header *h, wt_image *head, double *factor)
 }
 
 static wt_status gsf_images(const file_reader *self, wt_input *input,
-                            const wt_read_options *options, wt_parselog *log, wt_image **images,
+                            const wt_read_options *options, wt_log *log, wt_image **images,
                             size_t *n_images, wt_error *err)
 {
     gsf_header h;

@@ -97,7 +97,7 @@ static wt_status add_field(image_list *list, gwy_bytes field, const char *key, c
     return status;
 }
 
-static wt_status add_graph(image_list *list, gwy_component *c, const char *file, wt_parselog *log,
+static wt_status add_graph(image_list *list, gwy_component *c, const char *file, wt_log *log,
                            wt_error *err)
 {
     const char *name = NULL;
@@ -109,7 +109,7 @@ static wt_status add_graph(image_list *list, gwy_component *c, const char *file,
 
 /* The data fields and profiles in the order of the file. */
 static wt_status add_fields(image_list *list, gwy_bytes container, bool masks_are_missing,
-                            const char *file, wt_parselog *log, wt_error *err)
+                            const char *file, wt_log *log, wt_error *err)
 {
     wt_status status = WT_OK, broken = WT_OK;
     gwy_bytes rest = container;
@@ -119,8 +119,8 @@ static wt_status add_fields(image_list *list, gwy_bytes container, bool masks_ar
         const char *name = NULL;
         gwy_bytes field;
         if (!masks_are_missing && c.type == 'o' && channel_of(c.key, "/mask", &number))
-            wt_parselog_add(log, WT_NOTE, file, c.key,
-                            "a mask, which may mark anything, is not taken for missing heights");
+            wt_log_add(log, WT_NOTE, file, c.key,
+                       "a mask, which may mark anything, is not taken for missing heights");
         if (list->n < MOST_FIELDS && c.type == 'o' && gwy_is_graph(c.key))
             status = add_graph(list, &c, file, log, err);
         if (c.type != 'o' || !channel_of(c.key, "/data", &number) ||
@@ -143,7 +143,7 @@ static wt_status add_fields(image_list *list, gwy_bytes container, bool masks_ar
                : status;
 }
 
-wt_status gwy_read(wt_input *input, bool masks_are_missing, wt_parselog *log, wt_image **images,
+wt_status gwy_read(wt_input *input, bool masks_are_missing, wt_log *log, wt_image **images,
                    size_t *n_images, wt_error *err)
 {
     const unsigned char *bytes = NULL;
@@ -164,7 +164,7 @@ wt_status gwy_read(wt_input *input, bool masks_are_missing, wt_parselog *log, wt
 }
 
 static wt_status gwy_images(const file_reader *self, wt_input *input,
-                            const wt_read_options *options, wt_parselog *log, wt_image **images,
+                            const wt_read_options *options, wt_log *log, wt_image **images,
                             size_t *n_images, wt_error *err)
 {
     (void)self;

@@ -6,7 +6,7 @@
 
 /* As wt_images_read. `masks_are_missing`: the file was just made of another one, so that what is
  * masked was not measured there and is NaN here; else a mask may mark anything. */
-wt_status gwy_read(wt_input *input, bool masks_are_missing, wt_parselog *log, wt_image **images,
+wt_status gwy_read(wt_input *input, bool masks_are_missing, wt_log *log, wt_image **images,
                    size_t *n_images, wt_error *err) WT_NODISCARD;
 
 #endif

@@ -26,7 +26,7 @@ static bool are_steps(const double *x, size_t n)
 }
 
 static wt_status add_profile(image_list *list, gwy_bytes graph, gwy_bytes curve, const char *key,
-                             const char *file, wt_parselog *log, wt_error *err)
+                             const char *file, wt_log *log, wt_error *err)
 {
     gwy_component x, y, title;
     double lateral = 1, vertical = 1, offset = 0, *values = NULL;
@@ -43,9 +43,9 @@ static wt_status add_profile(image_list *list, gwy_bytes graph, gwy_bytes curve,
         (void)samples_decode(SAMPLE_FLOAT64, false, x.value.at, x.n, lateral, 0, places);
     wt_status status = WT_OK;
     if (!lengths || !are_steps(places, x.n)) {
-        wt_parselog_add(log, WT_NOTE, file, key,
-                        "a graph that is no profile is left out: lengths against lengths at equal "
-                        "steps would be one");
+        wt_log_add(log, WT_NOTE, file, key,
+                   "a graph that is no profile is left out: lengths against lengths at equal "
+                   "steps would be one");
     } else {
         wt_image head = {.n_columns = x.n,
                          .n_rows = 1,
@@ -64,7 +64,7 @@ static wt_status add_profile(image_list *list, gwy_bytes graph, gwy_bytes curve,
 }
 
 wt_status gwy_add_profiles(image_list *list, gwy_bytes graph, const char *key, const char *file,
-                           wt_parselog *log, wt_error *err)
+                           wt_log *log, wt_error *err)
 {
     gwy_component curves;
     wt_status status = WT_OK;

@@ -10,6 +10,6 @@ bool gwy_is_graph(const char *key);
 /* Adds the curves of a graph (the components of its object) that are profiles: lengths against
  * lengths, at equal steps. Others are left out, with a note. */
 wt_status gwy_add_profiles(image_list *list, gwy_bytes graph, const char *key, const char *file,
-                           wt_parselog *log, wt_error *err);
+                           wt_log *log, wt_error *err);
 
 #endif

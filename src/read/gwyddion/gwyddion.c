@@ -49,7 +49,7 @@ static bool surf_has_missing(const file_peek *peek)
 
 /* Digital Surf marks them by a height below all others, and Gwyddion (2.62) takes it for one. A map
  * of a newer one that knows better has missing points already. */
-static void take_out_lowest(wt_image *image, const char *file, wt_parselog *log)
+static void take_out_lowest(wt_image *image, const char *file, wt_log *log)
 {
     const size_t n = image->n_columns * image->n_rows;
     double lowest = (double)INFINITY;
@@ -64,10 +64,10 @@ static void take_out_lowest(wt_image *image, const char *file, wt_parselog *log)
             image->values[i] = (double)NAN;
             taken++;
         }
-    wt_parselog_add(log, WT_WARNING, file, image->name,
-                    "the file says that heights are missing; the %zu of %zu at the lowest height, "
-                    "which marks them, are left out",
-                    taken, n);
+    wt_log_add(log, WT_WARNING, file, image->name,
+               "the file says that heights are missing; the %zu of %zu at the lowest height, "
+               "which marks them, are left out",
+               taken, n);
 }
 
 static wt_status peek_head(wt_input *input, file_peek *peek, wt_error *err)
@@ -77,7 +77,7 @@ static wt_status peek_head(wt_input *input, file_peek *peek, wt_error *err)
 }
 
 /* Has Gwyddion convert the file, a compressed one of Digital Surf unpacked. */
-static wt_status convert(wt_input *input, wt_parselog *log, wt_input **converted, char version[64],
+static wt_status convert(wt_input *input, wt_log *log, wt_input **converted, char version[64],
                          wt_error *err)
 {
     const gwyddion_limits *const limits = &gwyddion_usual_limits;
@@ -94,7 +94,7 @@ static wt_status convert(wt_input *input, wt_parselog *log, wt_input **converted
 }
 
 static wt_status read_images(const file_reader *self, wt_input *input,
-                             const wt_read_options *options, wt_parselog *log, wt_image **images,
+                             const wt_read_options *options, wt_log *log, wt_image **images,
                              size_t *n_images, wt_error *err)
 {
     char version[64];
@@ -120,7 +120,7 @@ static wt_status read_images(const file_reader *self, wt_input *input,
             wt_error_found(err, "a topography (%s)", maker);
         return status;
     }
-    wt_parselog_add(log, WT_NOTE, peek.name, NULL, "converted by %s", version);
+    wt_log_add(log, WT_NOTE, peek.name, NULL, "converted by %s", version);
     if (seen == WT_OK && surf_has_missing(&peek))
         take_out_lowest(&(*images)[0], peek.name, log);
     return WT_OK;

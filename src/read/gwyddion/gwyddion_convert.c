@@ -187,7 +187,7 @@ wt_status gwyddion_convert(wt_input *input, const gwyddion_limits *limits, wt_in
     int held = -1;
     char name[32];
     program_end end;
-    char *const place = realpath(temporary_place(), NULL);
+    char *const place = realpath(temporary_directory(), NULL);
     if (place != NULL)
         temporary_sweep(place);
     char *const folder = place != NULL ? temporary_folder(place, &held) : NULL;

@@ -100,8 +100,7 @@ static wt_status unpack(const surf_pieces *p, char *to, size_t *end, wt_error *e
     return status;
 }
 
-wt_status surf_unpack(wt_input *input, size_t most, wt_parselog *log, wt_input **unpacked,
-                      wt_error *err)
+wt_status surf_unpack(wt_input *input, size_t most, wt_log *log, wt_input **unpacked, wt_error *err)
 {
     surf_pieces p = {.n = 0};
     size_t end = 0;
@@ -124,8 +123,8 @@ wt_status surf_unpack(wt_input *input, size_t most, wt_parselog *log, wt_input *
         return status;
     }
     if (end < p.length)
-        wt_parselog_add(log, WT_WARNING, wt_input_name(input), NULL,
-                        "%zu bytes behind the heights of the first surface are not read",
-                        p.length - end);
+        wt_log_add(log, WT_WARNING, wt_input_name(input), NULL,
+                   "%zu bytes behind the heights of the first surface are not read",
+                   p.length - end);
     return input_own(plain, p.head + p.plain, wt_input_name(input), unpacked, err);
 }

@@ -10,7 +10,7 @@
 /* The same file with heights that are not compressed, which Gwyddion knows (2.62 does not know the
  * compressed). It has the name of the input and is closed by the caller. WT_E_CORRUPT,
  * WT_E_UNSUPPORTED of more than `most` bytes. */
-wt_status surf_unpack(wt_input *input, size_t most, wt_parselog *log, wt_input **unpacked,
+wt_status surf_unpack(wt_input *input, size_t most, wt_log *log, wt_input **unpacked,
                       wt_error *err) WT_NODISCARD;
 
 #endif

@@ -221,12 +221,12 @@ static wt_status take_text(void *user, const void *piece, size_t n, wt_error *er
     return spool_add(&to->text, piece, n, to->name, err);
 }
 
-wt_status hdf5_as_text(const file_reader *self, wt_input *input, wt_parselog *log, wt_input **text,
+wt_status hdf5_as_text(const file_reader *self, wt_input *input, wt_log *log, wt_input **text,
                        wt_error *err)
 {
     hdf5_bytes from = {.bytes = NULL};
     text_sink to = {.name = wt_input_name(input)};
-    door_flow *flow = NULL;
+    sandbox_stream *flow = NULL;
     double factor, offset;
     /* Behind the door no file can be opened, so the units are read from theirs before it. */
     wt_status status = wt_unit_to_si("m", WT_Q_LENGTH, &factor, &offset, err);
@@ -235,16 +235,16 @@ wt_status hdf5_as_text(const file_reader *self, wt_input *input, wt_parselog *lo
     if (status != WT_OK)
         return status;
     if (self->hdf5->note != NULL)
-        wt_parselog_add(log, WT_NOTE, to.name, NULL, "%s", self->hdf5->note);
-    door_limits limits = door_limits_of(from.size);
+        wt_log_add(log, WT_NOTE, to.name, NULL, "%s", self->hdf5->note);
+    sandbox_limits limits = sandbox_limits_for(from.size);
     /* HDF5 may look for a text of a damaged heap for ever; a sound file takes far less a megabyte.
      */
     limits.answer = ((size_t)16 << 20) + 24 * from.size; /* numbers may be packed */
     limits.cpu_time = 2 + (unsigned)(from.size >> 20);
-    status = hdf5_door_begin(&from, &limits, self->hdf5->print, &flow, err);
+    status = hdf5_sandbox_start(&from, &limits, self->hdf5->print, &flow, err);
     if (status == WT_OK)
-        status = door_pour(flow, take_text, &to, err);
-    door_close(flow);
+        status = sandbox_drain(flow, take_text, &to, err);
+    sandbox_close(flow);
     if (status == WT_OK)
         return spool_input(&to.text, to.name, text, err);
     spool_drop(&to.text);

@@ -45,7 +45,7 @@ typedef struct hdf5_curves {
 } hdf5_curves;
 
 recognition hdf5_detect(const file_reader *self, file_peek *peek);
-wt_status hdf5_as_text(const file_reader *self, wt_input *input, wt_parselog *log, wt_input **text,
+wt_status hdf5_as_text(const file_reader *self, wt_input *input, wt_log *log, wt_input **text,
                        wt_error *err) WT_NODISCARD;
 /* All of such a reader but its words for people; with text/text.h. */
 #define READER_OF_HDF5_CURVES(curves)                                                              \

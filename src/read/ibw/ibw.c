@@ -30,7 +30,7 @@ static recognition detect(const file_reader *self, file_peek *peek)
 
 /* ---- what is in it --------------------------------------------------------------------------- */
 
-static void add_setpoint(const ibw_file *file, force_facts *facts)
+static void add_setpoint(const ibw_file *file, force_metadata *facts)
 {
     static const struct {
         const char *channel;
@@ -51,7 +51,7 @@ static void add_setpoint(const ibw_file *file, force_facts *facts)
 /* Heights count towards the sample in the file and fall here. The deflection is in metres already,
  * by the sensitivity of the note. The velocities of the note are settings, also those that were not
  * used, so none is taken. */
-force_facts ibw_facts(const ibw_file *file)
+force_metadata ibw_facts(const ibw_file *file)
 {
     static const struct {
         const char *name;
@@ -60,7 +60,7 @@ force_facts ibw_facts(const ibw_file *file)
     } known[] = {{"ZSnsr", WT_Q_MEASURED_HEIGHT, -1},
                  {"Raw", WT_Q_HEIGHT, -1},
                  {"Defl", WT_Q_DEFLECTION, 1}};
-    force_facts facts = {
+    force_metadata facts = {
         .velocity = (double)NAN,
         .setpoint = (double)NAN,
         .cantilever = {.spring_constant = force_positive(ibw_number(file, "SpringConstant")),
@@ -93,7 +93,7 @@ static wt_status describe_curve(wt_input *input, const wt_read_options *options,
         status = ibw_segments(&file, segments, &n, err);
     if (status != WT_OK)
         return status;
-    const force_facts read = ibw_facts(&file);
+    const force_metadata read = ibw_facts(&file);
     facts_add(facts, "curves", "", "one for each file", "1");
     for (size_t i = 0; i < sizeof keys / sizeof *keys; i++)
         if (ibw_note(&file, keys[i], text))
@@ -114,7 +114,7 @@ static wt_status describe_curve(wt_input *input, const wt_read_options *options,
 }
 
 static wt_status describe(const file_reader *self, wt_input *input, const wt_read_options *options,
-                          wt_parselog *log, table_writer *facts)
+                          wt_log *log, table_writer *facts)
 {
     wt_error err = WT_ERROR_INIT;
     const wt_status status = describe_curve(input, options, facts, &err);
@@ -126,7 +126,7 @@ static wt_status describe(const file_reader *self, wt_input *input, const wt_rea
 typedef struct ibw_source {
     wt_force_source base;
     ibw_file file;
-    force_facts facts;
+    force_metadata facts;
     ibw_segment segments[IBW_SEGMENTS];
     size_t n_segments;
     size_t from; /* first sample of the segment that is read */
@@ -158,7 +158,7 @@ static wt_status next_curve(wt_force_source *base, wt_force_curve *curve, wt_err
     curve->y = ibw_number(&source->file, "YLVDT");
     for (size_t i = 0; i < source->n_segments && status == WT_OK; i++) {
         const ibw_segment *segment = &source->segments[i];
-        force_facts facts = source->facts;
+        force_metadata facts = source->facts;
         facts.kind = segment->kind;
         facts.index = i;
         facts.n_points = segment->n;

@@ -54,13 +54,13 @@ wt_status ibw_open_image(wt_input *input, ibw_file *file, ibw_grid *grid,
                          wt_error *err) WT_NODISCARD;
 /* ibw_image.c */
 wt_status ibw_images(const file_reader *self, wt_input *input, const wt_read_options *options,
-                     wt_parselog *log, wt_image **images, size_t *n_images, wt_error *err);
+                     wt_log *log, wt_image **images, size_t *n_images, wt_error *err);
 /* The value of a key of the note, cut to fit; false if it is not there. */
 bool ibw_note(const ibw_file *file, const char *key, char value[IBW_TEXT]);
 double ibw_number(const ibw_file *file, const char *key); /* NaN if there is none */
 wt_status ibw_segments(const ibw_file *file, ibw_segment segments[IBW_SEGMENTS], size_t *n,
                        wt_error *err) WT_NODISCARD;
 /* Signals and calibration, the same for all segments. */
-force_facts ibw_facts(const ibw_file *file);
+force_metadata ibw_facts(const ibw_file *file);
 
 #endif

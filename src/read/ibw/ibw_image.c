@@ -25,7 +25,7 @@ static const char *unit_of(const char *name)
 }
 
 wt_status ibw_images(const file_reader *self, wt_input *input, const wt_read_options *options,
-                     wt_parselog *log, wt_image **images, size_t *n_images, wt_error *err)
+                     wt_log *log, wt_image **images, size_t *n_images, wt_error *err)
 {
     ibw_file file;
     ibw_grid grid;

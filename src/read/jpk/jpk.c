@@ -83,7 +83,7 @@ static void add_segment(const jpk_segment *segment, size_t number, const wt_read
                         table_writer *facts)
 {
     char item[160];
-    force_facts read;
+    force_metadata read;
     jpk_segment_facts(segment, &read);
     snprintf(item, sizeof item, "segment %zu", number);
     facts_add(facts, item, "", "segment-header.properties", "%s (%s), %zu points",
@@ -116,7 +116,7 @@ static void add_calibration(const jpk_segment *segment, const wt_read_options *o
                             table_writer *facts)
 {
     const jpk_channel *deflection = jpk_segment_channel(segment, "vDeflection");
-    force_facts read;
+    force_metadata read;
     jpk_segment_facts(segment, &read);
     if (deflection == NULL || !deflection->understood)
         facts_add(facts, "missing", "", "", "no channel vDeflection");
@@ -127,7 +127,7 @@ static void add_calibration(const jpk_segment *segment, const wt_read_options *o
 
 /* The segments of the first curve stand for all: a map has the same ones at each place. */
 static wt_status describe(const file_reader *self, wt_input *input, const wt_read_options *options,
-                          wt_parselog *log, table_writer *facts)
+                          wt_log *log, table_writer *facts)
 {
     (void)self;
     jpk_file file = {0};

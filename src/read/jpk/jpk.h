@@ -64,7 +64,7 @@ typedef struct jpk_segment_ref {
 typedef struct jpk_file {
     zip_archive *archive;
     const char *name;       /* of the input */
-    wt_parselog *log;       /* borrowed, may be NULL */
+    wt_log *log;            /* borrowed, may be NULL */
     bool map;               /* curves stand in index/N/ */
     property_list header;   /* header.properties; empty if missing */
     property_list shared;   /* shared-data/header.properties; empty if missing */
@@ -80,7 +80,7 @@ typedef struct jpk_file {
     size_t n_expected; /* curves that the header announces; 0 if it does not */
 } jpk_file;
 
-wt_status jpk_file_open(wt_input *input, wt_parselog *log, jpk_file *file, wt_error *err);
+wt_status jpk_file_open(wt_input *input, wt_log *log, jpk_file *file, wt_error *err);
 void jpk_file_close(jpk_file *file); /* accepts a zero-initialised one */
 /* Position and place in the grid of the curve that refs[ref] belongs to; unknown ones are NaN and
  * -1. */
@@ -125,7 +125,7 @@ const jpk_channel *jpk_segment_channel(const jpk_segment *segment, const char *n
 
 /* What the segment says of its channels; number, place and beginning are for the caller. The facts
  * borrow the segment. */
-void jpk_segment_facts(const jpk_segment *segment, force_facts *facts);
+void jpk_segment_facts(const jpk_segment *segment, force_metadata *facts);
 
 /* ---- curves: jpk_force.c ------------------------------------------------------------------ */
 

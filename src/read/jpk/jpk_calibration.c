@@ -49,7 +49,7 @@ static bool chain_si(const jpk_lcd *lcd, const char *name, force_signal *signal)
 }
 
 static void add_signal(const jpk_channel *c, wt_quantity quantity, const char *slot,
-                       force_facts *facts)
+                       force_metadata *facts)
 {
     force_signal signal = {
         .quantity = quantity, .channel = c, .name = c->name, .unit = "", .problem = c->problem};
@@ -64,14 +64,14 @@ static void add_signal(const jpk_channel *c, wt_quantity quantity, const char *s
     force_add_signal(facts, signal);
 }
 
-static double multiplier(const force_facts *facts, wt_quantity quantity)
+static double multiplier(const force_metadata *facts, wt_quantity quantity)
 {
     const force_signal *signal = force_find_signal(facts, quantity);
     return signal != NULL && signal->problem == NULL ? signal->to_si.multiplier : (double)NAN;
 }
 
 /* Sensitivity and spring constant are what the slots multiply by. */
-static void add_calibration(const jpk_lcd *lcd, force_facts *facts)
+static void add_calibration(const jpk_lcd *lcd, force_metadata *facts)
 {
     const jpk_slot *slot = jpk_lcd_slot(lcd, "force");
     const bool direct =
@@ -84,19 +84,19 @@ static void add_calibration(const jpk_lcd *lcd, force_facts *facts)
         facts->cantilever.spring_constant = slot->scaling.multiplier;
 }
 
-void jpk_segment_facts(const jpk_segment *segment, force_facts *facts)
+void jpk_segment_facts(const jpk_segment *segment, force_metadata *facts)
 {
-    *facts =
-        (force_facts){.kind = segment->kind,
-                      .n_points = segment->n_points,
-                      .duration = segment->duration,
-                      .velocity = segment->velocity,
-                      .frequency = segment->frequency,
-                      .setpoint = segment->setpoint_voltage,
-                      .setpoint_quantity = WT_Q_DEFLECTION_VOLTAGE,
-                      .offers = {WT_Q_TIME},
-                      .n_offers = 1,
-                      .cantilever = {.spring_constant = (double)NAN, .sensitivity = (double)NAN}};
+    *facts = (force_metadata){
+        .kind = segment->kind,
+        .n_points = segment->n_points,
+        .duration = segment->duration,
+        .velocity = segment->velocity,
+        .frequency = segment->frequency,
+        .setpoint = segment->setpoint_voltage,
+        .setpoint_quantity = WT_Q_DEFLECTION_VOLTAGE,
+        .offers = {WT_Q_TIME},
+        .n_offers = 1,
+        .cantilever = {.spring_constant = (double)NAN, .sensitivity = (double)NAN}};
     for (size_t i = 0; i < sizeof sources / sizeof *sources; i++) {
         const wt_quantity q = sources[i].quantity;
         const jpk_channel *c = jpk_segment_channel(segment, sources[i].channel);

@@ -82,9 +82,9 @@ static wt_status find_segments(jpk_file *file, wt_error *err)
     for (size_t i = 0; i < file->n_refs; i++) {
         bool new_curve = i == 0 || file->refs[i].curve != file->refs[kept - 1].curve;
         if (!new_curve && file->refs[i].segment == file->refs[kept - 1].segment) {
-            wt_parselog_add(file->log, WT_WARNING, file->name,
-                            archive_name(file->archive, file->refs[i].entry),
-                            "segment stands twice in the archive; the first is read");
+            wt_log_add(file->log, WT_WARNING, file->name,
+                       archive_name(file->archive, file->refs[i].entry),
+                       "segment stands twice in the archive; the first is read");
             continue;
         }
         file->n_curves += new_curve;
@@ -142,18 +142,17 @@ static void read_grid(jpk_file *file)
 static void note_oddities(const jpk_file *file)
 {
     if (file->archive->odd != NULL)
-        wt_parselog_add(file->log, WT_LOSS, file->name, NULL, "%s; read as far as it goes",
-                        file->archive->odd);
+        wt_log_add(file->log, WT_LOSS, file->name, NULL, "%s; read as far as it goes",
+                   file->archive->odd);
     if (file->header.n == 0)
-        wt_parselog_add(file->log, WT_WARNING, file->name, "header.properties",
-                        "header is missing: no grid, no instrument");
+        wt_log_add(file->log, WT_WARNING, file->name, "header.properties",
+                   "header is missing: no grid, no instrument");
     if (file->n_expected > file->n_curves)
-        wt_parselog_add(file->log, file->archive->odd != NULL ? WT_LOSS : WT_WARNING, file->name,
-                        NULL, "holds %zu of the %zu curves planned", file->n_curves,
-                        file->n_expected);
+        wt_log_add(file->log, file->archive->odd != NULL ? WT_LOSS : WT_WARNING, file->name, NULL,
+                   "holds %zu of the %zu curves planned", file->n_curves, file->n_expected);
 }
 
-wt_status jpk_file_open(wt_input *input, wt_parselog *log, jpk_file *file, wt_error *err)
+wt_status jpk_file_open(wt_input *input, wt_log *log, jpk_file *file, wt_error *err)
 {
     *file = (jpk_file){.log = log, .name = wt_input_name(input)};
     wt_status status = archive_open(input, &file->archive, err);
@@ -195,8 +194,8 @@ void jpk_file_position(jpk_file *file, size_t ref, wt_force_curve *curve)
         header = &file->position;
         file->position.n = 0;
         if (read_header(file, key, &file->position, NULL) != WT_OK || file->position.n == 0)
-            wt_parselog_add(file->log, WT_WARNING, file->name, key,
-                            "header of a curve cannot be read: its position is unknown");
+            wt_log_add(file->log, WT_WARNING, file->name, key,
+                       "header of a curve cannot be read: its position is unknown");
     }
     if (root_key(header, "header.", key, sizeof key)) {
         curve->x = properties_number(header, key, "position.x");
@@ -207,8 +206,8 @@ void jpk_file_position(jpk_file *file, size_t ref, wt_force_curve *curve)
             number = (size_t)place;
     }
     if (file->map && file->position.n > 0 && (isnan(curve->x) || isnan(curve->y)))
-        wt_parselog_add(file->log, WT_WARNING, file->name, NULL,
-                        "the header of a curve says no position, as where it was cut");
+        wt_log_add(file->log, WT_WARNING, file->name, NULL,
+                   "the header of a curve says no position, as where it was cut");
     (void)force_place(file->columns, file->rows, file->back_and_forth, number, curve);
 }
 
@@ -220,9 +219,9 @@ void jpk_file_check_segments(const jpk_file *file, size_t ref, size_t n)
         return;
     const double stated = properties_number(header, key, "count");
     if (stated > (double)n)
-        wt_parselog_add(file->log, WT_WARNING, file->name,
-                        archive_name(file->archive, file->refs[ref].entry),
-                        "the curve has %zu of the %.0f segments that its header counts: entries of "
-                        "the archive are missing",
-                        n, stated);
+        wt_log_add(file->log, WT_WARNING, file->name,
+                   archive_name(file->archive, file->refs[ref].entry),
+                   "the curve has %zu of the %.0f segments that its header counts: entries of "
+                   "the archive are missing",
+                   n, stated);
 }

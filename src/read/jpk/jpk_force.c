@@ -68,9 +68,9 @@ static wt_status add_segment(jpk_source *source, double start, wt_force_curve *c
     if (segment->n_points == 0 && segment->incomplete)
         return wt_fail(err, WT_E_CORRUPT, "data of the segment are missing");
     if (segment->n_points == 0)
-        wt_parselog_add(source->file.log, WT_NOTE, source->file.name, place,
-                        "segment without samples left out");
-    force_facts facts;
+        wt_log_add(source->file.log, WT_NOTE, source->file.name, place,
+                   "segment without samples left out");
+    force_metadata facts;
     jpk_segment_facts(segment, &facts);
     facts.index = source->ref->segment;
     facts.place = place;
@@ -92,8 +92,8 @@ static wt_status read_curve(jpk_source *source, size_t first, size_t end, wt_for
             status = add_segment(source, start, curve, err);
         if (status == WT_E_CORRUPT && file->archive->odd != NULL && before > 0) {
             curve->n_segments = before;
-            wt_parselog_add(file->log, WT_LOSS, file->name, archive_name(file->archive, ref->entry),
-                            "last curve ends early: incomplete segment left out");
+            wt_log_add(file->log, WT_LOSS, file->name, archive_name(file->archive, ref->entry),
+                       "last curve ends early: incomplete segment left out");
             return WT_OK;
         }
         if (status != WT_OK) {

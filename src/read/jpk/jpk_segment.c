@@ -152,8 +152,8 @@ static wt_status find_data(const jpk_file *file, const jpk_segment *segment, con
     if (path == NULL || length < 0 || (size_t)length >= sizeof name ||
         !archive_find(file->archive, name, &channel->entry)) {
         if (path != NULL)
-            wt_parselog_add(file->log, WT_WARNING, file->name, name,
-                            "the header names these samples, but they are not in the file");
+            wt_log_add(file->log, WT_WARNING, file->name, name,
+                       "the header names these samples, but they are not in the file");
         return WT_OK;
     }
     size_t size = 0;
@@ -164,11 +164,10 @@ static wt_status find_data(const jpk_file *file, const jpk_segment *segment, con
     channel->has_file = true;
     channel->n_points = isnan(announced) || held < n ? held : n;
     if (!isnan(announced) && size > n * sample_width(channel->lcd.encoding))
-        wt_parselog_add(
-            file->log, WT_WARNING, file->name, name,
-            "the channel has %zu bytes for %zu samples, which is too many: if some were "
-            "put in, those behind them are shifted",
-            size, n);
+        wt_log_add(file->log, WT_WARNING, file->name, name,
+                   "the channel has %zu bytes for %zu samples, which is too many: if some were "
+                   "put in, those behind them are shifted",
+                   size, n);
     return WT_OK;
 }
 
@@ -238,8 +237,8 @@ static void common_length(const jpk_file *file, jpk_segment *segment, const char
     bool cut = announced > (double)shortest || longest > shortest;
     segment->incomplete = segment->incomplete || cut;
     if (shortest > 0 && cut)
-        wt_parselog_add(file->log, WT_LOSS, file->name, folder,
-                        "channels are of different length; cut to the shortest");
+        wt_log_add(file->log, WT_LOSS, file->name, folder,
+                   "channels are of different length; cut to the shortest");
 }
 
 wt_status jpk_segment_read(jpk_file *file, const jpk_segment_ref *ref, jpk_segment *segment,
@@ -260,9 +259,9 @@ wt_status jpk_segment_read(jpk_file *file, const jpk_segment_ref *ref, jpk_segme
         return status;
     }
     if (segment->n_channels == 0) /* one of no duration lists them all the same */
-        wt_parselog_add(file->log, WT_WARNING, file->name, folder,
-                        "the header of the segment lists no channels: it was cut or damaged, and "
-                        "the segment is left out");
+        wt_log_add(file->log, WT_WARNING, file->name, folder,
+                   "the header of the segment lists no channels: it was cut or damaged, and "
+                   "the segment is left out");
     read_settings(file, segment);
     common_length(file, segment, folder);
     return WT_OK;

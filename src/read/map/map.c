@@ -69,17 +69,17 @@ static const void *channel_of(const map_source *source, size_t k)
 }
 
 static void find_facts(const map_source *source, const map_segment *s,
-                       const wt_cantilever *cantilever, force_facts *facts)
+                       const wt_cantilever *cantilever, force_metadata *facts)
 {
-    *facts = (force_facts){.kind = s->kind,
-                           .index = s->index,
-                           .n_points = s->n_points,
-                           .start = (double)NAN,
-                           .duration = s->duration,
-                           .velocity = s->velocity,
-                           .setpoint = s->setpoint,
-                           .setpoint_quantity = WT_Q_FORCE,
-                           .cantilever = *cantilever};
+    *facts = (force_metadata){.kind = s->kind,
+                              .index = s->index,
+                              .n_points = s->n_points,
+                              .start = (double)NAN,
+                              .duration = s->duration,
+                              .velocity = s->velocity,
+                              .setpoint = s->setpoint,
+                              .setpoint_quantity = WT_Q_FORCE,
+                              .cantilever = *cantilever};
     for (size_t k = 0; k < source->n_channels; k++) {
         const map_channel *const c = &source->channels[k];
         force_signal signal = {.quantity = c->quantity,
@@ -105,7 +105,7 @@ static wt_status next_curve(wt_force_source *base, wt_force_curve *curve, wt_err
     wt_status status = map_next(source->map, curve, &segments, &n, err);
     const wt_cantilever cantilever = curve->cantilever;
     for (size_t i = 0; status == WT_OK && i < n; i++) {
-        force_facts facts;
+        force_metadata facts;
         source->segment = &segments[i];
         find_facts(source, &segments[i], &cantilever, &facts);
         if (force_wants_segment(base, facts.kind))
@@ -142,7 +142,7 @@ static const force_stream map_force = {.size = sizeof(map_source),
 
 /* The first curve stands for all. */
 static wt_status describe(const file_reader *self, wt_input *input, const wt_read_options *options,
-                          wt_parselog *log, table_writer *facts)
+                          wt_log *log, table_writer *facts)
 {
     map_source source = {.base = {.options = *options}};
     const map_segment *segments = NULL;
@@ -158,7 +158,7 @@ static wt_status describe(const file_reader *self, wt_input *input, const wt_rea
     wt_force_curve_reset(&curve);
     status = map_next(source.map, &curve, &segments, &n, facts->err);
     for (size_t i = 0; status == WT_OK && i < n; i++) {
-        force_facts read;
+        force_metadata read;
         char item[160];
         const map_segment *const s = &segments[i];
         find_facts(&source, s, &curve.cantilever, &read);

@@ -34,7 +34,7 @@ static void add_identity(const nanoscope_file *f, table_writer *facts)
 
 static void add_curves(const nanoscope_file *f, const wt_read_options *options, table_writer *facts)
 {
-    const force_facts read = nanoscope_facts(f, 0);
+    const force_metadata read = nanoscope_facts(f, 0);
     facts_add(facts, "curves", "", "Data length", "%zu", f->n_curves);
     if (f->n_curves < f->n_planned)
         facts_add(facts, "curves planned", "", "Data length", "%zu", f->n_planned);
@@ -42,7 +42,7 @@ static void add_curves(const nanoscope_file *f, const wt_read_options *options, 
         facts_add(facts, "grid", "", "force/line", "%ld x %ld", f->columns, f->rows);
     for (size_t s = 0; s < 3; s++) {
         char item[32];
-        const force_facts segment = nanoscope_facts(f, s);
+        const force_metadata segment = nanoscope_facts(f, s);
         snprintf(item, sizeof item, "segment %zu", segment.index);
         if (segment.n_points > 0)
             facts_add(facts, item, "", "Samps/line", "%s, %zu points",
@@ -63,7 +63,7 @@ static void add_curves(const nanoscope_file *f, const wt_read_options *options, 
 }
 
 static wt_status describe(const file_reader *self, wt_input *input, const wt_read_options *options,
-                          wt_parselog *log, table_writer *facts)
+                          wt_log *log, table_writer *facts)
 {
     nanoscope_file file;
     wt_error err = WT_ERROR_INIT;

@@ -87,8 +87,7 @@ typedef struct nanoscope_file {
     bool scaled; /* counts of 32 bits are 256 times those of the header */
 } nanoscope_file;
 
-wt_status nanoscope_file_open(wt_input *input, wt_parselog *log, nanoscope_file *file,
-                              wt_error *err);
+wt_status nanoscope_file_open(wt_input *input, wt_log *log, nanoscope_file *file, wt_error *err);
 void nanoscope_file_close(nanoscope_file *file);
 /* The samples of a curve as they are stored, until the next call for the channel. */
 wt_status nanoscope_stored(const nanoscope_file *file, const nanoscope_channel *channel,
@@ -102,7 +101,7 @@ double nanoscope_count(const nanoscope_file *file, const nanoscope_channel *chan
  */
 
 /* Segment `s` (way in, hold, way out); the signals point to the file. */
-force_facts nanoscope_facts(const nanoscope_file *file, size_t s);
+force_metadata nanoscope_facts(const nanoscope_file *file, size_t s);
 extern const force_stream nanoscope_force;
 
 /* ---- nanoscope_image.c ------------------------------------------------------------------------
@@ -110,6 +109,6 @@ extern const force_stream nanoscope_force;
 
 /* All images of measured values: those of a file of images, and that of a force volume. */
 wt_status nanoscope_images(const file_reader *self, wt_input *input, const wt_read_options *options,
-                           wt_parselog *log, wt_image **images, size_t *n_images, wt_error *err);
+                           wt_log *log, wt_image **images, size_t *n_images, wt_error *err);
 
 #endif

@@ -154,7 +154,7 @@ static wt_status read_channel(nanoscope_file *f, size_t section, wt_error *err)
 
 /* Measured files end where their last block does: bytes that are too many were put in somewhere,
  * and what is behind them is not where the header says. */
-static void check_end(const nanoscope_file *f, wt_parselog *log)
+static void check_end(const nanoscope_file *f, wt_log *log)
 {
     static const char *const lists[] = {BLOCK, IMAGE};
     size_t end = 0;
@@ -166,14 +166,14 @@ static void check_end(const nanoscope_file *f, wt_parselog *log)
             end = here > end ? here : end;
         }
     if (f->length > end)
-        wt_parselog_add(log, WT_WARNING, f->name, NULL,
-                        "the file is %zu bytes longer than its header says: if they stand inside, "
-                        "what is behind them is shifted; copy the file again from the instrument",
-                        f->length - end);
+        wt_log_add(log, WT_WARNING, f->name, NULL,
+                   "the file is %zu bytes longer than its header says: if they stand inside, "
+                   "what is behind them is shifted; copy the file again from the instrument",
+                   f->length - end);
 }
 
 /* A block that goes on behind the end of the file holds the curves until there. */
-static wt_status cut_curves(nanoscope_file *f, wt_parselog *log, wt_error *err)
+static wt_status cut_curves(nanoscope_file *f, wt_log *log, wt_error *err)
 {
     f->n_curves = f->n_planned;
     check_end(f, log);
@@ -186,9 +186,9 @@ static wt_status cut_curves(nanoscope_file *f, wt_parselog *log, wt_error *err)
     if (f->n_curves == 0)
         return corrupt(err, "the end of the file is missing", "at least one curve");
     if (f->n_curves < f->n_planned)
-        wt_parselog_add(log, WT_LOSS, f->name, NULL,
-                        "the end of the file is missing: %zu of %zu curves are there", f->n_curves,
-                        f->n_planned);
+        wt_log_add(log, WT_LOSS, f->name, NULL,
+                   "the end of the file is missing: %zu of %zu curves are there", f->n_curves,
+                   f->n_planned);
     return WT_OK;
 }
 
@@ -334,7 +334,7 @@ static wt_status largest_rise(const nanoscope_file *f, const nanoscope_channel *
 /* In force volumes of software 9.2 the counts of 32 bits are 256 times those of the header, in
  * single curves of the same software they are not. What the trigger said tells, else the range of
  * the converter. */
-static wt_status check_scale(nanoscope_file *f, wt_parselog *log, wt_error *err)
+static wt_status check_scale(nanoscope_file *f, wt_log *log, wt_error *err)
 {
     static const double times = 256, doubtful = 5;
     for (size_t i = 0; i < f->n_channels; i++) {
@@ -352,18 +352,17 @@ static wt_status check_scale(nanoscope_file *f, wt_parselog *log, wt_error *err)
             rise /= times;
             largest /= times;
             f->scaled = true;
-            wt_parselog_add(log, WT_NOTE, f->name, c->name,
-                            "counts are 256 times those that the header is for");
+            wt_log_add(log, WT_NOTE, f->name, c->name,
+                       "counts are 256 times those that the header is for");
         }
         if (largest > range)
             return corrupt(err, "deflections are outside the range of the converter",
                            "counts that Z scale is for");
         if (f->trigger > 0 && !(rise > f->trigger / doubtful && rise < f->trigger * doubtful))
-            wt_parselog_add(
-                log, WT_WARNING, f->name, c->name,
-                "the deflection rises by %.3g V where the trigger was %.3g V: the scale "
-                "of the file is doubtful",
-                rise, f->trigger);
+            wt_log_add(log, WT_WARNING, f->name, c->name,
+                       "the deflection rises by %.3g V where the trigger was %.3g V: the scale "
+                       "of the file is doubtful",
+                       rise, f->trigger);
     }
     return WT_OK;
 }
@@ -415,7 +414,7 @@ static wt_status read_blocks(nanoscope_file *f, wt_error *err)
     return status;
 }
 
-wt_status nanoscope_file_open(wt_input *input, wt_parselog *log, nanoscope_file *f, wt_error *err)
+wt_status nanoscope_file_open(wt_input *input, wt_log *log, nanoscope_file *f, wt_error *err)
 {
     *f = (nanoscope_file){
         .name = wt_input_name(input),

@@ -15,24 +15,24 @@ static const double pi = 3.14159265358979323846;
 /* The ramp as a channel of its own: it is not stored. */
 static const char ramp_name[] = "Ramp";
 
-force_facts nanoscope_facts(const nanoscope_file *f, size_t s)
+force_metadata nanoscope_facts(const nanoscope_file *f, size_t s)
 {
     static const wt_segment_kind kinds[] = {WT_SEGMENT_APPROACH, WT_SEGMENT_DWELL,
                                             WT_SEGMENT_RETRACT};
     const size_t points[] = {f->n_in, f->n_hold, f->n_out};
     const double times[] = {f->time_in, f->time_hold, f->time_out};
     const double velocities[] = {f->velocity_in, (double)NAN, f->velocity_out};
-    force_facts facts = {.kind = kinds[s],
-                         .index = s == 2 && f->n_hold == 0 ? 1 : s,
-                         .n_points = points[s],
-                         .duration = times[s],
-                         .velocity = velocities[s],
-                         .setpoint = s == 0 ? f->trigger : (double)NAN,
-                         .setpoint_quantity = WT_Q_DEFLECTION_VOLTAGE,
-                         .cantilever = f->cantilever,
-                         .offers = {WT_Q_TIME, WT_Q_HEIGHT, WT_Q_MEASURED_HEIGHT, WT_Q_FORCE,
-                                    WT_Q_DEFLECTION, WT_Q_DEFLECTION_VOLTAGE},
-                         .n_offers = 6};
+    force_metadata facts = {.kind = kinds[s],
+                            .index = s == 2 && f->n_hold == 0 ? 1 : s,
+                            .n_points = points[s],
+                            .duration = times[s],
+                            .velocity = velocities[s],
+                            .setpoint = s == 0 ? f->trigger : (double)NAN,
+                            .setpoint_quantity = WT_Q_DEFLECTION_VOLTAGE,
+                            .cantilever = f->cantilever,
+                            .offers = {WT_Q_TIME, WT_Q_HEIGHT, WT_Q_MEASURED_HEIGHT, WT_Q_FORCE,
+                                       WT_Q_DEFLECTION, WT_Q_DEFLECTION_VOLTAGE},
+                            .n_offers = 6};
     for (size_t i = 0; i < s; i++)
         facts.start += points[i] > 0 ? times[i] : 0;
     if (isfinite(f->ramp))
@@ -101,7 +101,7 @@ static wt_status next_curve(wt_force_source *base, wt_force_curve *curve, wt_err
     }
     source->from = 0;
     for (size_t s = 0; s < 3 && status == WT_OK; s++) {
-        const force_facts facts = nanoscope_facts(f, s);
+        const force_metadata facts = nanoscope_facts(f, s);
         if (force_wants_segment(base, facts.kind))
             status = force_add_segment(base, &facts, curve, err);
         source->from += facts.n_points;
@@ -122,9 +122,9 @@ static wt_status open_source(wt_force_source *base, const file_reader *self, wt_
     (void)self;
     wt_status status = nanoscope_file_open(input, base->log, f, err);
     if (status == WT_OK && f->sinusoid)
-        wt_parselog_add(base->log, WT_NOTE, base->name, NULL,
-                        "PeakForce captures were not verified on a genuine file: compare one with "
-                        "the instrument's own software");
+        wt_log_add(base->log, WT_NOTE, base->name, NULL,
+                   "PeakForce captures were not verified on a genuine file: compare one with "
+                   "the instrument's own software");
     base->n_curves = f->n_curves;
     base->grid_columns = f->columns;
     base->grid_rows = f->rows;

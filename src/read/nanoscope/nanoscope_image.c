@@ -111,7 +111,7 @@ static wt_status read_block(const nanoscope_header *h, size_t section, input_win
 }
 
 wt_status nanoscope_images(const file_reader *self, wt_input *input, const wt_read_options *options,
-                           wt_parselog *log, wt_image **images, size_t *n_images, wt_error *err)
+                           wt_log *log, wt_image **images, size_t *n_images, wt_error *err)
 {
     nanoscope_header header = {.text = NULL};
     input_window window = {.input = NULL};

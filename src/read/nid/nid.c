@@ -92,7 +92,7 @@ static void add_tune(const nid_file *file, table_writer *facts)
 
 static void add_phase(const nid_phase *phase, table_writer *facts)
 {
-    const force_facts *read = &phase->facts;
+    const force_metadata *read = &phase->facts;
     char item[64];
     if (read->n_signals == 0)
         return;
@@ -111,7 +111,7 @@ static void add_phase(const nid_phase *phase, table_writer *facts)
 static void add_curves(const nid_spectroscopy *s, const wt_read_options *options,
                        table_writer *facts)
 {
-    const force_facts read = {.cantilever = s->cantilever};
+    const force_metadata read = {.cantilever = s->cantilever};
     facts_add(facts, "curves", "", "Lines", "%zu", s->n_curves);
     if (s->columns > 0)
         facts_add(facts, "grid", "", "SpecMapTable", "%ld x %ld, back and forth", s->columns,
@@ -125,7 +125,7 @@ static void add_curves(const nid_spectroscopy *s, const wt_read_options *options
 }
 
 static wt_status describe(const file_reader *self, wt_input *input, const wt_read_options *options,
-                          wt_parselog *log, table_writer *facts)
+                          wt_log *log, table_writer *facts)
 {
     (void)self;
     (void)log;

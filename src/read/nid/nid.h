@@ -84,23 +84,23 @@ wt_status nid_decode(const nid_file *file, const nid_channel *channel, size_t li
 /* The SI unit for an exported one, "" with factor 1 if it is none of the units known here. */
 const char *nid_si_unit(const char *unit, double *factor);
 wt_status nid_read_images(const file_reader *self, wt_input *input, const wt_read_options *options,
-                          wt_parselog *log, wt_image **images, size_t *n_images, wt_error *err);
+                          wt_log *log, wt_image **images, size_t *n_images, wt_error *err);
 
 /* ---- thermal tune: nid_noise.c ------------------------------------------------------------ */
 
 /* The channel of the measured spectrum, NULL if the file is no thermal tune. */
 const nid_channel *nid_tune(const nid_file *file);
 wt_status nid_read_noise(const file_reader *self, wt_input *input, const wt_read_options *options,
-                         wt_parselog *log, wt_noise_spectrum *spectrum, wt_error *err);
+                         wt_log *log, wt_noise_spectrum *spectrum, wt_error *err);
 
 /* ---- force curves: nid_force.c ------------------------------------------------------------ */
 
 /* The groups of a force curve in the order of time. */
 #define NID_PHASES 4
 typedef struct nid_phase {
-    const char *group; /* name of the group in the file */
-    double interval;   /* between samples [s], NaN if unknown */
-    force_facts facts; /* that all curves share; without signals the phase is not in the file */
+    const char *group;    /* name of the group in the file */
+    double interval;      /* between samples [s], NaN if unknown */
+    force_metadata facts; /* that all curves share; without signals the phase is not in the file */
 } nid_phase;
 
 typedef struct nid_spectroscopy {
@@ -120,7 +120,7 @@ extern const force_stream nid_force;
 /* Grid of a map; 0, 0 if the file says nothing of one. */
 void nid_grid(const nid_header *header, long *columns, long *rows);
 /* Place of a curve; what is not known is NaN and -1. Logs what it does not understand. */
-void nid_position(const nid_header *header, size_t i, const char *name, wt_parselog *log,
+void nid_position(const nid_header *header, size_t i, const char *name, wt_log *log,
                   wt_force_curve *curve);
 
 #endif

@@ -231,7 +231,7 @@ static size_t flat_lines(const wt_image *image, size_t first, size_t end)
 
 /* CurLine is the line at which the scan ended, whichever way it went, and of a complete one either
  * end of the image: what is missing the lines themselves say. */
-static void warn_stopped(const nid_file *file, const nid_channel *c, wt_parselog *log,
+static void warn_stopped(const nid_file *file, const nid_channel *c, wt_log *log,
                          const wt_image *image)
 {
     const double current = nid_number(&file->header, c->section, "CurLine");
@@ -242,12 +242,12 @@ static void warn_stopped(const nid_file *file, const nid_channel *c, wt_parselog
                  below = flat_lines(image, 0, at);
     const size_t missing = above == n - at - 1 ? above : at > 0 && below == at ? below : 0;
     if (missing > 0 && flat_lines(image, 0, n) < n)
-        wt_parselog_add(log, WT_WARNING, file->name, c->section,
-                        "scan was stopped at line %zu: %zu of %zu lines were not measured", at,
-                        missing, n);
+        wt_log_add(log, WT_WARNING, file->name, c->section,
+                   "scan was stopped at line %zu: %zu of %zu lines were not measured", at, missing,
+                   n);
 }
 
-static wt_status read_image(const nid_file *file, const nid_channel *c, wt_parselog *log,
+static wt_status read_image(const nid_file *file, const nid_channel *c, wt_log *log,
                             image_list *list, wt_error *err)
 {
     wt_image head = {.n_columns = c->points, .n_rows = c->lines};
@@ -255,7 +255,7 @@ static wt_status read_image(const nid_file *file, const nid_channel *c, wt_parse
     const char *unit = nid_si_unit(c->unit, &factor);
     if (unit[0] == '\0' && c->unit[0] != '\0') {
         unit = c->unit;
-        wt_parselog_add(log, WT_NOTE, file->name, c->section, "unit %s is kept as it is", c->unit);
+        wt_log_add(log, WT_NOTE, file->name, c->section, "unit %s is kept as it is", c->unit);
     }
     snprintf(head.name, sizeof head.name, "%s: %s", c->group_name, c->name);
     snprintf(head.unit, sizeof head.unit, "%s", unit[0] != '\0' ? unit : "1");
@@ -271,7 +271,7 @@ static wt_status read_image(const nid_file *file, const nid_channel *c, wt_parse
 }
 
 wt_status nid_read_images(const file_reader *self, wt_input *input, const wt_read_options *options,
-                          wt_parselog *log, wt_image **images, size_t *n_images, wt_error *err)
+                          wt_log *log, wt_image **images, size_t *n_images, wt_error *err)
 {
     (void)self;
     (void)options;

@@ -64,21 +64,22 @@ static void read_phase(const nid_header *header, size_t i, nid_phase *phase)
         n = (double)NAN;
     phase->group = phase_names[i].group;
     phase->interval = force_positive(time / n);
-    phase->facts = (force_facts){.kind = phase_names[i].kind,
-                                 .index = i,
-                                 .place = SPECTROSCOPY,
-                                 .velocity = (double)NAN,
-                                 .setpoint = (double)NAN,
-                                 .offers = {WT_Q_TIME, WT_Q_HEIGHT, WT_Q_MEASURED_HEIGHT,
-                                            WT_Q_FORCE, WT_Q_DEFLECTION, WT_Q_DEFLECTION_VOLTAGE},
-                                 .n_offers = 6};
+    phase->facts =
+        (force_metadata){.kind = phase_names[i].kind,
+                         .index = i,
+                         .place = SPECTROSCOPY,
+                         .velocity = (double)NAN,
+                         .setpoint = (double)NAN,
+                         .offers = {WT_Q_TIME, WT_Q_HEIGHT, WT_Q_MEASURED_HEIGHT, WT_Q_FORCE,
+                                    WT_Q_DEFLECTION, WT_Q_DEFLECTION_VOLTAGE},
+                         .n_offers = 6};
     if (phase_names[i].range != NULL)
         phase->facts.velocity = force_positive(
             fabs(nid_typed(header, SPECTROSCOPY, phase_names[i].range, WT_Q_LENGTH)) / time);
 }
 
 /* The first channel of a quantity counts; a deflection is what its unit says. */
-static void add_channel(const nid_channel *c, force_facts *facts)
+static void add_channel(const nid_channel *c, force_metadata *facts)
 {
     static const struct {
         const char *name;
@@ -167,7 +168,7 @@ static wt_status line_length(const nid_file *file, const nid_channel *c, size_t 
 }
 
 /* Samples that all channels of a phase have; they are recorded together. */
-static wt_status phase_length(const nid_source *source, const force_facts *facts, size_t *n,
+static wt_status phase_length(const nid_source *source, const force_metadata *facts, size_t *n,
                               wt_error *err)
 {
     *n = SIZE_MAX;
@@ -178,8 +179,8 @@ static wt_status phase_length(const nid_source *source, const force_facts *facts
         if (status != WT_OK)
             return status;
         if (*n != SIZE_MAX && own != *n)
-            wt_parselog_add(source->base.log, WT_LOSS, source->file.name, c->section,
-                            "channels are of different length; cut to the shortest");
+            wt_log_add(source->base.log, WT_LOSS, source->file.name, c->section,
+                       "channels are of different length; cut to the shortest");
         *n = own < *n ? own : *n;
     }
     if (*n == SIZE_MAX)
@@ -200,7 +201,7 @@ static wt_status decode(wt_force_source *base, const force_signal *signal, force
 static wt_status add_phase(nid_source *source, const nid_phase *phase, double *start,
                            wt_force_curve *curve, wt_error *err)
 {
-    force_facts facts = phase->facts;
+    force_metadata facts = phase->facts;
     wt_status status = phase_length(source, &facts, &facts.n_points, err);
     if (status != WT_OK || facts.n_points == 0) /* a phase that is not in the file takes no time */
         return status;
@@ -247,9 +248,9 @@ static wt_status open_source(wt_force_source *base, const file_reader *self, wt_
         status = nid_spectroscopy_find(&source->file, &source->spectroscopy, err);
     if (status != WT_OK)
         return status;
-    wt_parselog_add(base->log, WT_NOTE, base->name, NULL,
-                    "force curves of this format were not verified on a genuine file: compare one "
-                    "with the instrument's own software");
+    wt_log_add(base->log, WT_NOTE, base->name, NULL,
+               "force curves of this format were not verified on a genuine file: compare one "
+               "with the instrument's own software");
     base->n_curves = source->spectroscopy.n_curves;
     base->grid_columns = source->spectroscopy.columns;
     base->grid_rows = source->spectroscopy.rows;

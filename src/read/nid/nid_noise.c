@@ -53,7 +53,7 @@ const nid_channel *nid_tune(const nid_file *file)
 }
 
 /* What it took stands in the spectrum, also on failure. */
-static wt_status read_tune(const nid_file *file, const nid_channel *c, wt_parselog *log,
+static wt_status read_tune(const nid_file *file, const nid_channel *c, wt_log *log,
                            wt_noise_spectrum *spectrum, wt_error *err)
 {
     const nid_header *const h = &file->header;
@@ -79,8 +79,8 @@ static wt_status read_tune(const nid_file *file, const nid_channel *c, wt_parsel
         made.density[i] *= made.density[i];
     }
     if (status == WT_OK && samples_mend(made.density, made.n) > 0)
-        wt_parselog_add(log, WT_WARNING, file->name, c->section,
-                        "densities that are no finite numbers are missing");
+        wt_log_add(log, WT_WARNING, file->name, c->section,
+                   "densities that are no finite numbers are missing");
     spectrum->averages = value_of(h, "Averages", WT_Q_NONE);
     spectrum->temperature = temperature_of(h);
     spectrum->spring_constant = value_of(h, "Spring Constant:", WT_Q_SPRING_CONSTANT);
@@ -91,7 +91,7 @@ static wt_status read_tune(const nid_file *file, const nid_channel *c, wt_parsel
 }
 
 wt_status nid_read_noise(const file_reader *self, wt_input *input, const wt_read_options *options,
-                         wt_parselog *log, wt_noise_spectrum *spectrum, wt_error *err)
+                         wt_log *log, wt_noise_spectrum *spectrum, wt_error *err)
 {
     (void)self;
     (void)options;

@@ -56,17 +56,17 @@ static double interpolate(double first, double last, long i, long n)
     return n > 1 ? first + (last - first) * (double)i / (double)(n - 1) : first;
 }
 
-static void from_map(const nid_map *map, size_t i, const char *name, wt_parselog *log,
+static void from_map(const nid_map *map, size_t i, const char *name, wt_log *log,
                      wt_force_curve *curve)
 {
     if (!force_place(map->columns, map->rows, true, i, curve)) {
-        wt_parselog_add(log, WT_WARNING, name, MAP_SECTION,
-                        "more curves than places in the map: place unknown");
+        wt_log_add(log, WT_WARNING, name, MAP_SECTION,
+                   "more curves than places in the map: place unknown");
         return;
     }
     if (map->rotation != 0) {
-        wt_parselog_add(log, WT_WARNING, name, MAP_SECTION,
-                        "the map is rotated, its unit is not known: positions left out");
+        wt_log_add(log, WT_WARNING, name, MAP_SECTION,
+                   "the map is rotated, its unit is not known: positions left out");
         return;
     }
     curve->x = interpolate(map->x0, map->x1, curve->grid_x, map->columns);
@@ -89,7 +89,7 @@ static double axis_factor(const nid_header *header, size_t axis)
     return factor;
 }
 
-static void from_list(const nid_header *header, size_t i, const char *name, wt_parselog *log,
+static void from_list(const nid_header *header, size_t i, const char *name, wt_log *log,
                       wt_force_curve *curve)
 {
     char key[32], axis[NID_TEXT];
@@ -106,11 +106,11 @@ static void from_list(const nid_header *header, size_t i, const char *name, wt_p
             curve->y = value;
     }
     if (isnan(curve->x) || isnan(curve->y))
-        wt_parselog_add(log, WT_WARNING, name, POSITION_SECTION,
-                        "no position for a curve that is not in the list");
+        wt_log_add(log, WT_WARNING, name, POSITION_SECTION,
+                   "no position for a curve that is not in the list");
 }
 
-void nid_position(const nid_header *header, size_t i, const char *name, wt_parselog *log,
+void nid_position(const nid_header *header, size_t i, const char *name, wt_log *log,
                   wt_force_curve *curve)
 {
     nid_map map;

@@ -92,28 +92,28 @@ static wt_status read_ramp(const char *line, size_t length, ramp *r, size_t *idl
 
 /* The measured file goes in equal steps and ends a hundred-thousandth of one above 0: half a step
  * more than one is a row that is not there. */
-static void warn_of_gaps(const ramp *r, const char *name, wt_parselog *log)
+static void warn_of_gaps(const ramp *r, const char *name, wt_log *log)
 {
     double last = r->values[r->n - 1], step = last - r->values[r->n - 2];
     for (size_t i = 1; i < r->n; i++)
         step = fmin(step, r->values[i] - r->values[i - 1]);
     for (size_t i = 1; i < r->n; i++)
         if (r->values[i] - r->values[i - 1] > 1.5 * step) {
-            wt_parselog_add(log, WT_WARNING, name, NULL,
-                            "the ramp does not go in equal steps: rows are missing before that of "
-                            "%.4g nm, among others",
-                            1e9 * r->values[i]);
+            wt_log_add(log, WT_WARNING, name, NULL,
+                       "the ramp does not go in equal steps: rows are missing before that of "
+                       "%.4g nm, among others",
+                       1e9 * r->values[i]);
             break;
         }
     if (-last > 1.5 * step)
-        wt_parselog_add(log, WT_WARNING, name, NULL,
-                        "the ramp ends at %.4g nm, and not at 0: the file was cut off, and rows "
-                        "are missing",
-                        1e9 * last);
+        wt_log_add(log, WT_WARNING, name, NULL,
+                   "the ramp ends at %.4g nm, and not at 0: the file was cut off, and rows "
+                   "are missing",
+                   1e9 * last);
 }
 
-static wt_status as_text(const file_reader *self, wt_input *input, wt_parselog *log,
-                         wt_input **text, wt_error *err)
+static wt_status as_text(const file_reader *self, wt_input *input, wt_log *log, wt_input **text,
+                         wt_error *err)
 {
     const unsigned char *bytes = NULL;
     size_t length = 0, n_text = 0, idle = 0;
@@ -141,13 +141,13 @@ static wt_status as_text(const file_reader *self, wt_input *input, wt_parselog *
         curve_text_end(out);
         if (fclose(out) != 0)
             status = wt_fail(err, WT_E_MEMORY, "no memory for a curve");
-        wt_parselog_add(log, WT_WARNING, wt_input_name(input), NULL,
-                        "the file does not say the unit of the deflection signal: its numbers are "
-                        "taken as volts, and the sensitivity must be that of one such unit");
+        wt_log_add(log, WT_WARNING, wt_input_name(input), NULL,
+                   "the file does not say the unit of the deflection signal: its numbers are "
+                   "taken as volts, and the sensitivity must be that of one such unit");
         warn_of_gaps(&r, wt_input_name(input), log);
         if (idle > 0)
-            wt_parselog_add(log, WT_NOTE, wt_input_name(input), NULL,
-                            "%zu rows that repeat the first sample are left out", idle);
+            wt_log_add(log, WT_NOTE, wt_input_name(input), NULL,
+                       "%zu rows that repeat the first sample are left out", idle);
     }
     free(r.values);
     if (status == WT_OK)

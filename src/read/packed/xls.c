@@ -484,7 +484,7 @@ static wt_status open_converters(xls_book *book, wt_error *err)
         book->wide = iconv_open("UTF-8", "UTF-16LE");
     if (book->narrow != (iconv_t)-1 && book->wide != (iconv_t)-1)
         return WT_OK;
-    return errno == EMFILE || errno == ENFILE ? shortage_fail(errno, err) : no_memory(err);
+    return errno == EMFILE || errno == ENFILE ? resource_error_fail(errno, err) : no_memory(err);
 }
 
 /* The records of the book: first what the texts are written in and those that sheets share (sheet

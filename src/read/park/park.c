@@ -120,13 +120,13 @@ static wt_status check_end(const input_window *w, const park_tags *tags, wt_erro
     return WT_E_CORRUPT;
 }
 
-static void warn_of_more(size_t size, size_t end, const char *name, wt_parselog *log)
+static void warn_of_more(size_t size, size_t end, const char *name, wt_log *log)
 {
     if (size > end)
-        wt_parselog_add(log, WT_WARNING, name, NULL,
-                        "the file is %zu bytes longer than its directory says: if they stand "
-                        "inside, what is behind them is shifted; copy the file again",
-                        size - end);
+        wt_log_add(log, WT_WARNING, name, NULL,
+                   "the file is %zu bytes longer than its directory says: if they stand "
+                   "inside, what is behind them is shifted; copy the file again",
+                   size - end);
 }
 
 static wt_status find_tags(input_window *w, park_tags *tags, wt_error *err)
@@ -304,19 +304,20 @@ static bool is_constant(const park_file *f, const park_channel *c)
     return true;
 }
 
-static force_facts facts_of(const park_file *f, size_t half)
+static force_metadata facts_of(const park_file *f, size_t half)
 {
     const size_t n = f->n_samples / 2;
-    force_facts facts = {.kind = half == 0 ? WT_SEGMENT_APPROACH : WT_SEGMENT_RETRACT,
-                         .index = half,
-                         .n_points = n_measured(f, half * n, n),
-                         .duration = (double)NAN,
-                         .velocity = (double)NAN,
-                         .setpoint = (double)NAN,
-                         .cantilever = {.spring_constant = (double)NAN, .sensitivity = (double)NAN},
-                         .offers = {WT_Q_TIME, WT_Q_HEIGHT, WT_Q_MEASURED_HEIGHT, WT_Q_FORCE,
-                                    WT_Q_DEFLECTION_VOLTAGE},
-                         .n_offers = 5};
+    force_metadata facts = {
+        .kind = half == 0 ? WT_SEGMENT_APPROACH : WT_SEGMENT_RETRACT,
+        .index = half,
+        .n_points = n_measured(f, half * n, n),
+        .duration = (double)NAN,
+        .velocity = (double)NAN,
+        .setpoint = (double)NAN,
+        .cantilever = {.spring_constant = (double)NAN, .sensitivity = (double)NAN},
+        .offers = {WT_Q_TIME, WT_Q_HEIGHT, WT_Q_MEASURED_HEIGHT, WT_Q_FORCE,
+                   WT_Q_DEFLECTION_VOLTAGE},
+        .n_offers = 5};
     for (size_t i = 0; i < f->n_channels; i++) {
         const park_channel *c = &f->channels[i];
         if (c->quantity == WT_Q_NONE || (c->quantity == WT_Q_MEASURED_HEIGHT && is_constant(f, c)))
@@ -357,7 +358,7 @@ static wt_status next_curve(wt_force_source *base, wt_force_curve *curve, wt_err
     curve->index = s->curve;
     status = take_curve(&s->file, s->curve, err);
     for (size_t half = 0; half < 2 && status == WT_OK; half++) {
-        const force_facts facts = facts_of(&s->file, half);
+        const force_metadata facts = facts_of(&s->file, half);
         s->from = half * (s->file.n_samples / 2);
         if (force_wants_segment(base, facts.kind))
             status = force_add_segment(base, &facts, curve, err);
@@ -376,9 +377,9 @@ static wt_status open_source(wt_force_source *base, const file_reader *self, wt_
     for (size_t i = 0; i < f->n_channels && i < CHANNELS; i++)
         timed = timed || f->channels[i].quantity == WT_Q_TIME;
     if (status == WT_OK && !timed)
-        wt_parselog_add(base->log, WT_WARNING, base->name, NULL,
-                        "no channel Time Stamp: samples that were not measured cannot be told from "
-                        "those that were");
+        wt_log_add(base->log, WT_WARNING, base->name, NULL,
+                   "no channel Time Stamp: samples that were not measured cannot be told from "
+                   "those that were");
     if (status == WT_OK)
         warn_of_more(f->window.size, f->end, base->name, base->log);
     base->n_curves = f->n_curves;
@@ -481,7 +482,7 @@ static wt_status read_picture(input_window *w, const park_tags *tags, image_list
 }
 
 static wt_status park_images(const file_reader *self, wt_input *input,
-                             const wt_read_options *options, wt_parselog *log, wt_image **images,
+                             const wt_read_options *options, wt_log *log, wt_image **images,
                              size_t *n_images, wt_error *err)
 {
     image_list list = {NULL, 0};
@@ -548,12 +549,12 @@ static wt_status describe_curves(wt_input *input, const wt_read_options *options
     }
     facts_add(facts, "curves", "", "points", "%zu", file.n_curves);
     for (size_t half = 0; half < 2; half++) {
-        const force_facts read = facts_of(&file, half);
+        const force_metadata read = facts_of(&file, half);
         facts_add(facts, half == 0 ? "segment 0" : "segment 1", "", "Time Stamp",
                   "%s, %zu points of the first curve measured, %zu stored",
                   wt_segment_kind_name(read.kind), read.n_points, file.n_samples / 2);
     }
-    const force_facts read = facts_of(&file, 0);
+    const force_metadata read = facts_of(&file, 0);
     for (size_t i = 0; i < file.n_channels; i++) {
         const park_channel *c = &file.channels[i];
         const wt_quantity q = force_read_as(&read, options, c);
@@ -568,7 +569,7 @@ static wt_status describe_curves(wt_input *input, const wt_read_options *options
 }
 
 static wt_status describe(const file_reader *self, wt_input *input, const wt_read_options *options,
-                          wt_parselog *log, table_writer *facts)
+                          wt_log *log, table_writer *facts)
 {
     wt_error err = WT_ERROR_INIT;
     const wt_status status = describe_curves(input, options, facts, &err);

@@ -451,8 +451,8 @@ static wt_status resolve_matrix(const names_row *names, text_file *file, text_ta
     const text_span cell = names->names.cells[0];
     known_name known;
     const size_t n = names->names.n;
-    table->columns = pool_alloc(&file->of_tables, n, sizeof *table->columns);
-    table->problems = pool_alloc(&file->of_tables, 1, sizeof *table->problems);
+    table->columns = arena_alloc(&file->of_tables, n, sizeof *table->columns);
+    table->problems = arena_alloc(&file->of_tables, 1, sizeof *table->problems);
     if (table->columns == NULL || table->problems == NULL)
         return wt_fail(err, WT_E_MEMORY, "no memory for the columns of a table");
     name_normalise(cell, normalised[0]);
@@ -483,8 +483,8 @@ wt_status names_resolve(const names_row *names, text_file *file, text_table *tab
     if (d->matrix)
         return resolve_matrix(names, file, table, options, err);
     r.normalised = calloc(n_cells, sizeof *r.normalised);
-    table->columns = pool_alloc(&file->of_tables, n_cells, sizeof *table->columns);
-    table->problems = pool_alloc(&file->of_tables, n_cells, sizeof *table->problems);
+    table->columns = arena_alloc(&file->of_tables, n_cells, sizeof *table->columns);
+    table->problems = arena_alloc(&file->of_tables, n_cells, sizeof *table->problems);
     if (r.normalised == NULL || table->columns == NULL || table->problems == NULL) {
         free(r.normalised);
         return wt_fail(err, WT_E_MEMORY, "no memory for the columns of a table");

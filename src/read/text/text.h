@@ -174,15 +174,14 @@ typedef struct text_file {
     bool moduli_again;          /* of a name that is read already, in one table */
     text_list steps;            /* titles of steps without a table */
     text_list samples;          /* names of samples, each once */
-    pool memory;                /* of the lists and the values */
-    pool of_tables;             /* their columns */
+    arena memory;               /* of the lists and the values */
+    arena of_tables;            /* their columns */
 } text_file;
 
 /* Runs the description of the reader over the input. `kinds`: the names row of a table must suffice
  * for one of them. */
 wt_status text_scan(const file_reader *reader, wt_input *input, unsigned kinds,
-                    const wt_read_options *options, wt_parselog *log, text_file *file,
-                    wt_error *err);
+                    const wt_read_options *options, wt_log *log, text_file *file, wt_error *err);
 void text_file_free(text_file *file);
 
 /* The same part by part, for files that are larger than memory should be: each part ends where the
@@ -194,7 +193,7 @@ typedef struct text_parts text_parts;
 wt_status text_piece(text_description *description, wt_input *input, size_t *piece, wt_error *err);
 /* The input is the text itself: `as_text` of the reader is not asked. */
 wt_status text_parts_begin(const file_reader *reader, wt_input *input, size_t piece, unsigned kinds,
-                           const wt_read_options *options, wt_parselog *log, text_parts **parts,
+                           const wt_read_options *options, wt_log *log, text_parts **parts,
                            wt_error *err);
 /* Goes on to the next part with a table; WT_END behind the last, which then stays. */
 wt_status text_parts_next(text_parts *parts, wt_error *err);
@@ -224,10 +223,10 @@ wt_status text_table_problem(const text_table *table, wt_quantity_set quantities
 /* The names of unknown columns, with commas; cut with "..." if there is no room. */
 void text_unknown(const text_file *file, char *names, size_t size);
 /* Notes which columns were left out, warns of what the names of others leave open. */
-void text_log_columns(const text_file *file, wt_parselog *log);
+void text_log_columns(const text_file *file, wt_log *log);
 /* The parts of that: of the whole file, of the tables of a part. */
-void text_log_unknown(const text_file *file, wt_parselog *log);
-void text_log_assumed(const text_file *file, wt_parselog *log);
+void text_log_unknown(const text_file *file, wt_log *log);
+void text_log_assumed(const text_file *file, wt_log *log);
 /* "no frequency sweep in it" and which steps are there instead: WT_E_EMPTY. */
 wt_status text_fail_empty(const text_file *file, const char *what, wt_error *err);
 
@@ -282,29 +281,29 @@ extern const struct force_stream text_force_first;
 /* Warns where steps of time or height that are all equal are broken within these rows, of a segment
  * (negative: of none). */
 void text_check_steps(const text_file *file, const text_table *t, int segment, size_t first,
-                      size_t end, wt_parselog *log);
+                      size_t end, wt_log *log);
 /* Curves of the tables at hand that have what a file of one of the kinds needs; kinds 0: of all, as
  * they are read, also those that turn out to be errors. */
 size_t text_count_curves(const text_file *file, unsigned kinds);
 wt_status text_read_sweep(const file_reader *self, wt_input *input, const wt_read_options *options,
-                          wt_parselog *log, wt_sweep *sweep, wt_error *err);
+                          wt_log *log, wt_sweep *sweep, wt_error *err);
 wt_status text_read_spectrum(const file_reader *self, wt_input *input,
-                             const wt_read_options *options, wt_parselog *log,
+                             const wt_read_options *options, wt_log *log,
                              wt_power_spectrum *spectrum, wt_error *err);
 wt_status text_read_images(const file_reader *self, wt_input *input, const wt_read_options *options,
-                           wt_parselog *log, wt_image **images, size_t *n_images, wt_error *err);
+                           wt_log *log, wt_image **images, size_t *n_images, wt_error *err);
 wt_status text_read_noise(const file_reader *self, wt_input *input, const wt_read_options *options,
-                          wt_parselog *log, wt_noise_spectrum *spectrum, wt_error *err);
+                          wt_log *log, wt_noise_spectrum *spectrum, wt_error *err);
 wt_status text_read_record(const file_reader *self, wt_input *input, const wt_read_options *options,
-                           wt_parselog *log, wt_record *record, wt_error *err);
+                           wt_log *log, wt_record *record, wt_error *err);
 wt_status text_describe(const file_reader *self, wt_input *input, const wt_read_options *options,
-                        wt_parselog *log, table_writer *facts);
+                        wt_log *log, table_writer *facts);
 /* The same of a reader with `as_text`, whose text is made once. */
 wt_status text_describe_made(const file_reader *self, wt_input *input,
-                             const wt_read_options *options, wt_parselog *log, table_writer *facts);
+                             const wt_read_options *options, wt_log *log, table_writer *facts);
 
 /* The isotherms of a scanned file, appended to `sweep`. */
-wt_status text_sweep(const text_file *file, const wt_read_options *options, wt_parselog *log,
+wt_status text_sweep(const text_file *file, const wt_read_options *options, wt_log *log,
                      wt_sweep *sweep, wt_error *err);
 
 #endif

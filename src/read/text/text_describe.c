@@ -34,8 +34,7 @@ static const force_stream *stream_of(const text_reading *r)
     return r->piece == SIZE_MAX ? r->self->force : &text_force_first;
 }
 
-static wt_status begin_parts(const text_reading *r, wt_parselog *log, text_parts **parts,
-                             wt_error *err)
+static wt_status begin_parts(const text_reading *r, wt_log *log, text_parts **parts, wt_error *err)
 {
     return text_parts_begin(r->self, r->input, r->piece, r->kinds, r->options, log, parts, err);
 }
@@ -112,7 +111,7 @@ static void add_problem(wt_error *problem, table_writer *facts)
     facts_add(facts, "not readable as it is", "", place, "%s", text);
 }
 
-static void add_sweep(const text_file *file, const wt_read_options *options, wt_parselog *log,
+static void add_sweep(const text_file *file, const wt_read_options *options, wt_log *log,
                       table_writer *facts)
 {
     wt_sweep sweep = {.n_isotherms = 0};
@@ -152,7 +151,7 @@ static void add_sweep(const text_file *file, const wt_read_options *options, wt_
             clocale_print(at, sizeof at, "%.2f degC", r->temperature - WT_ZERO_CELSIUS);
         facts_add(facts, "strain sweep", "", r->source,
                   "%s, %.4g rad/s, %zu points, amplitude %s %%", at, r->angular_frequency, r->n,
-                  ends_of(100 * r->strain[0], 100 * r->strain[r->n - 1], 3).text);
+                  format_range(100 * r->strain[0], 100 * r->strain[r->n - 1], 3).text);
     }
     wt_sweep_clear(&sweep);
 }
@@ -299,7 +298,7 @@ static void add_record(const file_reader *self, wt_input *input, const wt_read_o
 }
 
 /* The sweep of all tables, which are read again where they are no longer at hand. */
-static wt_status add_sweep_of(const text_reading *r, const text_file *file, wt_parselog *log,
+static wt_status add_sweep_of(const text_reading *r, const text_file *file, wt_log *log,
                               table_writer *facts)
 {
     text_file whole = {0};
@@ -316,7 +315,7 @@ static wt_status add_sweep_of(const text_reading *r, const text_file *file, wt_p
 }
 
 /* *has: kinds that are still to be told. */
-static wt_status describe_parts(text_reading *r, text_parts *parts, wt_parselog *log, unsigned *has,
+static wt_status describe_parts(text_reading *r, text_parts *parts, wt_log *log, unsigned *has,
                                 table_writer *facts)
 {
     static const unsigned others[] = {WT_KIND_FORCE, WT_KIND_IMAGE, WT_KIND_SPECTRUM, WT_KIND_NOISE,
@@ -343,7 +342,7 @@ static wt_status describe_parts(text_reading *r, text_parts *parts, wt_parselog 
 }
 
 wt_status text_describe(const file_reader *self, wt_input *input, const wt_read_options *options,
-                        wt_parselog *log, table_writer *facts)
+                        wt_log *log, table_writer *facts)
 {
     text_description *const description = self->description;
     text_reading r = {self, input, options, description->kinds, SIZE_MAX, 0};
@@ -372,7 +371,7 @@ wt_status text_describe(const file_reader *self, wt_input *input, const wt_read_
 }
 
 wt_status text_describe_made(const file_reader *self, wt_input *input,
-                             const wt_read_options *options, wt_parselog *log, table_writer *facts)
+                             const wt_read_options *options, wt_log *log, table_writer *facts)
 {
     wt_input *text = NULL;
     file_reader of_text = *self;

@@ -46,7 +46,7 @@ static wt_status decode(wt_force_source *base, const force_signal *signal, force
 
 /* A force, made from what the table has, and the columns of the kind that are wanted. */
 static void find_signals(const text_source *s, const text_table *t, wt_segment_kind kind,
-                         force_facts *facts)
+                         force_metadata *facts)
 {
     const wt_quantity_set bending =
         WT_Q_BIT(WT_Q_FORCE) | WT_Q_BIT(WT_Q_DEFLECTION) | WT_Q_BIT(WT_Q_DEFLECTION_VOLTAGE);
@@ -67,7 +67,7 @@ static void find_signals(const text_source *s, const text_table *t, wt_segment_k
 }
 
 /* Rows where every channel is empty belong to the longer partner of a column pair. */
-static void drop_empty_rows(const text_table *t, const force_facts *facts, span *rows)
+static void drop_empty_rows(const text_table *t, const force_metadata *facts, span *rows)
 {
     for (; rows->end > rows->first; rows->end--)
         for (size_t i = 0; i < facts->n_signals; i++)
@@ -93,7 +93,7 @@ static wt_status add_segment(text_source *s, wt_force_curve *curve, wt_segment_k
     const text_table *t = &s->file->tables[rows.table];
     char place[40];
     snprintf(place, sizeof place, "table at line %zu", t->names_line);
-    force_facts facts = {
+    force_metadata facts = {
         .kind = kind,
         .index = curve->n_segments,
         .place = place,
@@ -246,7 +246,7 @@ size_t text_count_curves(const text_file *file, unsigned kinds)
 }
 
 static wt_status begin_text(text_source *s, const file_reader *self, wt_input *text, size_t piece,
-                            wt_parselog *log, wt_error *err)
+                            wt_log *log, wt_error *err)
 {
     text_parts_free(s->parts);
     s->parts = NULL;

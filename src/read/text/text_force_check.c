@@ -51,7 +51,7 @@ static broken_steps find_breaks(const text_table *t, size_t first, size_t end, c
 }
 
 void text_check_steps(const text_file *file, const text_table *t, int segment, size_t first,
-                      size_t end, wt_parselog *log)
+                      size_t end, wt_log *log)
 {
     static const wt_quantity even[] = {WT_Q_TIME, WT_Q_HEIGHT, WT_Q_MEASURED_HEIGHT};
     for (size_t i = 0; i < COUNT_OF(even); i++) {
@@ -63,15 +63,15 @@ void text_check_steps(const text_file *file, const text_table *t, int segment, s
             continue;
         const text_place place = line_place(t->row_lines[broken.first]);
         if (broken.wrong == 0)
-            wt_parselog_add(log, WT_WARNING, file->name, place.words,
-                            "the equal steps of %s have %zu gap%s from here on: are rows missing?",
-                            c->name, broken.gaps, broken.gaps > 1 ? "s" : "");
+            wt_log_add(log, WT_WARNING, file->name, place.words,
+                       "the equal steps of %s have %zu gap%s from here on: are rows missing?",
+                       c->name, broken.gaps, broken.gaps > 1 ? "s" : "");
         else
-            wt_parselog_add(log, WT_WARNING, file->name, place.words,
-                            "the equal steps of %s are broken at %zu place%s from here on: are "
-                            "rows missing, there twice, moved or changed?",
-                            c->name, broken.gaps + broken.wrong,
-                            broken.gaps + broken.wrong > 1 ? "s" : "");
+            wt_log_add(log, WT_WARNING, file->name, place.words,
+                       "the equal steps of %s are broken at %zu place%s from here on: are "
+                       "rows missing, there twice, moved or changed?",
+                       c->name, broken.gaps + broken.wrong,
+                       broken.gaps + broken.wrong > 1 ? "s" : "");
         return;
     }
 }

@@ -17,10 +17,10 @@
 void scan_check_rows(text_scanner *s)
 {
     if (s->n_rows > 0 && s->n_rows < s->n_said)
-        wt_parselog_add(s->log, WT_WARNING, s->file->name, NULL,
-                        "the file says %zu rows, but only %zu are there: the others are missing, "
-                        "as in a file that was cut off",
-                        s->n_said, s->n_rows);
+        wt_log_add(s->log, WT_WARNING, s->file->name, NULL,
+                   "the file says %zu rows, but only %zu are there: the others are missing, "
+                   "as in a file that was cut off",
+                   s->n_said, s->n_rows);
     s->n_said = s->n_rows = 0;
 }
 
@@ -69,14 +69,14 @@ static bool field_number(const text_scanner *s, const header_field *field, text_
             unit = s->d->aliases[i].means;
     if (!wt_number_parse(text.text, text.length, '.', number) &&
         !wt_number_parse(text.text, text.length, ',', number)) {
-        wt_parselog_add(s->log, WT_NOTE, s->file->name, place.words, "%s: \"%s\" is not a number",
-                        field->name, value->text);
+        wt_log_add(s->log, WT_NOTE, s->file->name, place.words, "%s: \"%s\" is not a number",
+                   field->name, value->text);
         return false;
     }
     if (wt_unit_to_si(unit, field->quantity, &factor, &offset, NULL) != WT_OK) {
-        wt_parselog_add(s->log, WT_WARNING, s->file->name, place.words,
-                        "%s: \"%s\" is not a unit of %s; the value is left out", field->name, unit,
-                        wt_quantity_id(field->quantity));
+        wt_log_add(s->log, WT_WARNING, s->file->name, place.words,
+                   "%s: \"%s\" is not a unit of %s; the value is left out", field->name, unit,
+                   wt_quantity_id(field->quantity));
         return false;
     }
     *number = factor * *number + offset;

@@ -14,7 +14,7 @@
 typedef struct imaging {
     const text_file *file;
     const text_table *table;
-    wt_parselog *log;
+    wt_log *log;
     image_list *list;
     wt_error *err;
 } imaging;
@@ -79,9 +79,9 @@ static void say_rounded(const imaging *m, const text_column *column, const text_
         return;
     wt_format_si(axis->rounded, "m", 3, rounded, sizeof rounded);
     wt_format_si(axis->step, "m", 6, step, sizeof step);
-    wt_parselog_add(m->log, WT_NOTE, m->file->name, NULL,
-                    "column \"%s\" is rounded to %s: its steps are taken as equal, %s by its ends",
-                    column->name, rounded, step);
+    wt_log_add(m->log, WT_NOTE, m->file->name, NULL,
+               "column \"%s\" is rounded to %s: its steps are taken as equal, %s by its ends",
+               column->name, rounded, step);
 }
 
 /* A profile that was taken backwards is turned round. */
@@ -226,13 +226,13 @@ static bool left_out(const imaging *m, wt_status status)
 {
     if (status != WT_E_UNIT || m->file->n_tables < 2)
         return false;
-    wt_parselog_add(m->log, WT_NOTE, m->file->name, line_place(m->table->names_line).words,
-                    "an image of no heights is left out");
+    wt_log_add(m->log, WT_NOTE, m->file->name, line_place(m->table->names_line).words,
+               "an image of no heights is left out");
     return true;
 }
 
 wt_status text_read_images(const file_reader *self, wt_input *input, const wt_read_options *options,
-                           wt_parselog *log, wt_image **images, size_t *n_images, wt_error *err)
+                           wt_log *log, wt_image **images, size_t *n_images, wt_error *err)
 {
     text_file file;
     image_list list = {NULL, 0};

@@ -103,7 +103,7 @@ static char *text_to_utf8(const encoding_choice *c, const unsigned char *bytes, 
     char *text = malloc(capacity);
     iconv_t converter = iconv_open("UTF-8", c->iconv);
     if (converter == (iconv_t)-1 && (errno == EMFILE || errno == ENFILE))
-        shortage_note(errno);
+        resource_error_note(errno);
     bool good = text != NULL && converter != (iconv_t)-1;
     char *in = (char *)(uintptr_t)bytes; /* iconv does not write to its input */
     size_t left = length, room = capacity - 1;

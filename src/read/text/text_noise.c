@@ -24,7 +24,7 @@ static const struct {
                  {WT_Q_VOLTAGE_DENSITY, true, true}};
 
 /* Rows without a place in the spectrum are left out with a warning. */
-static wt_status collect_points(const text_file *file, wt_parselog *log, point *points,
+static wt_status collect_points(const text_file *file, wt_log *log, point *points,
                                 wt_noise_spectrum *spectrum, wt_error *err)
 {
     const text_table *const t = &file->tables[0];
@@ -56,9 +56,9 @@ static wt_status collect_points(const text_file *file, wt_parselog *log, point *
         line = n_left_out++ == 0 ? t->row_lines[r] : line;
     }
     if (n_left_out > 0)
-        wt_parselog_add(log, WT_WARNING, file->name, line_place(line).words,
-                        "%zu row%s without a frequency of 0 or more left out, this the first",
-                        n_left_out, n_left_out == 1 ? "" : "s");
+        wt_log_add(log, WT_WARNING, file->name, line_place(line).words,
+                   "%zu row%s without a frequency of 0 or more left out, this the first",
+                   n_left_out, n_left_out == 1 ? "" : "s");
     spectrum->temperature = t->header.value[HEADER_TEMPERATURE];
     spectrum->spring_constant = t->header.value[HEADER_SPRING_CONSTANT];
     spectrum->sensitivity = t->header.value[HEADER_SENSITIVITY];
@@ -88,7 +88,7 @@ static wt_status fill_sorted(point *points, wt_noise_spectrum *spectrum, wt_erro
 }
 
 wt_status text_read_noise(const file_reader *self, wt_input *input, const wt_read_options *options,
-                          wt_parselog *log, wt_noise_spectrum *spectrum, wt_error *err)
+                          wt_log *log, wt_noise_spectrum *spectrum, wt_error *err)
 {
     text_file file;
     wt_status status = text_scan(self, input, WT_KIND_NOISE, options, log, &file, err);

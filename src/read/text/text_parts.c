@@ -40,13 +40,12 @@ static void drop_empty_tables(text_file *file)
     file->n_tables = kept;
 }
 
-static void log_text(const text_file *file, wt_parselog *log)
+static void log_text(const text_file *file, wt_log *log)
 {
     const text_feed *feed = file->feed;
     if (feed->n_replaced > 0)
-        wt_parselog_add(log, WT_WARNING, file->name, NULL,
-                        "%zu byte sequences are no characters of %s", feed->n_replaced,
-                        feed->words);
+        wt_log_add(log, WT_WARNING, file->name, NULL, "%zu byte sequences are no characters of %s",
+                   feed->n_replaced, feed->words);
 }
 
 /* What columns of that name make of the unit given for them. */
@@ -109,14 +108,14 @@ static wt_status check_given_units(const text_parts *p, wt_error *err)
         if (p->options.unit_use != NULL)
             tell_use(given, &p->options.unit_use[u]);
         else if (given->overruled)
-            wt_parselog_add(p->s.log, WT_WARNING, p->file.name, NULL,
-                            "column \"%.*s\" is in \"%s\", as the file or its format says; the "
-                            "unit given, \"%s\", does not apply to it",
-                            (int)(equal - unit), unit, given->stated, equal + 1);
+            wt_log_add(p->s.log, WT_WARNING, p->file.name, NULL,
+                       "column \"%.*s\" is in \"%s\", as the file or its format says; the "
+                       "unit given, \"%s\", does not apply to it",
+                       (int)(equal - unit), unit, given->stated, equal + 1);
         else if (!given->used)
-            wt_parselog_add(p->s.log, WT_WARNING, p->file.name, NULL,
-                            "a unit is given for \"%.*s\", but there is no such column",
-                            (int)(equal - unit), unit);
+            wt_log_add(p->s.log, WT_WARNING, p->file.name, NULL,
+                       "a unit is given for \"%.*s\", but there is no such column",
+                       (int)(equal - unit), unit);
     }
     return WT_OK;
 }
@@ -145,7 +144,7 @@ wt_status text_piece(text_description *description, wt_input *input, size_t *pie
 }
 
 wt_status text_parts_begin(const file_reader *reader, wt_input *input, size_t piece, unsigned kinds,
-                           const wt_read_options *options, wt_parselog *log, text_parts **parts,
+                           const wt_read_options *options, wt_log *log, text_parts **parts,
                            wt_error *err)
 {
     const text_description *d = NULL;
@@ -158,8 +157,8 @@ wt_status text_parts_begin(const file_reader *reader, wt_input *input, size_t pi
     p->options = *options;
     p->file = (text_file){.description = d, .name = wt_input_name(input)};
     p->file.feed = calloc(1, sizeof *p->file.feed);
-    p->file.values = pool_alloc(&p->file.memory, d->n_fields, sizeof *p->file.values);
-    p->given = pool_alloc(&p->file.memory, options->n_units, sizeof *p->given);
+    p->file.values = arena_alloc(&p->file.memory, d->n_fields, sizeof *p->file.values);
+    p->given = arena_alloc(&p->file.memory, options->n_units, sizeof *p->given);
     if (p->file.feed == NULL || p->file.memory.failed) {
         text_parts_free(p);
         return wt_fail(err, WT_E_MEMORY, "no memory for the tables of the file");
@@ -184,7 +183,7 @@ static void drop_tables(text_parts *p)
     for (size_t i = 0; i < p->file.n_tables; i++)
         free_table(&p->file.tables[i]);
     p->file.n_tables = 0;
-    pool_free(&p->file.of_tables);
+    arena_free(&p->file.of_tables);
     p->s.table = NULL;
 }
 
@@ -241,8 +240,7 @@ void text_parts_free(text_parts *p)
 }
 
 wt_status text_scan(const file_reader *reader, wt_input *input, unsigned kinds,
-                    const wt_read_options *options, wt_parselog *log, text_file *file,
-                    wt_error *err)
+                    const wt_read_options *options, wt_log *log, text_file *file, wt_error *err)
 {
     wt_input *text = NULL;
     text_parts *parts = NULL;
@@ -269,8 +267,8 @@ void text_file_free(text_file *file)
     for (size_t i = 0; i < file->n_tables; i++)
         free_table(&file->tables[i]);
     free(file->tables);
-    pool_free(&file->memory);
-    pool_free(&file->of_tables);
+    arena_free(&file->memory);
+    arena_free(&file->of_tables);
     feed_free(file->feed);
     *file = (text_file){0};
 }

@@ -83,13 +83,13 @@ static wt_status add_ramps(sweep_builder *b, const size_t *all, size_t n_all, bo
     }
     *taken = used > 0;
     if (*taken && n < n_all)
-        wt_parselog_add(b->log, WT_WARNING, b->file->name, line_place(b->table->names_line).words,
-                        "%zu points at %g rad/s without a temperature above absolute zero left out",
-                        n_all - n, sweep_angular(b, rows[0]));
+        wt_log_add(b->log, WT_WARNING, b->file->name, line_place(b->table->names_line).words,
+                   "%zu points at %g rad/s without a temperature above absolute zero left out",
+                   n_all - n, sweep_angular(b, rows[0]));
     if (*taken && used < n)
-        wt_parselog_add(b->log, WT_NOTE, b->file->name, line_place(b->table->names_line).words,
-                        "%zu points beside the temperature sweeps at %g rad/s left out", n - used,
-                        sweep_angular(b, rows[0]));
+        wt_log_add(b->log, WT_NOTE, b->file->name, line_place(b->table->names_line).words,
+                   "%zu points beside the temperature sweeps at %g rad/s left out", n - used,
+                   sweep_angular(b, rows[0]));
     return status;
 }
 
@@ -158,10 +158,9 @@ static wt_status take_turns(sweep_builder *b, size_t *rows, size_t *n, size_t *c
         *n = kept;
         status = add_ramps(b, chosen, n_chosen, &taken);
         if (!taken)
-            wt_parselog_add(b->log, WT_WARNING, b->file->name,
-                            line_place(b->table->names_line).words,
-                            "%zu points at %g rad/s make no temperature sweep and are left out",
-                            n_chosen, sweep_angular(b, like));
+            wt_log_add(b->log, WT_WARNING, b->file->name, line_place(b->table->names_line).words,
+                       "%zu points at %g rad/s make no temperature sweep and are left out",
+                       n_chosen, sweep_angular(b, like));
     }
     return status;
 }

@@ -112,7 +112,7 @@ static wt_status run_on(const text_file *file, wt_record *record, wt_record_chan
 }
 
 /* Many instruments count a force that presses as negative. */
-static void turn_load(const text_file *file, wt_record *record, wt_parselog *log)
+static void turn_load(const text_file *file, wt_record *record, wt_log *log)
 {
     double *const load = record->channel[WT_RECORD_NORMAL_FORCE];
     size_t negative = 0, positive = 0;
@@ -124,30 +124,29 @@ static void turn_load(const text_file *file, wt_record *record, wt_parselog *log
         return;
     for (size_t i = 0; i < record->n; i++)
         load[i] = -load[i];
-    wt_parselog_add(log, WT_NOTE, file->name, NULL,
-                    "the normal force is negative when it presses; it is turned round");
+    wt_log_add(log, WT_NOTE, file->name, NULL,
+               "the normal force is negative when it presses; it is turned round");
 }
 
 /* Without a column that is not needed there is a record, but not what the user thinks it holds. */
-static void log_problems(const text_file *file, const text_table *t, wt_parselog *log)
+static void log_problems(const text_file *file, const text_table *t, wt_log *log)
 {
     for (size_t i = 0; i < t->n_problems; i++) {
         const text_column *const c = &t->problems[i];
         const char *const quantity = wt_quantity_id(c->rule->quantity);
         if (c->problem == COLUMN_BAD_UNIT)
-            wt_parselog_add(log, WT_WARNING, file->name, NULL,
-                            "column \"%s\" is not read: \"%s\" is no unit of %s", c->name, c->unit,
-                            quantity);
+            wt_log_add(log, WT_WARNING, file->name, NULL,
+                       "column \"%s\" is not read: \"%s\" is no unit of %s", c->name, c->unit,
+                       quantity);
         else if (c->problem == COLUMN_NO_UNIT)
-            wt_parselog_add(
-                log, WT_WARNING, file->name, NULL,
-                "column \"%s\" is not read: the file does not say its unit (%s; give it "
-                "with --units)",
-                c->name, quantity);
+            wt_log_add(log, WT_WARNING, file->name, NULL,
+                       "column \"%s\" is not read: the file does not say its unit (%s; give it "
+                       "with --units)",
+                       c->name, quantity);
     }
 }
 
-static wt_status fill(const text_file *file, wt_record *record, wt_parselog *log, wt_error *err)
+static wt_status fill(const text_file *file, wt_record *record, wt_log *log, wt_error *err)
 {
     size_t step = 0, left_out = 0;
     wt_status status = WT_OK;
@@ -165,14 +164,14 @@ static wt_status fill(const text_file *file, wt_record *record, wt_parselog *log
     if (status == WT_OK && record->n == 0)
         status = text_fail_empty(file, "record of friction", err);
     if (left_out > 0)
-        wt_parselog_add(log, WT_WARNING, file->name, NULL,
-                        "%zu row%s without friction or without a time left out", left_out,
-                        left_out == 1 ? "" : "s");
+        wt_log_add(log, WT_WARNING, file->name, NULL,
+                   "%zu row%s without friction or without a time left out", left_out,
+                   left_out == 1 ? "" : "s");
     return status;
 }
 
 /* A step of a recipe may count its time anew. */
-static void check_steps(const text_file *file, wt_parselog *log)
+static void check_steps(const text_file *file, wt_log *log)
 {
     for (size_t i = 0; i < file->n_tables; i++) {
         const text_table *const t = &file->tables[i];
@@ -185,7 +184,7 @@ static void check_steps(const text_file *file, wt_parselog *log)
 }
 
 wt_status text_read_record(const file_reader *self, wt_input *input, const wt_read_options *options,
-                           wt_parselog *log, wt_record *record, wt_error *err)
+                           wt_log *log, wt_record *record, wt_error *err)
 {
     text_file file;
     wt_record made = {.radius = (double)NAN};

@@ -104,9 +104,9 @@ static void warn_of_cell(text_scanner *s, const text_column *column)
 {
     char found[16];
     text_copy(found, sizeof found, s->row.cells[column->cell]);
-    wt_parselog_add(s->log, WT_WARNING, s->file->name, line_place(s->i + 1).words,
-                    "\"%s\" in column %zu (%s) is no value and is left out", found,
-                    column->cell + 1, column->name);
+    wt_log_add(s->log, WT_WARNING, s->file->name, line_place(s->i + 1).words,
+               "\"%s\" in column %zu (%s) is no value and is left out", found, column->cell + 1,
+               column->name);
 }
 
 row_quality scan_read_row(text_scanner *s, size_t *bad)
@@ -173,8 +173,8 @@ static void watch_number(text_scanner *s)
     if (t->number_cell < s->row.n)
         (void)cell_read(s->row.cells[t->number_cell], t->decimal, s->d, &number);
     if (number > s->last_number + 1)
-        wt_parselog_add(s->log, WT_WARNING, s->file->name, line_place(s->i + 1).words,
-                        "the number of a row is not the next one: are rows missing before it?");
+        wt_log_add(s->log, WT_WARNING, s->file->name, line_place(s->i + 1).words,
+                   "the number of a row is not the next one: are rows missing before it?");
     s->last_number = number;
 }
 

@@ -245,8 +245,8 @@ static void watch_orphan(text_scanner *s)
         s->step_line != t->step_line)
         return;
     if (scan_split_row(s) && s->row.n >= t->n_names && scan_read_row(s, &bad) == ROW_GOOD)
-        wt_parselog_add(s->log, WT_WARNING, s->file->name, line_place(s->i + 1).words,
-                        "row of numbers after the end of its table, not read");
+        wt_log_add(s->log, WT_WARNING, s->file->name, line_place(s->i + 1).words,
+                   "row of numbers after the end of its table, not read");
 }
 
 /* Whether nothing of a table comes any more: a signature, the remarks of a person. Asked once, as
@@ -267,9 +267,8 @@ static void leave_rest(text_scanner *s)
 {
     char found[48];
     text_copy(found, sizeof found, s->line);
-    wt_parselog_add(s->log, WT_WARNING, s->file->name, line_place(s->i + 1).words,
-                    "the lines from here on are no rows of the table and are left out: \"%s\"",
-                    found);
+    wt_log_add(s->log, WT_WARNING, s->file->name, line_place(s->i + 1).words,
+               "the lines from here on are no rows of the table and are left out: \"%s\"", found);
     s->state = SCAN_HEADER;
     header_line(s);
 }

@@ -30,7 +30,7 @@ typedef struct text_scanner {
     text_file *file;
     const text_description *d;
     const wt_read_options *options;
-    wt_parselog *log;
+    wt_log *log;
     wt_error *err;
     wt_status status; /* the first failure, which ends the walk */
     unsigned kinds;

@@ -38,7 +38,7 @@ static wt_status bad_row(const text_table *t, size_t row, point p, wt_error *err
 }
 
 static wt_status collect_points(const text_file *file, point *points, size_t *n,
-                                wt_spectrum_kind *kind, wt_parselog *log, wt_error *err)
+                                wt_spectrum_kind *kind, wt_log *log, wt_error *err)
 {
     for (size_t i = 0; i < file->n_tables; i++) {
         const text_table *t = &file->tables[i];
@@ -66,9 +66,9 @@ static wt_status collect_points(const text_file *file, point *points, size_t *n,
             case ROW_EMPTY:
                 break;
             case ROW_MEAN:
-                wt_parselog_add(log, WT_WARNING, file->name, line_place(t->row_lines[r]).words,
-                                "wavenumber 0 is the mean of the surface, no wave; its density is "
-                                "left out");
+                wt_log_add(log, WT_WARNING, file->name, line_place(t->row_lines[r]).words,
+                           "wavenumber 0 is the mean of the surface, no wave; its density is "
+                           "left out");
                 break;
             case ROW_BAD:
                 return bad_row(t, r, p, err);
@@ -79,7 +79,7 @@ static wt_status collect_points(const text_file *file, point *points, size_t *n,
 }
 
 wt_status text_read_spectrum(const file_reader *self, wt_input *input,
-                             const wt_read_options *options, wt_parselog *log,
+                             const wt_read_options *options, wt_log *log,
                              wt_power_spectrum *spectrum, wt_error *err)
 {
     text_file file;

@@ -18,10 +18,10 @@ static void warn_of_shifted(const sweep_builder *b, double low, double high)
 {
     const double decades = log10(high / low);
     if (decades > most_decades)
-        wt_parselog_add(b->log, WT_WARNING, b->file->name, line_place(b->table->names_line).words,
-                        "%s over %.1f decades at one temperature: this looks like a "
-                        "master curve that was shifted already; export the measured isotherms",
-                        b->c.step != NULL ? "times" : "frequencies", decades);
+        wt_log_add(b->log, WT_WARNING, b->file->name, line_place(b->table->names_line).words,
+                   "%s over %.1f decades at one temperature: this looks like a "
+                   "master curve that was shifted already; export the measured isotherms",
+                   b->c.step != NULL ? "times" : "frequencies", decades);
 }
 
 /* An isotherm of one of several amplitudes has it behind its source. */
@@ -46,9 +46,9 @@ static wt_status end_isotherm(sweep_builder *b)
     if (b->n == 0)
         return WT_OK;
     if (!(high > low * (1 + SAME_FREQUENCY))) {
-        wt_parselog_add(b->log, WT_NOTE, b->file->name, line_place(b->table->names_line).words,
-                        "%s%s%zu points at one %s, left out", title, title[0] != '\0' ? ": " : "",
-                        b->n, b->c.step != NULL ? "time" : "frequency: not a frequency sweep");
+        wt_log_add(b->log, WT_NOTE, b->file->name, line_place(b->table->names_line).words,
+                   "%s%s%zu points at one %s, left out", title, title[0] != '\0' ? ": " : "", b->n,
+                   b->c.step != NULL ? "time" : "frequency: not a frequency sweep");
         b->n = 0;
         return WT_OK;
     }
@@ -189,9 +189,9 @@ static void drop_counts(const sweep_builder *b)
     const bool counts = numbers && n > 1 && 4 * n > 3 * t->n_rows;
     if (t->sample_cell == SIZE_MAX || !(counts || names->n >= SAMPLES_MAX))
         return;
-    wt_parselog_add(b->log, WT_WARNING, b->file->name, line_place(t->names_line).words,
-                    "column %zu, which would name the sample, %s: left out", t->sample_cell + 1,
-                    counts ? "is different in every row" : "has too many names");
+    wt_log_add(b->log, WT_WARNING, b->file->name, line_place(t->names_line).words,
+               "column %zu, which would name the sample, %s: left out", t->sample_cell + 1,
+               counts ? "is different in every row" : "has too many names");
     for (size_t row = 0; row < t->n_rows; row++)
         t->samples[row] = NO_SAMPLE;
 }
@@ -210,9 +210,9 @@ static wt_status split_table(sweep_builder *b)
         if (sweep_is_point(b, row))
             rows[n++] = row;
     if (status == WT_OK && n < t->n_rows)
-        wt_parselog_add(b->log, WT_NOTE, b->file->name, line_place(t->names_line).words,
-                        "%zu rows without a positive frequency or without a modulus left out",
-                        t->n_rows - n);
+        wt_log_add(b->log, WT_NOTE, b->file->name, line_place(t->names_line).words,
+                   "%zu rows without a positive frequency or without a modulus left out",
+                   t->n_rows - n);
     while (status == WT_OK && n > 0) {
         const wt_sweep before = *b->sweep;
         size_t taken = 0, kept = 0;
@@ -244,19 +244,18 @@ static void say_what_follows(const sweep_builder *b)
     if (c->step != NULL)
         return;
     if (!c->has_storage || !c->has_loss)
-        wt_parselog_add(b->log, WT_NOTE, b->file->name, NULL, "only the %s was measured",
-                        c->has_storage ? "storage modulus"
-                        : c->has_loss  ? "loss modulus"
-                                       : "loss factor");
+        wt_log_add(b->log, WT_NOTE, b->file->name, NULL, "only the %s was measured",
+                   c->has_storage ? "storage modulus"
+                   : c->has_loss  ? "loss modulus"
+                                  : "loss factor");
     else if (c->storage == NULL)
-        wt_parselog_add(
-            b->log, WT_NOTE, b->file->name, NULL,
-            "no column of the storage modulus: it follows from column \"%s\" and the %s",
-            (c->magnitude != NULL ? c->magnitude : c->loss)->name,
-            c->factor != NULL ? "loss factor" : "loss modulus");
+        wt_log_add(b->log, WT_NOTE, b->file->name, NULL,
+                   "no column of the storage modulus: it follows from column \"%s\" and the %s",
+                   (c->magnitude != NULL ? c->magnitude : c->loss)->name,
+                   c->factor != NULL ? "loss factor" : "loss modulus");
     if (c->has_loss && c->loss == NULL)
-        wt_parselog_add(b->log, WT_NOTE, b->file->name, NULL,
-                        "no column of the loss modulus: storage modulus times loss factor");
+        wt_log_add(b->log, WT_NOTE, b->file->name, NULL,
+                   "no column of the loss modulus: storage modulus times loss factor");
 }
 
 /* The user may say what names leave open, not what they tell. */
@@ -365,7 +364,7 @@ static wt_status move_sweeps(wt_sweep *to, wt_sweep *from, wt_error *err)
     return WT_OK;
 }
 
-wt_status text_sweep(const text_file *file, const wt_read_options *options, wt_parselog *log,
+wt_status text_sweep(const text_file *file, const wt_read_options *options, wt_log *log,
                      wt_sweep *sweep, wt_error *err)
 {
     wt_sweep made = {.n_isotherms = 0};
@@ -387,14 +386,14 @@ wt_status text_sweep(const text_file *file, const wt_read_options *options, wt_p
             lacking = b.lacks_frequency ? b.table : lacking;
         }
     if (n_steps > 0 && made.loading == WT_OSCILLATION)
-        wt_parselog_add(log, WT_NOTE, file->name, NULL,
-                        "%zu test%s of relaxation or creep left out beside the sweeps", n_steps,
-                        n_steps > 1 ? "s" : "");
+        wt_log_add(log, WT_NOTE, file->name, NULL,
+                   "%zu test%s of relaxation or creep left out beside the sweeps", n_steps,
+                   n_steps > 1 ? "s" : "");
     for (size_t i = 0; i < file->n_tables && status == WT_OK && made.loading == WT_OSCILLATION; i++)
         status = sweep_check_table(file, &file->tables[i], log, err);
     for (size_t i = 0; i < file->steps.n; i++)
-        wt_parselog_add(log, WT_NOTE, file->name, NULL, "step without a frequency sweep: %s",
-                        file->steps.items[i]);
+        wt_log_add(log, WT_NOTE, file->name, NULL, "step without a frequency sweep: %s",
+                   file->steps.items[i]);
     if (status == WT_OK && n_sweeps(&made) == 0 && lacking != NULL) {
         status = wt_fail(err, WT_E_MISSING, "no frequency");
         wt_error_place(err, "table at line %zu", lacking->names_line);
@@ -410,7 +409,7 @@ wt_status text_sweep(const text_file *file, const wt_read_options *options, wt_p
 }
 
 wt_status text_read_sweep(const file_reader *self, wt_input *input, const wt_read_options *options,
-                          wt_parselog *log, wt_sweep *sweep, wt_error *err)
+                          wt_log *log, wt_sweep *sweep, wt_error *err)
 {
     text_file file;
     wt_status status = text_scan(self, input, WT_KIND_SWEEP, options, log, &file, err);

@@ -24,7 +24,7 @@ typedef struct sweep_builder {
     const text_table *table;
     sweep_columns c;
     const wt_read_options *options;
-    wt_parselog *log;
+    wt_log *log;
     wt_sweep *sweep;
     size_t *rows; /* [n] of the isotherm or the temperature sweep that is being collected */
     size_t n;
@@ -55,8 +55,7 @@ void sweep_source(const sweep_builder *b, char *source, size_t size);
 wt_status sweep_set_temperature(const sweep_builder *b, double *temperature, double *spread);
 
 /* ---- text_sweep_check.c: warns of what the table says against itself. */
-wt_status sweep_check_table(const text_file *file, text_table *table, wt_parselog *log,
-                            wt_error *err);
+wt_status sweep_check_table(const text_file *file, text_table *table, wt_log *log, wt_error *err);
 
 /* ---- text_strain.c: takes the rows of strain sweeps out of `rows`, and adds these to the sweep.
  */

@@ -21,8 +21,7 @@ static int by_values(const void *a, const void *b, void *user)
 }
 
 /* A measurement gives no row a second time, to the last digit of all that is read of it. */
-static wt_status warn_of_doubles(const text_file *file, text_table *t, wt_parselog *log,
-                                 wt_error *err)
+static wt_status warn_of_doubles(const text_file *file, text_table *t, wt_log *log, wt_error *err)
 {
     enum { COLUMNS_LEAST = 3 };
     size_t n = 0, line = SIZE_MAX;
@@ -45,10 +44,10 @@ static wt_status warn_of_doubles(const text_file *file, text_table *t, wt_parsel
     }
     free(rows);
     if (n > 0)
-        wt_parselog_add(log, WT_WARNING, file->name, line_place(line).words,
-                        "%zu rows from here on are there twice with the same numbers: was a part "
-                        "of the file copied into it?",
-                        n);
+        wt_log_add(log, WT_WARNING, file->name, line_place(line).words,
+                   "%zu rows from here on are there twice with the same numbers: was a part "
+                   "of the file copied into it?",
+                   n);
     return WT_OK;
 }
 
@@ -62,7 +61,7 @@ static double factor_gap(const text_table *t, const sweep_columns *c, size_t row
 /* Where the loss factors of most rows are those of their moduli, one that is not is a wrong number
  * in its row. Two digits leave 5 %; a table of fixed decimals, and the noise of an instrument that
  * averages all three, leave in most rows the like of half of them. */
-static wt_status warn_of_factors(const text_file *file, const text_table *t, wt_parselog *log,
+static wt_status warn_of_factors(const text_file *file, const text_table *t, wt_log *log,
                                  wt_error *err)
 {
     static const double two_digits = 0.05, most_rows = 10;
@@ -89,14 +88,14 @@ static wt_status warn_of_factors(const text_file *file, const text_table *t, wt_
         line = wrong && t->row_lines[i] < line ? t->row_lines[i] : line;
     }
     if (n_wrong > 0)
-        wt_parselog_add(log, WT_WARNING, file->name, line_place(line).words,
-                        "the loss factor of %zu row%s from here on is not the ratio of the moduli "
-                        "beside it, as it is in the others: was a number changed?",
-                        n_wrong, n_wrong > 1 ? "s" : "");
+        wt_log_add(log, WT_WARNING, file->name, line_place(line).words,
+                   "the loss factor of %zu row%s from here on is not the ratio of the moduli "
+                   "beside it, as it is in the others: was a number changed?",
+                   n_wrong, n_wrong > 1 ? "s" : "");
     return WT_OK;
 }
 
-wt_status sweep_check_table(const text_file *file, text_table *t, wt_parselog *log, wt_error *err)
+wt_status sweep_check_table(const text_file *file, text_table *t, wt_log *log, wt_error *err)
 {
     const wt_status status = warn_of_doubles(file, t, log, err);
     return status == WT_OK ? warn_of_factors(file, t, log, err) : status;

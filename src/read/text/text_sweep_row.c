@@ -213,9 +213,9 @@ wt_status sweep_set_temperature(const sweep_builder *b, double *temperature, dou
     if (!isnan(header) && (!fallback || n == 0)) {
         *temperature = header;
         if (fallback)
-            wt_parselog_add(b->log, WT_WARNING, b->file->name, NULL,
-                            "the temperature of %.2f degC stands in the header text only",
-                            header - WT_ZERO_CELSIUS);
+            wt_log_add(b->log, WT_WARNING, b->file->name, NULL,
+                       "the temperature of %.2f degC stands in the header text only",
+                       header - WT_ZERO_CELSIUS);
     } else if (n > 0) {
         *temperature = mean;
     } else if (b->options->temperature_in_name != NULL) {

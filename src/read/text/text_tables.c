@@ -12,8 +12,8 @@ wt_status text_list_add(text_file *file, text_list *list, size_t most, text_span
     if (list->n >= most)
         return WT_OK;
     if (list->items == NULL)
-        list->items = pool_alloc(&file->memory, most, sizeof *list->items);
-    char *copy = list->items != NULL ? pool_text(&file->memory, text.text, text.length) : NULL;
+        list->items = arena_alloc(&file->memory, most, sizeof *list->items);
+    char *copy = list->items != NULL ? arena_text(&file->memory, text.text, text.length) : NULL;
     if (copy == NULL)
         return wt_fail(err, WT_E_MEMORY, "no memory for the names in the file");
     list->items[list->n++] = copy;
@@ -190,29 +190,29 @@ void text_unknown(const text_file *file, char *names, size_t size)
     }
 }
 
-void text_log_assumed(const text_file *file, wt_parselog *log)
+void text_log_assumed(const text_file *file, wt_log *log)
 {
     for (size_t t = 0; t < file->n_tables; t++)
         for (size_t i = 0; i < file->tables[t].n_columns; i++) {
             const text_column *column = &file->tables[t].columns[i];
             if (column->assumed != NULL)
-                wt_parselog_add(log, WT_WARNING, file->name, NULL, "%s", column->assumed);
+                wt_log_add(log, WT_WARNING, file->name, NULL, "%s", column->assumed);
         }
 }
 
-void text_log_unknown(const text_file *file, wt_parselog *log)
+void text_log_unknown(const text_file *file, wt_log *log)
 {
     char names[256];
     text_unknown(file, names, sizeof names);
     if (file->unknown.n > 0)
-        wt_parselog_add(log, WT_NOTE, file->name, NULL, "columns not used: %s", names);
+        wt_log_add(log, WT_NOTE, file->name, NULL, "columns not used: %s", names);
     if (file->moduli_again)
-        wt_parselog_add(log, WT_WARNING, file->name, NULL,
-                        "a modulus has several columns of one name: only the first is read; of a "
-                        "table with columns for each temperature make one for each of them");
+        wt_log_add(log, WT_WARNING, file->name, NULL,
+                   "a modulus has several columns of one name: only the first is read; of a "
+                   "table with columns for each temperature make one for each of them");
 }
 
-void text_log_columns(const text_file *file, wt_parselog *log)
+void text_log_columns(const text_file *file, wt_log *log)
 {
     text_log_assumed(file, log);
     text_log_unknown(file, log);

@@ -51,8 +51,8 @@ void cut_watch(text_scanner *s)
     s->last_is_short = lacks && l->short_rows == 0 && s->table->n_rows > 0;
     l->short_rows += lacks;
     if (lacks)
-        wt_parselog_add(s->log, WT_NOTE, s->file->name, line_place(s->i + 1).words,
-                        "row with fewer cells than columns; the missing ones are empty");
+        wt_log_add(s->log, WT_NOTE, s->file->name, line_place(s->i + 1).words,
+                   "row with fewer cells than columns; the missing ones are empty");
     l->cells_min = s->table->n_rows == 0 ? s->row.n : least(l->cells_min, s->row.n);
     l->empty = l->empty || cell.length == 0;
     if (cell.length == 0)
@@ -95,9 +95,9 @@ bool cut_is_whole(const text_scanner *s)
 void cut_check_end(text_scanner *s)
 {
     if (s->unclosed)
-        wt_parselog_add(s->log, WT_WARNING, s->file->name, line_place(s->i).words,
-                        "the line that ends a table is not there: the file was cut off, and rows "
-                        "are missing");
+        wt_log_add(s->log, WT_WARNING, s->file->name, line_place(s->i).words,
+                   "the line that ends a table is not there: the file was cut off, and rows "
+                   "are missing");
     s->unclosed = false;
 }
 
@@ -106,26 +106,26 @@ void cut_finish(text_scanner *s)
     const text_place place = line_place(s->i);
     const line_end end = s->i > 0 ? feed_line_end(s->file->feed, s->i - 1) : END_WHOLE;
     if (end == END_HALF) {
-        wt_parselog_add(s->log, WT_WARNING, s->file->name, place.words,
-                        "the last line has half a line end: the file was cut off there, and what "
-                        "follows is missing");
+        wt_log_add(s->log, WT_WARNING, s->file->name, place.words,
+                   "the last line has half a line end: the file was cut off there, and what "
+                   "follows is missing");
     } else if (end == END_NONE) {
         if (s->cut == CUT_ROW_DROPPED)
-            wt_parselog_add(s->log, WT_WARNING, s->file->name, place.words,
-                            "the last line has no line end and is no whole row: the file was cut "
-                            "off; the row is left out, and rows may be missing behind it");
+            wt_log_add(s->log, WT_WARNING, s->file->name, place.words,
+                       "the last line has no line end and is no whole row: the file was cut "
+                       "off; the row is left out, and rows may be missing behind it");
         else
-            wt_parselog_add(s->log, WT_WARNING, s->file->name, place.words,
-                            "the last line has no line end: if the file was cut off there, %s "
-                            "missing; if it is whole, a line end put behind it says so",
-                            s->cut == CUT_ROW_KEPT ? "rows, or digits of its last number, are"
-                                                   : "what follows is");
+            wt_log_add(s->log, WT_WARNING, s->file->name, place.words,
+                       "the last line has no line end: if the file was cut off there, %s "
+                       "missing; if it is whole, a line end put behind it says so",
+                       s->cut == CUT_ROW_KEPT ? "rows, or digits of its last number, are"
+                                              : "what follows is");
     } else if (s->last_is_short) {
         s->table->n_rows--;
         s->n_rows -= s->n_rows > 0;
-        wt_parselog_add(s->log, WT_WARNING, s->file->name, place.words,
-                        "the last row has fewer cells than all others: the file was cut off; the "
-                        "row is left out, and rows may be missing behind it");
+        wt_log_add(s->log, WT_WARNING, s->file->name, place.words,
+                   "the last row has fewer cells than all others: the file was cut off; the "
+                   "row is left out, and rows may be missing behind it");
     }
     cut_check_end(s);
 }

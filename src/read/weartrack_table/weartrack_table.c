@@ -35,7 +35,7 @@ static bool is_measured(const wt_result *result, const char *name)
 }
 
 /* What is not read is not lost in silence; what is said of the tables themselves is no loss. */
-static void warn_of_others(wt_parselog *log, const char *name, const wt_result *result)
+static void warn_of_others(wt_log *log, const char *name, const wt_result *result)
 {
     char names[160] = "";
     size_t n = 0, used = 0;
@@ -50,10 +50,10 @@ static void warn_of_others(wt_parselog *log, const char *name, const wt_result *
                                      table);
     }
     if (n > 0)
-        wt_parselog_add(log, WT_WARNING, name, NULL,
-                        "tables that are no measurements are left out, %zu (%s%s); `weartrack "
-                        "table` writes them",
-                        n, names, used < sizeof names ? "" : "...");
+        wt_log_add(log, WT_WARNING, name, NULL,
+                   "tables that are no measurements are left out, %zu (%s%s); `weartrack "
+                   "table` writes them",
+                   n, names, used < sizeof names ? "" : "...");
 }
 
 static wt_status read_result(wt_input *input, wt_result **result, wt_error *err)
@@ -66,8 +66,8 @@ static wt_status read_result(wt_input *input, wt_result **result, wt_error *err)
 }
 
 /* The tables of measurements of the file, as a text stream in memory. */
-static wt_status as_text(const file_reader *self, wt_input *input, wt_parselog *log,
-                         wt_input **text, wt_error *err)
+static wt_status as_text(const file_reader *self, wt_input *input, wt_log *log, wt_input **text,
+                         wt_error *err)
 {
     wt_result *result = NULL;
     FILE *stream = NULL;
@@ -107,7 +107,7 @@ static wt_status as_text(const file_reader *self, wt_input *input, wt_parselog *
 }
 
 static wt_status describe(const file_reader *self, wt_input *input, const wt_read_options *options,
-                          wt_parselog *log, table_writer *facts)
+                          wt_log *log, table_writer *facts)
 {
     wt_result *result = NULL;
     bool measured = false;

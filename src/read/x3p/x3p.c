@@ -174,7 +174,7 @@ static wt_status leave_out_invalid(x3p_file *f, const image_list *list, wt_error
 /* ---- the reader ------------------------------------------------------------------------------ */
 
 static wt_status x3p_images(const file_reader *self, wt_input *input,
-                            const wt_read_options *options, wt_parselog *log, wt_image **images,
+                            const wt_read_options *options, wt_log *log, wt_image **images,
                             size_t *n_images, wt_error *err)
 {
     x3p_file f = {.archive = NULL};

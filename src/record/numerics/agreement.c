@@ -250,7 +250,7 @@ void agreement_ends(const agreement *a, size_t i, bool at_once, double ends[2])
     ends[1] = a->smooth[i] + half;
 }
 
-void agreement_judge(agreement *a, double margin)
+void agreement_assess(agreement *a, double margin)
 {
     double farthest = -(double)INFINITY, beyond = 0;
     a->verdict = AGREEMENT_YES;

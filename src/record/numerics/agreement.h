@@ -56,7 +56,7 @@ wt_status agreement_fit(const agreement_data *data, size_t most_terms, agreement
 /* Yes: at every step the interval of 95 % is within +- margin (an intersection of tests, which
  * needs no correction). No: at some step the curve is beyond it by the interval that holds for all
  * steps at once (Scheffe's, or Bonferroni's if that is shorter). */
-void agreement_judge(agreement *a, double margin);
+void agreement_assess(agreement *a, double margin);
 void agreement_clear(agreement *a);
 
 /* Ends of the curve at step i: by the interval of 95 % there, or by that for all steps at once. */

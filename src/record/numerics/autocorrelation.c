@@ -49,10 +49,10 @@ scatter_sums scatter_begin(scatter_law law)
 
 void scatter_add(scatter_sums *s, double y)
 {
-    scatter_add_beside(s, (double)s->n, y);
+    scatter_add_column(s, (double)s->n, y);
 }
 
-void scatter_add_beside(scatter_sums *s, double column, double y)
+void scatter_add_column(scatter_sums *s, double column, double y)
 {
     const double value[3] = {1, column, y};
     const double spread = s->variance + (1 - s->law.share), gain = s->variance / spread;
@@ -99,7 +99,7 @@ double scatter_likelihood(const scatter_sums *s, bool line, double least)
     return likelihood_of(s, line, least, line ? 2 * log((double)s->n) : 0);
 }
 
-double scatter_likelihood_beside(const scatter_sums *s, double least)
+double scatter_profile_likelihood(const scatter_sums *s, double least)
 {
     return likelihood_of(s, true, least, 0);
 }

@@ -51,7 +51,7 @@ typedef struct scatter_sums {
 scatter_sums scatter_begin(scatter_law law);
 void scatter_add(scatter_sums *s, double y);
 /* The same with another column than the number of the point, which is of order 1. */
-void scatter_add_beside(scatter_sums *s, double column, double y);
+void scatter_add_column(scatter_sums *s, double column, double y);
 
 /* Of the points so far about a constant, or about a line with `line`: the squares left, and the
  * coefficient asked for (the constant, or the slope) with its variance by unit variance. */
@@ -64,7 +64,7 @@ scatter_fit scatter_solve(const scatter_sums *s, bool line);
  * squares of a point are at least: the digits of the numbers. */
 double scatter_likelihood(const scatter_sums *s, bool line, double least);
 /* The same about a constant and the other column. */
-double scatter_likelihood_beside(const scatter_sums *s, double least);
+double scatter_profile_likelihood(const scatter_sums *s, double least);
 /* Variance of the plain mean of n points by unit variance. */
 double scatter_of_mean(scatter_law law, size_t n);
 

@@ -319,8 +319,8 @@ static void find_by(wt_record *record, wt_record_channel c, const pause_room *r,
     keep(record, r);
 }
 
-static wt_status tell(const wt_record *record, const double *paused, record_pauses *pauses,
-                      wt_error *err)
+static wt_status text_append(const wt_record *record, const double *paused, record_pauses *pauses,
+                             wt_error *err)
 {
     for (size_t i = 0; i < record->n; i++) {
         if (!(paused[i] > 0))
@@ -341,23 +341,23 @@ wt_status record_leave_out_pauses(wt_record *record, record_pauses *pauses, wt_e
                                               WT_RECORD_ROTATION, WT_RECORD_POSITION,
                                               WT_RECORD_LAPS,     WT_RECORD_CHANNELS};
     const size_t n = record->n;
-    pool memory = {0};
+    arena memory = {0};
     *pauses = (record_pauses){.n = 0};
     if (record->channel[WT_RECORD_TIME] == NULL || n < 2)
         return WT_OK;
-    const pause_room r = {pool_numbers(&memory, n),
-                          pool_numbers(&memory, n),
-                          pool_numbers(&memory, n),
-                          pool_numbers(&memory, n),
-                          pool_alloc(&memory, n, sizeof(bool)),
-                          pool_alloc(&memory, n, sizeof(level))};
+    const pause_room r = {arena_numbers(&memory, n),
+                          arena_numbers(&memory, n),
+                          arena_numbers(&memory, n),
+                          arena_numbers(&memory, n),
+                          arena_alloc(&memory, n, sizeof(bool)),
+                          arena_alloc(&memory, n, sizeof(level))};
     wt_status status = memory.failed ? wt_fail(err, WT_E_MEMORY, "out of memory") : WT_OK;
     for (size_t i = 0; status == WT_OK && i < COUNT_OF(order); i++)
         if (order[i] != WT_RECORD_CHANNELS || (record->channel[WT_RECORD_DISTANCE] == NULL &&
                                                record->channel[WT_RECORD_LAPS] == NULL))
             find_by(record, order[i], &r, &pauses->alike);
     if (status == WT_OK)
-        status = tell(record, r.paused, pauses, err);
-    pool_free(&memory);
+        status = text_append(record, r.paused, pauses, err);
+    arena_free(&memory);
     return status;
 }

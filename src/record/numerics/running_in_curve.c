@@ -12,7 +12,7 @@
 
 /* ---- the course ------------------------------------------------------------------------------ */
 
-double course_at(const course *c, double log_time)
+double running_in_curve_at(const course *c, double log_time)
 {
     const double place = (log_time - c->log_first) / c->log_step;
     if (!(place > 0))
@@ -24,7 +24,7 @@ double course_at(const course *c, double log_time)
     return c->value[i] + part * (c->value[i + 1] - c->value[i]);
 }
 
-double course_height(const course *c)
+double running_in_curve_height(const course *c)
 {
     double most = 0;
     for (size_t i = 0; i < c->n; i++)
@@ -32,9 +32,9 @@ double course_height(const course *c)
     return most;
 }
 
-double course_settled(const course *c, double share)
+double running_in_curve_settled(const course *c, double share)
 {
-    const double limit = share * course_height(c);
+    const double limit = share * running_in_curve_height(c);
     for (size_t i = c->n; limit > 0 && i-- > 0;)
         if (fabs(c->value[i]) > limit) {
             if (i + 1 == c->n)
@@ -46,20 +46,20 @@ double course_settled(const course *c, double share)
     return (double)NAN;
 }
 
-wt_status course_series_new(size_t n, course_series *s, wt_error *err)
+wt_status running_in_series_new(size_t n, running_in_series *s, wt_error *err)
 {
-    *s = (course_series){.n = n,
-                         .end = calloc(n + 1, sizeof *s->end),
-                         .friction = calloc(n + 1, sizeof *s->friction)};
+    *s = (running_in_series){.n = n,
+                             .end = calloc(n + 1, sizeof *s->end),
+                             .friction = calloc(n + 1, sizeof *s->friction)};
     return s->end == NULL || s->friction == NULL ? wt_fail(err, WT_E_MEMORY, "out of memory")
                                                  : WT_OK;
 }
 
-void course_series_clear(course_series *s)
+void running_in_series_clear(running_in_series *s)
 {
     free(s->end);
     free(s->friction);
-    *s = (course_series){.n = 0};
+    *s = (running_in_series){.n = 0};
 }
 
 /* ---- one factor ------------------------------------------------------------------------------ */
@@ -78,9 +78,9 @@ static double piece(const course *c, size_t i, double from, double to)
     return (c->value[i] - rise) * (to - from) + rise * to * log(to / from);
 }
 
-static course_sums course_sums_make(const course *c, pool *memory)
+static course_sums course_sums_make(const course *c, arena *memory)
 {
-    const course_sums m = {c, pool_numbers(memory, c->n), pool_numbers(memory, c->n)};
+    const course_sums m = {c, arena_numbers(memory, c->n), arena_numbers(memory, c->n)};
     if (memory->failed)
         return m;
     for (size_t i = 0; i < c->n; i++) {
@@ -104,7 +104,7 @@ static double course_sum(const course_sums *m, double time)
 }
 
 /* The course over its height, as the means of the series would show it. column: [n]. */
-static void fill_column(const course_series *s, const course_sums *m, double height,
+static void fill_column(const running_in_series *s, const course_sums *m, double height,
                         double log_factor, double *column)
 {
     const double faster = exp(-log_factor);
@@ -117,11 +117,11 @@ static void fill_column(const course_series *s, const course_sums *m, double hei
     }
 }
 
-static scatter_sums sum_up(const course_series *s, const double *column, scatter_law law)
+static scatter_sums sum_up(const running_in_series *s, const double *column, scatter_law law)
 {
     scatter_sums sums = scatter_begin(law);
     for (size_t i = 0; i < s->n; i++)
-        scatter_add_beside(&sums, column[i], s->friction[i]);
+        scatter_add_column(&sums, column[i], s->friction[i]);
     return sums;
 }
 
@@ -135,7 +135,7 @@ static const double finest = 1e-4;
 static const double golden = 0.6180339887498949; /* of the golden section */
 
 typedef struct place_search {
-    const course_series *s;
+    const running_in_series *s;
     course_sums sums;
     double height, *column;
     scatter_law law;
@@ -170,14 +170,14 @@ static double search(const place_search *p, double low, double high)
     return 0.5 * (low + high);
 }
 
-course_place course_place_find(const course_series *s, const course *c, scatter_law law,
-                               double around, double within)
+running_in_optimum running_in_optimum_find(const running_in_series *s, const course *c,
+                                           scatter_law law, double around, double within)
 {
     const double none = (double)NAN;
-    course_place place = {none, none, none};
-    pool memory = {0};
-    place_search p = {s, course_sums_make(c, &memory), course_height(c),
-                      pool_numbers(&memory, s->n), law};
+    running_in_optimum place = {none, none, none};
+    arena memory = {0};
+    place_search p = {s, course_sums_make(c, &memory), running_in_curve_height(c),
+                      arena_numbers(&memory, s->n), law};
     if (!memory.failed && p.height > 0 && isfinite(p.height) && isfinite(around)) {
         place.log_factor = within > 0 ? search(&p, around - within, around + within) : around;
         fill_column(s, &p.sums, p.height, place.log_factor, p.column);
@@ -186,7 +186,7 @@ course_place course_place_find(const course_series *s, const course *c, scatter_
         place.ratio = coefficient / p.height;
         place.level = level_of(&sums, coefficient);
     }
-    pool_free(&memory);
+    arena_free(&memory);
     return place;
 }
 
@@ -204,7 +204,7 @@ static const double tail = 0.025; /* on each side of an interval of 95 % */
 
 /* One series with its course. */
 typedef struct member {
-    const course_series *s;
+    const running_in_series *s;
     course_sums sums;
     double height, variance, least, settled;
     double *column;                  /* [n] */
@@ -252,7 +252,7 @@ static law_sum try_member(member *t, double log_factor, bool first)
         /* changes about as large as the scatter of the whole are taken for possible, or else a
          * course that lies beyond the series would be as likely as it is free */
         const double l = scatter_prior(SCATTER_UNDER_CHANGE, i) +
-                         scatter_likelihood_beside(&s, t->least) -
+                         scatter_profile_likelihood(&s, t->least) -
                          0.5 * log1p(f.variance * scatter / t->variance);
         if (!isfinite(l)) /* no course within the series */
             continue;
@@ -360,7 +360,7 @@ static void limits_of(const scan *t, double limit[2])
     limit[0] = (double)INFINITY;
     limit[1] = -(double)INFINITY;
     for (size_t i = 0; i < t->n_of; i++) {
-        const course_series *const s = t->of[i].s;
+        const running_in_series *const s = t->of[i].s;
         const double length = s->end[s->n - 1], mean = length / (double)s->n,
                      settled = t->of[i].settled;
         limit[0] = fmin(limit[0], log(least_part * fewest_means * mean / settled));
@@ -424,7 +424,7 @@ static void weigh(scan *t, double expected)
         t->weight[i] = exp(t->weight[i] - all);
 }
 
-static void tell_ratio(const scan *t, course_fit *fit)
+static void append_ratio(const scan *t, running_in_curve_fit *fit)
 {
     double mean = 0, square = 0;
     for (size_t i = 0; i < t->n; i++) {
@@ -466,7 +466,7 @@ static bool is_within(const scan *t, double log_factor)
     return true;
 }
 
-static void tell_factor(const scan *t, course_fit *fit)
+static void tell_factor(const scan *t, running_in_curve_fit *fit)
 {
     double beyond = 0, within = 0, mean = 0, square = 0;
     for (size_t i = 0; i < t->n; i++) {
@@ -481,7 +481,7 @@ static void tell_factor(const scan *t, course_fit *fit)
     fit->high = beyond > tail ? (double)NAN : quantile(t, 1 - tail);
 }
 
-static void find(scan *t, double expected, course_fit *fit)
+static void find(scan *t, double expected, running_in_curve_fit *fit)
 {
     double limit[2];
     limits_of(t, limit);
@@ -498,13 +498,13 @@ static void find(scan *t, double expected, course_fit *fit)
         try_factors(t, -wide, wide, FINE, false);
         weigh(t, expected);
     }
-    tell_ratio(t, fit);
+    append_ratio(t, fit);
     fit->law = t->of[0].best_law;
     fit->level = t->of[0].best_level;
     fit->scatter = t->of[0].best_scatter;
 }
 
-static double variance_of(const course_series *s)
+static double variance_of(const running_in_series *s)
 {
     double mean = 0, sum = 0;
     for (size_t i = 0; i < s->n; i++)
@@ -514,20 +514,20 @@ static double variance_of(const course_series *s)
     return sum / (double)s->n;
 }
 
-static wt_status begin(const course_pair *of, double settled_share, pool *memory, member *m,
-                       wt_error *err)
+static wt_status begin(const running_in_curve_pair *of, double settled_share, arena *memory,
+                       member *m, wt_error *err)
 {
-    const course_series *const s = of->series;
+    const running_in_series *const s = of->series;
     *m = (member){.s = s, .variance = variance_of(s), .best = -(double)INFINITY};
-    m->height = course_height(of->course);
-    m->settled = course_settled(of->course, settled_share);
+    m->height = running_in_curve_height(of->course);
+    m->settled = running_in_curve_settled(of->course, settled_share);
     m->least = SCATTER_DIGITS * SCATTER_DIGITS * m->variance;
     if (s->n < COURSE_FEWEST || !(m->variance > 0))
         return wt_fail(err, WT_E_RANGE, "too few cycles, or they do not scatter");
     if (!(m->height > 0) || !(m->settled > 0))
         return wt_fail(err, WT_E_RANGE, "friction is predicted not to change");
     m->sums = course_sums_make(of->course, memory);
-    m->column = pool_numbers(memory, s->n);
+    m->column = arena_numbers(memory, s->n);
     if (memory->failed)
         return wt_fail(err, WT_E_MEMORY, "out of memory");
     for (size_t i = 0; i < SCATTER_LAWS; i++) {
@@ -542,24 +542,24 @@ static wt_status begin(const course_pair *of, double settled_share, pool *memory
     return WT_OK;
 }
 
-wt_status course_fit_make(const course_pair *of, size_t n, double settled_share, double expected,
-                          course_fit *fit, wt_error *err)
+wt_status running_in_curve_fit_make(const running_in_curve_pair *of, size_t n, double settled_share,
+                                    double expected, running_in_curve_fit *fit, wt_error *err)
 {
     const double none = (double)NAN;
-    pool memory = {0};
-    scan t = {.of = pool_alloc(&memory, n, sizeof *t.of),
+    arena memory = {0};
+    scan t = {.of = arena_alloc(&memory, n, sizeof *t.of),
               .n_of = n,
-              .each = pool_alloc(&memory, n, sizeof *t.each),
-              .log_factor = pool_numbers(&memory, COARSE_MOST),
-              .weight = pool_numbers(&memory, COARSE_MOST),
-              .ratio = pool_numbers(&memory, COARSE_MOST),
-              .square = pool_numbers(&memory, COARSE_MOST)};
-    *fit = (course_fit){.log_factor = none, .error = none, .low = none, .high = none};
+              .each = arena_alloc(&memory, n, sizeof *t.each),
+              .log_factor = arena_numbers(&memory, COARSE_MOST),
+              .weight = arena_numbers(&memory, COARSE_MOST),
+              .ratio = arena_numbers(&memory, COARSE_MOST),
+              .square = arena_numbers(&memory, COARSE_MOST)};
+    *fit = (running_in_curve_fit){.log_factor = none, .error = none, .low = none, .high = none};
     wt_status status = memory.failed ? wt_fail(err, WT_E_MEMORY, "out of memory") : WT_OK;
     for (size_t i = 0; status == WT_OK && i < n; i++)
         status = begin(&of[i], settled_share, &memory, &t.of[i], err);
     if (status == WT_OK)
         find(&t, expected, fit);
-    pool_free(&memory);
+    arena_free(&memory);
     return status;
 }

@@ -15,32 +15,32 @@ typedef struct course {
     double log_first, log_step; /* of the times [s] */
     const double *value;        /* [n] */
 } course;
-double course_at(const course *c, double log_time);
+double running_in_curve_at(const course *c, double log_time);
 /* The largest change that is left at any time. */
-double course_height(const course *c);
+double running_in_curve_height(const course *c);
 /* The last time at which `share` of that is left; NaN: the times do not hold it. */
-double course_settled(const course *c, double share);
+double running_in_curve_settled(const course *c, double share);
 
 /* Means over equal numbers of cycles. */
-typedef struct course_series {
+typedef struct running_in_series {
     size_t n;
     double begin;     /* of the first; 0 unless what was before it is not known */
     double *end;      /* [n] from the start on; each begins where the one before ends */
     double *friction; /* [n] */
-} course_series;
-wt_status course_series_new(size_t n, course_series *s, wt_error *err) WT_NODISCARD;
-void course_series_clear(course_series *s);
+} running_in_series;
+wt_status running_in_series_new(size_t n, running_in_series *s, wt_error *err) WT_NODISCARD;
+void running_in_series_clear(running_in_series *s);
 
-typedef struct course_pair {
-    const course_series *series;
+typedef struct running_in_curve_pair {
+    const running_in_series *series;
     const course *course; /* predicted for it */
-} course_pair;
+} running_in_curve_pair;
 
 /* friction = level + ratio x course(time / factor), with slow and white scatter of one law from end
  * to end; likelihood averaged over laws and, but for the factor itself, over factors. Several
  * series have factor and ratio in common, and a level and a law each. */
 #define COURSE_ODDS 20 /* as of the running-in: one false alarm in twenty at most */
-typedef struct course_fit {
+typedef struct running_in_curve_fit {
     bool seen;         /* odds above COURSE_ODDS to 1 over a constant */
     double log_odds;   /* ln of them */
     double log_factor; /* mean; NaN unless seen */
@@ -50,19 +50,20 @@ typedef struct course_fit {
     double level;    /* of the likeliest, in the first series */
     double scatter;  /* likewise, the variance of the means about it */
     scatter_law law; /* likewise */
-} course_fit;
+} running_in_curve_fit;
 
 /* `expected`: standard deviation of the logarithm of the factor about 1 before the series is seen,
  * which tells the ratio where no course is seen. WT_E_RANGE of fewer than COURSE_FEWEST means. */
 enum { COURSE_FEWEST = 16 };
-wt_status course_fit_make(const course_pair *of, size_t n, double settled_share, double expected,
-                          course_fit *fit, wt_error *err) WT_NODISCARD;
+wt_status running_in_curve_fit_make(const running_in_curve_pair *of, size_t n, double settled_share,
+                                    double expected, running_in_curve_fit *fit,
+                                    wt_error *err) WT_NODISCARD;
 /* The likeliest factor and ratio of another course by one law, the factor sought within `within`
  * about `around`, or held there if that is 0. */
-typedef struct course_place {
+typedef struct running_in_optimum {
     double log_factor, ratio, level;
-} course_place;
-course_place course_place_find(const course_series *s, const course *c, scatter_law law,
-                               double around, double within);
+} running_in_optimum;
+running_in_optimum running_in_optimum_find(const running_in_series *s, const course *c,
+                                           scatter_law law, double around, double within);
 
 #endif

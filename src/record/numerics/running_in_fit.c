@@ -119,7 +119,7 @@ static void judge(const likelihoods *l, double variance, wt_running_in *r)
 
 static wt_status find(const double *y, size_t n, wt_running_in *r, wt_error *err)
 {
-    pool memory = {0};
+    arena memory = {0};
     const double variance = total_variance(y, n);
     if (n < FEWEST_BEFORE + 2 * FEWEST_BEHIND)
         return WT_OK;
@@ -127,10 +127,10 @@ static wt_status find(const double *y, size_t n, wt_running_in *r, wt_error *err
         r->why_not = "the cycles do not scatter";
         return WT_OK;
     }
-    likelihoods l = {n, pool_numbers(&memory, n + 1), pool_numbers(&memory, n + 1),
+    likelihoods l = {n, arena_numbers(&memory, n + 1), arena_numbers(&memory, n + 1),
                      SCATTER_DIGITS * SCATTER_DIGITS * variance};
     if (memory.failed) {
-        pool_free(&memory);
+        arena_free(&memory);
         return wt_fail(err, WT_E_MEMORY, "out of memory");
     }
     for (size_t k = 0; k <= n; k++)
@@ -139,7 +139,7 @@ static wt_status find(const double *y, size_t n, wt_running_in *r, wt_error *err
         add_law(&l, y, i);
     r->why_not = "";
     judge(&l, variance, r);
-    pool_free(&memory);
+    arena_free(&memory);
     return WT_OK;
 }
 

@@ -67,11 +67,11 @@ static slip_sums find_falls(const double *y, size_t n, double least)
 
 wt_status wt_stick_slip_find(const double *y, size_t n, wt_stick_slip *slips, wt_error *err)
 {
-    pool memory = {0};
+    arena memory = {0};
     *slips = (wt_stick_slip){0, (double)NAN, (double)NAN};
     if (n < 4 * FEWEST) /* a slip and its rise are four samples at least */
         return WT_OK;
-    double *const room = pool_numbers(&memory, n);
+    double *const room = arena_numbers(&memory, n);
     wt_status status = memory.failed ? wt_fail(err, WT_E_MEMORY, "out of memory") : WT_OK;
     if (status == WT_OK) {
         const double scatter = scatter_of(y, n, room);
@@ -79,6 +79,6 @@ wt_status wt_stick_slip_find(const double *y, size_t n, wt_stick_slip *slips, wt
         if (s.n >= FEWEST && s.rise > least_ratio * s.fall)
             *slips = (wt_stick_slip){(size_t)s.n, s.mean, sqrt(s.squares / (s.n - 1) / s.n)};
     }
-    pool_free(&memory);
+    arena_free(&memory);
     return status;
 }

@@ -6,7 +6,7 @@
 
 #include <math.h>
 
-size_t wt_change_of_mean(const double *y, size_t n)
+size_t wt_step_detect(const double *y, size_t n)
 {
     static const double margin = 0.02; /* of the series, on either side */
     const size_t edge = (size_t)ceil(margin * (double)n);

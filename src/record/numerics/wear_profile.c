@@ -70,7 +70,7 @@ wt_status wt_track_find(const double *x, const double *z, size_t n, wt_track *tr
 {
     const double none = (double)NAN;
     const size_t quarter = n / 4;
-    pool memory = {0};
+    arena memory = {0};
     *track = (wt_track){.at = none,
                         .from = none,
                         .to = none,
@@ -83,9 +83,9 @@ wt_status wt_track_find(const double *x, const double *z, size_t n, wt_track *tr
         wt_error_found(err, "%zu", n);
         return WT_E_RANGE;
     }
-    double *const bx = pool_numbers(&memory, 2 * quarter),
-                  *const bz = pool_numbers(&memory, 2 * quarter),
-                  *const r = pool_numbers(&memory, n);
+    double *const bx = arena_numbers(&memory, 2 * quarter),
+                  *const bz = arena_numbers(&memory, 2 * quarter),
+                  *const r = arena_numbers(&memory, n);
     wt_status status = memory.failed ? wt_fail(err, WT_E_MEMORY, "out of memory") : WT_OK;
     if (status == WT_OK) {
         double c00, c01, c11, squares;
@@ -102,6 +102,6 @@ wt_status wt_track_find(const double *x, const double *z, size_t n, wt_track *tr
             r[i] = z[i] - track->intercept - track->slope * x[i];
         status = measure(x, r, n, quarter, track, err);
     }
-    pool_free(&memory);
+    arena_free(&memory);
     return status;
 }

@@ -23,11 +23,11 @@ static int by_spot(const void *a, const void *b)
 }
 
 /* Of the means of the spots, of finite values. */
-static moments spot_moments(const double *values, const long *spots, size_t n, pool *memory)
+static moments spot_moments(const double *values, const long *spots, size_t n, arena *memory)
 {
     size_t kept = 0, units = 0;
-    spot_sign *signs = pool_alloc(memory, n + 1, sizeof *signs);
-    double *means = pool_numbers(memory, n + 1);
+    spot_sign *signs = arena_alloc(memory, n + 1, sizeof *signs);
+    double *means = arena_numbers(memory, n + 1);
     if (memory->failed)
         return (moments){0};
     for (size_t i = 0; i < n; i++)
@@ -46,12 +46,12 @@ static moments spot_moments(const double *values, const long *spots, size_t n, p
 wt_status wt_compare_signs(const double *const values[2], const long *const spots[2],
                            const size_t n[2], wt_sign_comparison *signs, wt_error *err)
 {
-    pool memory = {0};
+    arena memory = {0};
     moments m[2];
     for (int g = 0; g < 2; g++)
         m[g] = spot_moments(values[g], spots[g], n[g], &memory);
     const bool failed = memory.failed;
-    pool_free(&memory);
+    arena_free(&memory);
     if (failed)
         return wt_fail(err, WT_E_MEMORY, "out of memory");
     const t_error parts[] = {{sqrt(m[0].variance / m[0].n), m[0].n - 1},
@@ -73,7 +73,7 @@ wt_status wt_compare_signs(const double *const values[2], const long *const spot
     return WT_OK;
 }
 
-double wt_chance_of_both(double a, double b)
+double wt_combined_p_value(double a, double b)
 {
     if (isnan(a) || isnan(b))
         return isnan(a) ? b : a;

@@ -34,8 +34,8 @@ static double squares_left(const worn_curve *c, double shift, double *modulus)
     return fmax(0, ff - gf * gf / gg);
 }
 
-wt_status wt_worn_tip_fit(const wt_tip *tip, double radius, double depth, double bending,
-                          wt_worn_tip *fit, wt_error *err)
+wt_status wt_tip_wear_fit(const wt_tip *tip, double radius, double depth, double bending,
+                          wt_tip_wear *fit, wt_error *err)
 {
     const double section = 0.5 * (3 - sqrt(5)); /* of the golden section search */
     wt_contact_table *table = NULL;
@@ -72,7 +72,7 @@ wt_status wt_worn_tip_fit(const wt_tip *tip, double radius, double depth, double
         }
     }
     const double left = squares_left(&c, 0.5 * (low + high), &modulus);
-    *fit = (wt_worn_tip){log(modulus), sqrt(left / samples) / largest};
+    *fit = (wt_tip_wear){log(modulus), sqrt(left / samples) / largest};
     wt_contact_table_free(table);
     return WT_OK;
 }
