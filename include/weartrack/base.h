@@ -1,26 +1,26 @@
-/* weartrack - base room: status, error, parse log, quantities and units, numbers,
- * paths, output files, digests, provenance, estimates, threads.
+/* weartrack - base: status, error, parse log, quantities and units, numbers, paths, output files,
+ * digests, provenance, estimates and threads.
  *
- * Conventions that hold for the whole library:
- * - SI inside. A `double` is in the SI unit of its quantity unless its name says otherwise.
- * - A function that can fail returns wt_status and takes a wt_error as its last argument, which
- *   may be NULL. Outputs are unchanged on failure unless the text says otherwise.
- * - Whatever a `_new` or `_open` function returns is owned by the caller and released by the
- *   matching `_free` or `_close`, which accept NULL. A `const` pointer that is returned is
- *   borrowed from the object it was asked of and lives as long as that object is unchanged.
+ * Conventions of the whole library:
+ * - All values are in SI units. A `double` has the SI unit of its quantity unless its name
+ *   states another one.
+ * - A function that can fail returns wt_status and has a wt_error as its last argument, which
+ *   may be NULL. Outputs are unchanged on failure unless the comment states otherwise.
+ * - The caller owns the result of a `_new` or `_open` function and frees it with the matching
+ *   `_free` or `_close`, which accept NULL. A returned `const` pointer is borrowed from the object
+ *   that was passed and is valid as long as that object is unchanged.
  * - The library never prints, never exits and never changes the locale.
  *
- * What stays as it is, from one version to the next:
- * - While MAJOR is 0 a new MINOR may break programs; from 1 on only a new MAJOR may. A new PATCH
- *   never does: it leaves structures and enumerations as they are. soname and CMake package say the
- *   same: libweartrack.so.0.MINOR and then .MAJOR, find_package(weartrack 0.MINOR). A program needs
- *   a library that is at least as new as the headers it was built with.
- * - A structure that the caller fills begins with its `_defaults` function; one without begins with
- *   zeros, `wt_tip tip = {0}`. Name the fields in an initialiser. So a program that is built anew
- *   does with fields that it does not know what was done before they came.
+ * Compatibility between versions:
+ * - While MAJOR is 0, a new MINOR may break programs. From 1 on, only a new MAJOR may. A new PATCH
+ *   never does: it does not change structures and enumerations. The soname and the CMake package
+ *   follow this rule: libweartrack.so.0.MINOR (later .MAJOR), find_package(weartrack 0.MINOR).
+ *   A program needs a library that is at least as new as its headers.
+ * - Initialise a structure with its `_defaults` function, or with zeros (`wt_tip tip = {0}`) if it
+ *   has none. Name the members in initialisers. Members of later versions then have the value
+ *   that preserves the old behaviour.
  *
- * SPDX-License-Identifier: GPL-3.0-or-later
- */
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #ifndef WEARTRACK_BASE_H
 #define WEARTRACK_BASE_H
 
@@ -29,7 +29,7 @@
 #include <stdint.h>
 #include <stdio.h>
 
-/* The version; the build reads it from here. */
+/* Version of the library. The build system reads it from here. */
 #define WT_VERSION_MAJOR 0
 #define WT_VERSION_MINOR 1
 #define WT_VERSION_PATCH 0
@@ -48,12 +48,12 @@
 extern "C" {
 #endif
 
-/* "MAJOR.MINOR.PATCH" of the library that runs. */
+/* Returns the version "MAJOR.MINOR.PATCH" of the running library. Static. */
 WT_API const char *wt_version(void);
 
 /* ---- status ------------------------------------------------------------------------------- */
 
-/* One list gives the enumeration, the names and the words, so they cannot disagree. */
+/* One list defines the enumerators and their texts, so that they cannot disagree. */
 #define WT_STATUS_LIST(X)                                                                          \
     X(WT_OK, "no error")                                                                           \
     X(WT_END, "no more items")                                                                     \
@@ -82,21 +82,23 @@ typedef enum wt_status {
 #undef WT_STATUS_ENUM
 } wt_status;
 
-WT_API const char *wt_status_text(wt_status status); /* "unit missing, ..."; static */
+WT_API const char *
+wt_status_text(wt_status status); /* Returns the text of a status, such as "no data". Static. */
 
 /* ---- error -------------------------------------------------------------------------------- */
 
-/* What went wrong, where, what was expected, what was found, what to do. Lives on the caller's
- * stack; texts that do not fit are cut at a whole UTF-8 character and end in "...". Unset parts are
- * empty strings. Initialise with WT_ERROR_INIT. */
+/* An error: message, location, expected and found values, and a remedy. It lives on the caller's
+ * stack. Texts that do not fit are truncated at a whole UTF-8 character and end in "...". Unset
+ * parts are empty strings. Initialise it with WT_ERROR_INIT. */
 typedef struct wt_error {
     wt_status status;
-    char message[256];  /* what went wrong */
-    char file[512];     /* which file, "" if none, "-" for standard input */
-    char place[160];    /* where in it: "line 12, column 3", "segments/0/channels/height.dat" */
-    char expected[192]; /* what was expected */
-    char found[192];    /* what was found */
-    char advice[256];   /* what to do */
+    char message[256]; /* the error itself */
+    char file[512];    /* name of the file; "" if none, "-" for standard input */
+    char place[160]; /* location in the file: "line 12, column 3", "segments/0/channels/height.dat"
+                      */
+    char expected[192]; /* expected value or form */
+    char found[192];    /* value found */
+    char advice[256];   /* remedy */
 } wt_error;
 
 #define WT_ERROR_INIT                                                                              \
@@ -104,50 +106,56 @@ typedef struct wt_error {
         WT_OK, "", "", "", "", "", ""                                                              \
     }
 
-/* Start an error: sets status and message, clears the other parts. Returns `status`. err may be
+/* Starts an error: sets status and message and clears the other parts. Returns `status`. err may be
  * NULL. */
 WT_API wt_status wt_fail(wt_error *err, wt_status status, const char *format, ...) WT_PRINTF(3, 4);
-/* Complete it; each may be called with err == NULL. wt_error_file keeps a name already set. */
+/* These functions complete an error. err may be NULL. wt_error_file does not replace a file that is
+ * already set. */
 WT_API void wt_error_file(wt_error *err, const char *file);
 WT_API void wt_error_place(wt_error *err, const char *format, ...) WT_PRINTF(2, 3);
 WT_API void wt_error_expected(wt_error *err, const char *format, ...) WT_PRINTF(2, 3);
 WT_API void wt_error_found(wt_error *err, const char *format, ...) WT_PRINTF(2, 3);
 WT_API void wt_error_advice(wt_error *err, const char *format, ...) WT_PRINTF(2, 3);
-/* One line: "FILE: PLACE: MESSAGE; expected ...; found ...; ADVICE". Returns the length it needs,
- * as snprintf does. */
+/* Formats an error as one line: "FILE: PLACE: MESSAGE; expected ...; found ...; ADVICE". Returns
+ * the required length, as snprintf does. */
 WT_API size_t wt_error_format(const wt_error *err, char *buffer, size_t size);
 
 /* ---- parse log ---------------------------------------------------------------------------- */
 
-/* A note is for whoever asks; a warning is a remark that a person should see; a loss is data that
- * the file should hold and that cannot be had. */
+/* Severity of a log entry. A note is shown on request, a warning always. A loss reports data of the
+ * file that could not be read. */
 typedef enum wt_severity { WT_NOTE, WT_WARNING, WT_LOSS } wt_severity;
-WT_API const char *wt_severity_name(wt_severity severity); /* "note", "warning", "loss"; static */
+WT_API const char *
+wt_severity_name(wt_severity severity); /* Returns "note", "warning" or "loss". Static. */
 
 typedef struct wt_log_entry {
     wt_severity severity;
     const char *file;  /* "" if none */
     const char *place; /* "" if none */
     const char *text;
-    size_t count; /* how often the same text was logged for this file; place is the first one */
+    size_t
+        count; /* number of entries with this text for this file; place is that of the first one */
 } wt_log_entry;
 
-/* Notes and warnings of reading and fitting. Equal texts for one file are counted, not repeated.
- * One thread at a time. */
+/* Log of notes and warnings of reading and fitting. Equal texts for one file are counted, not
+ * repeated. Only one thread at a time may use a log. */
 typedef struct wt_log wt_log;
 
 WT_API wt_log *wt_log_new(void); /* NULL when out of memory */
 WT_API void wt_log_free(wt_log *log);
-/* log may be NULL. file and place may be NULL. A note that finds no memory is counted as lost. */
+/* Adds an entry. log, file and place may be NULL. An entry that cannot be allocated is counted by
+ * wt_log_dropped. */
 WT_API void wt_log_add(wt_log *log, wt_severity severity, const char *file, const char *place,
                        const char *format, ...) WT_PRINTF(5, 6);
-WT_API size_t wt_log_count(const wt_log *log); /* distinct entries; 0 for NULL */
+WT_API size_t
+wt_log_count(const wt_log *log); /* Returns the number of distinct entries; 0 for NULL. */
 WT_API wt_log_entry wt_log_get(const wt_log *log, size_t i);
 WT_API size_t wt_log_dropped(const wt_log *log);
 
 /* ---- quantities and units ----------------------------------------------------------------- */
 
-/* The closed list of quantities: identifier in files, SI unit (UDUNITS spelling), words. */
+/* Closed list of quantities: enumerator, identifier in files, SI unit (UDUNITS spelling),
+ * description. */
 #define WT_QUANTITY_LIST(X)                                                                        \
     X(WT_Q_NONE, "none", "1", "dimensionless number")                                              \
     X(WT_Q_TIME, "time", "s", "time")                                                              \
@@ -235,40 +243,41 @@ WT_API const char *wt_quantity_unit(wt_quantity quantity); /* "N"; static */
 /* Finds a quantity by its identifier; false if there is none. */
 WT_API bool wt_quantity_find(const char *id, wt_quantity *quantity);
 
-/* x_si = factor * x + offset for x in `unit` (any UDUNITS-2 spelling, UTF-8; also "%", "°C", "µm",
- * square brackets around it; "" and "-" for a dimensionless quantity). WT_E_UNIT if it is unknown
- * or does not measure `quantity`. Hz and rad/s are never converted into each other: that is the
- * reader's decision. 1/m is taken for rad/m. Only a temperature has an offset. Thread-safe. Units
- * that are not built in are asked of UDUNITS-2, whose scanner calls exit(2) where it gets no
- * memory; the command ends before that. */
+/* Returns the conversion of a unit to SI: x_si = factor * x + offset.
+ * The unit may have any UDUNITS-2 spelling in UTF-8, also "%", "°C", "µm" and square brackets
+ * around it; "" and "-" are the unit of a dimensionless quantity. WT_E_UNIT if the unit is unknown
+ * or does not measure `quantity`. Hz and rad/s are never converted into each other; the reader
+ * decides. 1/m counts as rad/m. Only a temperature has an offset. Thread-safe. UDUNITS-2 resolves
+ * units that are not built in. Its scanner calls exit(2) when out of memory, so the command ends
+ * before that. */
 WT_API wt_status wt_unit_to_si(const char *unit, wt_quantity quantity, double *factor,
                                double *offset, wt_error *err) WT_NODISCARD;
-/* Parses "0.4MPa", "20 degC", "35deg", "1e-4 mm^3/(N m)" to SI. The unit is required unless the
- * quantity is dimensionless; the error shows the right spelling. WT_E_ARG if it is not a number
- * with a unit, WT_E_UNIT, WT_E_RANGE if it overflows or is below absolute zero. */
+/* Parses "0.4MPa", "20 degC", "35deg" or "1e-4 mm^3/(N m)" to SI. The unit is required unless the
+ * quantity is dimensionless; the error shows the correct spelling. WT_E_ARG if the text is not a
+ * number with a unit, WT_E_UNIT for a wrong unit, WT_E_RANGE for overflow or a temperature below
+ * absolute zero. */
 WT_API wt_status wt_quantity_parse(const char *text, wt_quantity quantity, double *value,
                                    wt_error *err) WT_NODISCARD;
-/* The zero of the Celsius scale [K], by definition. */
+/* Zero of the Celsius scale [K], by definition. */
 #define WT_ZERO_CELSIUS 273.15
-/* A value of SI unit `unit` as short text with an SI prefix: "412 kPa", "1.15 µm". For the unit
- * "degC" the value is in K and written in °C: "20.0 °C". digits = significant digits. Returns the
- * length as snprintf does. */
+/* Formats a value of the SI unit `unit` as short text with an SI prefix: "412 kPa", "1.15 µm". For
+ * the unit "degC" the value is in K and is shown in °C: "20.0 °C". digits = significant digits.
+ * Returns the length as snprintf does. */
 WT_API size_t wt_format_si(double value, const char *unit, int digits, char *buffer, size_t size);
 
 /* ---- numbers ------------------------------------------------------------------------------ */
 
-/* Parses exactly `length` bytes as a number, independent of the locale; `decimal` is '.' or ','.
- * Blanks around it are ignored. false if the bytes are not one finite number ("nan", "inf", "--",
- * empty are not). */
+/* Parses exactly `length` bytes as a number, independent of the locale. `decimal` is '.' or ','.
+ * Blanks around the number are ignored. Returns false if the bytes are not one finite number
+ * ("nan", "inf", "--" and "" are not). */
 WT_API bool wt_number_parse(const char *text, size_t length, char decimal, double *value);
-/* Shortest text that reads back to the same double; "nan", "inf", "-inf". buffer >= 32 bytes.
- * Returns the length. */
+/* Writes the shortest text that reads back to the same double; "nan", "inf" or "-inf" otherwise.
+ * buffer has at least 32 bytes. Returns the length. */
 WT_API size_t wt_number_format(double value, char *buffer);
 
 /* ---- estimate ----------------------------------------------------------------------------- */
 
-/* Every number that is reported. An error that does not apply is 0; one that is not known is NaN.
- */
+/* A reported number with its errors. An error that does not apply is 0; an unknown error is NaN. */
 typedef struct wt_estimate {
     double value;
     double standard_error;  /* statistical: from fits and scatter */
@@ -276,73 +285,80 @@ typedef struct wt_estimate {
     const char *unit;       /* SI unit, static text */
 } wt_estimate;
 
-/* A number with its 95 % interval; standard_error is half its width over 1.96. */
+/* A number with its 95 % interval. standard_error is half the width over 1.96. */
 typedef struct wt_interval {
     double value, standard_error, low, high;
 } wt_interval;
 
-/* "0.4MPa", "0.4MPa +- 0.02MPa", "0.4MPa +- 5%" ("±" is accepted too). The part after +- is one
- * standard error; without it the standard error is 0 (not stated). */
+/* Parses "0.4MPa", "0.4MPa +- 0.02MPa" or "0.4MPa +- 5%" ("±" is accepted too). The part after +-
+ * is one standard error; without it the standard error is 0 (not stated). */
 WT_API wt_status wt_estimate_parse(const char *text, wt_quantity quantity, wt_estimate *estimate,
                                    wt_error *err) WT_NODISCARD;
-/* "0.3m/s" | "1mm/s,1cm/s,0.3m/s" | "1e-4:10m/s:log:40" | "0:50s:lin:11" (the unit stands after the
- * second number and holds for both). Values rise strictly. *values is freed with free(). */
+/* Parses a list of values: "0.3m/s" | "1mm/s,1cm/s,0.3m/s" | "1e-4:10m/s:log:40" | "0:50s:lin:11".
+ * The unit after the second number of a range holds for both. Values increase strictly. The caller
+ * frees *values with free(). */
 WT_API wt_status wt_list_parse(const char *text, wt_quantity quantity, double **values, size_t *n,
                                wt_error *err) WT_NODISCARD;
 
 /* ---- parameters --------------------------------------------------------------------------- */
 
-/* The parameters of a structure of options, such as wt_layer_job: each declared once, with name,
+/* Parameters of an options structure such as wt_layer_job. Each is declared once with name,
  * quantity, limits and help, for the command line, case files, their documentation and calls from
- * C. A function such as wt_layer_job_params gives the table; the structure begins with its
- * `_defaults` function. */
+ * C. A function such as wt_layer_job_params returns the table. The `_defaults` function initialises
+ * the structure. */
 typedef struct wt_param wt_param;
 typedef struct wt_params wt_params;
 WT_API size_t wt_params_count(const wt_params *params);
 WT_API const wt_param *wt_params_get(const wt_params *params, size_t i); /* static */
-/* Sets the parameter called `name` from text as a user writes it, "0.4MPa +- 5%", and bit i of
- * *given, i its place in the table. A text is borrowed; lists are allocated: wt_params_clear frees
- * those that are given. WT_E_NOT_FOUND for another name; else the error does not say the name. */
+/* Sets the parameter `name` from a user's text such as "0.4MPa +- 5%" and sets bit i of *given,
+ * where i is the index in the table. Texts are borrowed. Lists are allocated; wt_params_clear frees
+ * those marked in *given. WT_E_NOT_FOUND for an unknown name; other errors do not state the name.
+ */
 WT_API wt_status wt_params_set(const wt_params *params, const char *name, void *structure,
                                const char *text, uint64_t *given, wt_error *err) WT_NODISCARD;
 WT_API void wt_params_clear(const wt_params *params, void *structure, uint64_t *given);
-/* The default as text, "0.5", or what holds without one, "the middle isotherm"; "" where there is
- * neither. Returns the length as snprintf does. */
+/* Formats the default, "0.5", or its description if there is no value, "the middle isotherm"; "" if
+ * there is neither. Returns the length as snprintf does. */
 WT_API size_t wt_params_default(const wt_params *params, size_t i, char *buffer, size_t size);
 
 /* ---- paths, files ------------------------------------------------------------------------- */
 
-/* New string, NULL when out of memory. An absolute `name` is returned as it is. */
+/* Joins a folder and a name. Returns a new string, NULL when out of memory. An absolute `name` is
+ * returned unchanged. */
 WT_API char *wt_path_join(const char *folder, const char *name);
 WT_API char *wt_path_folder(const char *path);     /* folder of a path, "." if none; new */
 WT_API const char *wt_path_base(const char *path); /* name after the last '/'; borrowed */
-/* Files that match a shell pattern, relative to `folder` (NULL = current), sorted bytewise; a
- * folder stands for the regular files in it that are not hidden. The paths begin with `folder`. A
- * pattern that is the name of a file is that file. No match is WT_E_NOT_FOUND. */
+/* Lists the files that match a shell pattern relative to `folder` (NULL = current), sorted
+ * bytewise. A folder stands for its regular files that are not hidden. The paths begin with
+ * `folder`. A pattern that equals the name of a file matches only that file. WT_E_NOT_FOUND if
+ * nothing matches. Free the list with wt_strings_free. */
 WT_API wt_status wt_glob(const char *folder, const char *pattern, char ***paths, size_t *n,
                          wt_error *err) WT_NODISCARD;
 WT_API void wt_strings_free(char **strings, size_t n);
 
-/* A file that appears under its name only when it is complete: written beside it under a temporary
- * name, then renamed. It keeps the mode of the one it replaces. A symbolic link is followed, also
- * to a file that is not there yet; a device or a pipe is written in place. */
+/* Output file that appears under its name only when it is complete. It is written in the same
+ * folder under a temporary name and then renamed. It keeps the mode of the file it replaces.
+ * Symbolic links are followed, also to a file that does not exist yet. A device or a pipe is
+ * written directly. */
 typedef struct wt_atomic_file wt_atomic_file;
 WT_API wt_status wt_outfile_open(const char *path, wt_atomic_file **file,
                                  wt_error *err) WT_NODISCARD;
 WT_API FILE *wt_outfile_stream(wt_atomic_file *file); /* borrowed */
-/* Flushes, checks, renames and frees; on failure the temporary file is gone and `file` freed. */
+/* Flushes, checks, renames and frees. On failure it removes the temporary file and frees `file`. */
 WT_API wt_status wt_outfile_commit(wt_atomic_file *file, wt_error *err) WT_NODISCARD;
 WT_API void
-wt_outfile_discard(wt_atomic_file *file); /* removes the temporary file, frees; NULL ok */
+wt_outfile_discard(wt_atomic_file *file); /* Removes the temporary file and frees. Accepts NULL. */
 
-/* After wt_protect_begin no file that this process has read, standard input among them, is written
- * over: what the library opens is remembered, and its outputs refuse it with WT_E_ARG. Nor is a
- * file that is neither text nor HDF5, such as an instrument writes. */
+/* After wt_protect_begin the library does not overwrite files that this process has read, standard
+ * input included: outputs refuse them with WT_E_ARG. It also refuses files that are neither text
+ * nor HDF5, such as instrument files. */
 WT_API void wt_protect_begin(void);
-WT_API wt_status wt_protect_input(const char *path, wt_error *err) WT_NODISCARD; /* one more; "-" */
-WT_API wt_status wt_check_overwrite(const char *path, wt_error *err) WT_NODISCARD; /* may it be? */
+WT_API wt_status wt_protect_input(const char *path, wt_error *err)
+    WT_NODISCARD; /* Protects one more file; "-" is standard input. */
+WT_API wt_status wt_check_overwrite(const char *path, wt_error *err)
+    WT_NODISCARD; /* WT_E_ARG if the file is protected. */
 
-/* SHA-256 as 64 hexadecimal digits and a terminating zero. */
+/* Writes the SHA-256 digest as 64 hexadecimal digits with a terminating zero. */
 WT_API void wt_digest(const void *bytes, size_t length, char hex[65]);
 
 /* ---- provenance --------------------------------------------------------------------------- */
@@ -352,8 +368,8 @@ typedef struct wt_provenance_input {
     const char *role;   /* "bulk", "track", "dma", "case", ... */
     const char *format; /* id of the reader or description, with its version */
     uint64_t bytes;
-    char sha256[65];      /* "": not asked for */
-    uint64_t fingerprint; /* of the bytes: those of copies are equal; 0 = not known */
+    char sha256[65];      /* "" if not requested */
+    uint64_t fingerprint; /* hash of the bytes, equal for copies; 0 = unknown */
 } wt_provenance_input;
 
 typedef struct wt_provenance wt_provenance;
@@ -362,8 +378,9 @@ WT_API void wt_provenance_free(wt_provenance *p);
 WT_API wt_status wt_provenance_set_command(wt_provenance *p, int argc,
                                            char *const argv[]) WT_NODISCARD;
 WT_API wt_status wt_provenance_add_input(wt_provenance *p, const wt_provenance_input *input)
-    WT_NODISCARD; /* copied */
-/* Of the program that made it: of this one, unless a file was read. Borrowed. */
+    WT_NODISCARD; /* Copies the input. */
+/* Returns the version of the program that wrote the result: this one, unless a file was read.
+ * Borrowed. */
 WT_API const char *wt_provenance_version(const wt_provenance *p);
 WT_API const char *wt_provenance_command(const wt_provenance *p); /* "" if not set; borrowed */
 WT_API size_t wt_provenance_n_inputs(const wt_provenance *p);
@@ -371,8 +388,8 @@ WT_API const wt_provenance_input *wt_provenance_get_input(const wt_provenance *p
 
 /* ---- threads and progress ----------------------------------------------------------------- */
 
-/* Called now and then by long work, never from two threads at once; total 0 = not known. Return
- * false to cancel: the work ends with WT_E_CANCELLED. */
+/* Callback of long computations, never called by two threads at once. total 0 = unknown. Returning
+ * false cancels the computation with WT_E_CANCELLED. */
 typedef bool (*wt_progress_fn)(void *user, const char *what, size_t done, size_t total);
 
 typedef struct wt_progress {
@@ -381,19 +398,19 @@ typedef struct wt_progress {
 } wt_progress;
 
 /* Runs body(user, i, worker) for i in [0, n) on up to `threads` threads (0 = one per processor).
- * worker < wt_thread_count(threads) numbers the thread, for scratch space. Items must be
- * independent, so the result is the same for any number of threads. The first (lowest i) status
- * that is not WT_OK is returned; every item is run all the same. */
+ * worker < wt_thread_count(threads) identifies the thread, for scratch memory. Items must be
+ * independent, so that the result does not depend on the number of threads. Every item runs; the
+ * function returns the status that is not WT_OK of the lowest i. */
 typedef wt_status (*wt_parallel_fn)(void *user, size_t i, unsigned worker);
 WT_API unsigned wt_thread_count(unsigned threads);
 WT_API wt_status wt_parallel_for(size_t n, unsigned threads, wt_parallel_fn body, void *user,
                                  const wt_progress *progress, const char *what) WT_NODISCARD;
 
-/* HDF5 files are read in processes that can do nothing but read. What this system did not let any
- * of them be kept from, as a sentence; NULL: nothing, or none was made yet. */
+/* HDF5 files are read in sandboxed processes. Returns the restrictions that this system could not
+ * apply to them, as a sentence; NULL if all applied or no process has started yet. */
 WT_API const char *wt_sandbox_limitations(void);
 
-/* Wall and processor time of this process, seconds since an arbitrary start. */
+/* Wall and processor time of this process [s] since an arbitrary start. */
 WT_API double wt_time_wall(void);
 WT_API double wt_time_cpu(void);
 

@@ -1,8 +1,7 @@
-/* weartrack - read room: bytes from a file, a pipe or memory; which format they are; force curves
- * as a stream, DMA sweeps, images and power spectra.
+/* weartrack - read: input bytes, format detection, and readers of force curves (as a stream), DMA
+ * sweeps, images, spectra and friction records.
  *
- * SPDX-License-Identifier: GPL-3.0-or-later
- */
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #ifndef WEARTRACK_READ_H
 #define WEARTRACK_READ_H
 
@@ -14,32 +13,32 @@ extern "C" {
 
 /* ---- input -------------------------------------------------------------------------------- */
 
-/* Bytes with peek. A file is read into memory as far as it is asked for, a pipe is buffered. Gzip
- * archives and spreadsheets are unpacked where formats are detected and data read, a ZIP archive of
- * files of force curves is read as one; the bytes here are those of the file. */
+/* Input bytes. A file is read into memory only as far as needed; a pipe is buffered. Detection and
+ * readers unpack gzip archives and spreadsheets and read a ZIP archive of force-curve files as one
+ * file. The functions here return the bytes of the file itself. */
 typedef struct wt_input wt_input;
-/* path "-" is standard input. A named pipe is refused: nobody may ever write to it. */
+/* Opens an input; path "-" is standard input. A named pipe is rejected, as reading it could block
+ * for ever. */
 WT_API wt_status wt_input_open(const char *path, wt_input **input, wt_error *err) WT_NODISCARD;
-/* Borrows the bytes until closed. */
+/* Opens an input in memory. The bytes are borrowed until it is closed. */
 WT_API wt_status wt_input_open_memory(const void *bytes, size_t length, const char *name,
                                       wt_input **input, wt_error *err) WT_NODISCARD;
 WT_API void wt_input_close(wt_input *input);
 WT_API const char *wt_input_name(const wt_input *input);
-/* All bytes, borrowed until the input is closed (a pipe is read to its end). */
+/* Returns all bytes, borrowed until the input is closed. A pipe is read to its end. */
 WT_API wt_status wt_input_bytes(wt_input *input, const unsigned char **bytes, size_t *length,
                                 wt_error *err) WT_NODISCARD;
-/* How many bytes there are (a pipe is read to its end). */
+/* Returns the number of bytes. A pipe is read to its end. */
 WT_API wt_status wt_input_size(wt_input *input, size_t *size, wt_error *err) WT_NODISCARD;
-/* Copies bytes [from, from + n), without keeping those of a file. WT_E_IO if there are not so many:
- * the file has become shorter. */
+/* Copies bytes [from, from + n) without buffering those of a file. WT_E_IO if the file has become
+ * shorter. */
 WT_API wt_status wt_input_at(wt_input *input, size_t from, void *to, size_t n,
                              wt_error *err) WT_NODISCARD;
-/* A second input of the same file, of which another thread may ask parts meanwhile; NULL (and
- * WT_OK) of what is or may be kept in memory as a whole. To be closed by the caller, in any order.
- */
+/* Opens a second input of the same file for another thread. NULL (and WT_OK) for an input that is
+ * or may be kept in memory as a whole. The caller closes it, in any order. */
 WT_API wt_status wt_input_sibling(const wt_input *input, wt_input **beside,
                                   wt_error *err) WT_NODISCARD;
-/* At least the first `want` bytes if there are as many; *whole says that this is all. */
+/* Returns at least the first `want` bytes if there are as many; *whole is true if these are all. */
 WT_API wt_status wt_input_peek(wt_input *input, size_t want, const unsigned char **bytes,
                                size_t *length, bool *whole, wt_error *err) WT_NODISCARD;
 
@@ -49,40 +48,40 @@ WT_API wt_status wt_input_peek(wt_input *input, size_t want, const unsigned char
 #define WT_KIND_SWEEP 2u    /* DMA sweeps */
 #define WT_KIND_IMAGE 4u    /* topography and other images */
 #define WT_KIND_SPECTRUM 8u /* power spectra of surfaces */
-#define WT_KIND_NOISE 16u   /* spectra of the thermal noise of a lever */
-#define WT_KIND_RECORD 32u  /* records of friction */
+#define WT_KIND_NOISE 16u   /* thermal noise spectra of a cantilever */
+#define WT_KIND_RECORD 32u  /* friction records */
 
 typedef struct wt_format_info {
     const char *id;       /* "jpk", "trios-lims" */
     const char *title;    /* "JPK force curves and maps (ZIP)" */
     unsigned kinds;       /* WT_KIND_* */
-    bool verified;        /* read and checked on a genuine file */
-    const char *evidence; /* how it is known: "measured files of software 1.7 to 3.10" */
-    const char *version;  /* of the description, or of the library */
+    bool verified;        /* checked on a genuine file of the instrument */
+    const char *evidence; /* source of the description: "measured files of software 1.7 to 3.10" */
+    const char *version;  /* version of the description or of the library */
 } wt_format_info;
 
-/* The formats: the binary readers and the XML descriptions. A set is immutable once it is made and
- * may be shared between threads. folder NULL = built-in descriptions only; the descriptions of
+/* Set of formats: the binary readers and the XML descriptions. It is immutable after creation and
+ * may be shared between threads. folder NULL = built-in descriptions only. The descriptions of
  * `folder` are added and replace built-in ones of the same id (noted in the log). */
 typedef struct wt_formats wt_formats;
 WT_API wt_status wt_formats_new(const char *folder, wt_formats **formats, wt_log *log,
                                 wt_error *err) WT_NODISCARD;
-/* The columns of plain tables, "NAME=QUANTITY" or "NAME=QUANTITY:UNIT", as a description called
- * "given-columns" (wt_formats_xml shows it). Before the set is used. */
+/* Adds a description "given-columns" of plain tables from "NAME=QUANTITY" or "NAME=QUANTITY:UNIT"
+ * (wt_formats_xml shows it). Call it before the set is used. */
 WT_API wt_status wt_formats_add_columns(wt_formats *formats, const char *const *columns, size_t n,
                                         wt_error *err) WT_NODISCARD;
 WT_API void wt_formats_free(wt_formats *formats);
 WT_API size_t wt_formats_count(const wt_formats *formats);
 WT_API const wt_format_info *wt_formats_get(const wt_formats *formats, size_t i);
-/* The XML text of a description, NULL for a binary reader or an unknown id; borrowed. */
+/* Returns the XML text of a description, NULL for a binary reader or an unknown id; borrowed. */
 WT_API const char *wt_formats_xml(const wt_formats *formats, const char *id);
-/* The schema of descriptions (XSD text); static. */
+/* Returns the schema of descriptions (XSD text); static. */
 WT_API const char *wt_formats_schema(void);
-/* The format of that id, or NULL. */
+/* Returns the format of an id, or NULL. */
 WT_API const wt_format_info *wt_formats_find(const wt_formats *formats, const char *id);
-/* Which format the input is, or what is packed in it. `kinds` limits the question (0 = any); of the
- * options (NULL = the defaults) the sheet is used. Its id in wt_read_options.format hands the
- * answer on: nobody is asked again when the input is read. */
+/* Detects the format of the input or of its packed content. `kinds` restricts the kinds (0 = any).
+ * Of the options (NULL = defaults) the sheet is used. Pass the id in wt_read_options.format to
+ * avoid a second detection. */
 struct wt_read_options;
 WT_API wt_status wt_detect(const wt_formats *formats, wt_input *input,
                            const struct wt_read_options *options, unsigned kinds,
@@ -90,8 +89,8 @@ WT_API wt_status wt_detect(const wt_formats *formats, wt_input *input,
 
 /* ---- options ------------------------------------------------------------------------------ */
 
-/* What moduli are of whose names do not say it, as "storage modulus". Those of bending are of
- * tension. */
+/* Deformation of moduli whose names do not state it, such as "storage modulus". Bending moduli are
+ * tensile moduli. */
 typedef enum wt_read_deformation {
     WT_DEFORMATION_OF_FILE,
     WT_DEFORMATION_TENSION,
@@ -99,66 +98,68 @@ typedef enum wt_read_deformation {
     WT_DEFORMATION_BENDING
 } wt_read_deformation;
 
-/* What tells the samples of DMA sweeps apart. */
+/* Rule that separates the samples of DMA sweeps. */
 typedef enum wt_sample_by {
-    WT_SAMPLE_BY_NAME, /* that a column or the header says */
-    WT_SAMPLE_BY_FILE  /* each file is of one, which is called as the file is */
+    WT_SAMPLE_BY_NAME, /* name in a column or header */
+    WT_SAMPLE_BY_FILE  /* each file is a sample with the name of the file */
 } wt_sample_by;
 
-/* What the densities of a power spectrum are; q is 2 pi / wavelength in each. */
+/* Convention of the densities of a power spectrum; q = 2 pi / wavelength in each. */
 typedef enum wt_spectrum_convention {
     WT_CONVENTION_WEARTRACK,          /* h_rms^2 = 2 pi int q C dq = 2 int_0^inf C1 dq */
     WT_CONVENTION_CONTACT_ENGINEERING /* (2 pi)^2 C of an area, 2 pi C1 of a profile */
 } wt_spectrum_convention;
 
-/* What became of a unit that is given for columns of files of several kinds. */
+/* Use of a --units value for columns of files of several kinds. */
 typedef struct wt_unit_use {
-    bool used;       /* a file has that column, without a unit or in the same */
-    bool overruled;  /* a file has it in another unit, which stands */
-    char stated[32]; /* that of the first such file */
+    bool used;       /* a file has that column, without a unit or with the same one */
+    bool overruled;  /* a file has it with another unit, which takes precedence */
+    char stated[32]; /* unit of the first such file */
 } wt_unit_use;
 
-/* Nothing that is not asked for is decoded. */
+/* Options of reading. Only the requested data are decoded. */
 typedef struct wt_read_options {
-    const char *format;   /* id that overrules detection, or NULL */
-    wt_quantity_set want; /* channels to decode; a force needs no more than its own column. A force
-                             that the calibration does not allow is WT_E_MISSING, or with
-                             WT_Q_ALL left out with a warning */
-    unsigned segments;    /* WT_SEGMENT_BIT()s to decode */
-    double spring_constant;   /* [N/m] replaces the file's; NaN = the file's */
-    double sensitivity;       /* [m/V] replaces the file's; NaN = the file's */
-    double temperature;       /* [K] for a sweep whose file gives none; NaN = none */
-    const char *const *units; /* "NAME=UNIT" for columns of files that carry no units */
+    const char *format; /* id that replaces detection, or NULL */
+    wt_quantity_set
+        want; /* channels to decode; a force needs only its own column. A force without calibration
+                 is WT_E_MISSING; with WT_Q_ALL it is omitted with a warning */
+    unsigned segments;        /* WT_SEGMENT_BIT()s to decode */
+    double spring_constant;   /* [N/m] replaces the value of the file; NaN = that of the file */
+    double sensitivity;       /* [m/V] replaces the value of the file; NaN = that of the file */
+    double temperature;       /* [K] for a sweep whose file states none; NaN = none */
+    const char *const *units; /* "NAME=UNIT" for columns without a unit in the file */
     size_t n_units;
-    wt_unit_use *unit_use; /* [n_units] of files of several kinds: set by what each has, by any
-                              thread, and no file is warned of; NULL = each is */
-    bool any_temperature;  /* a sweep without a temperature is read, as NaN */
-    bool one_height;       /* of the heights wanted only that of a sensor, where there is one */
-    const char *sheet; /* of a spreadsheet: its name; "all" = all that are recognised, one after the
-                          other; NULL = the only one that is */
-    wt_read_deformation deformation; /* one that the file contradicts is WT_E_UNIT */
-    double strain; /* of isotherms at several strain amplitudes take those nearest to this; NaN */
-    const char *sample; /* of DMA sweeps of several samples: its name; "all" = they are of one
-                           material, whatever they are called; NULL = none is chosen */
+    wt_unit_use *unit_use; /* [n_units] for files of several kinds: set by each reader, on any
+                              thread, instead of a warning for each file; NULL = warnings */
+    bool any_temperature;  /* a sweep without a temperature is read with NaN */
+    bool one_height;       /* of the requested heights only the sensor height, if there is one */
+    const char *sheet; /* name of a sheet of a spreadsheet; "all" = all recognised sheets in turn;
+                          NULL = the only recognised sheet */
+    wt_read_deformation deformation; /* WT_E_UNIT if the file contradicts it */
+    double strain; /* of isotherms at several strain amplitudes, the nearest to this is read; NaN =
+                      none */
+    const char *sample; /* sample of DMA sweeps; "all" = all are one material, whatever their names;
+                           NULL = none chosen */
     wt_sample_by sample_by;
     wt_spectrum_convention spectrum_convention;
-    const char *temperature_in_name; /* pattern of the names of files that say no temperature: a "#"
-                                        stands where it does, in degrees Celsius, a "*" for
-                                        anything; NULL = none */
-    double pixel_size;               /* [m] of images whose file does not give their size; NaN */
-    const char *height_unit;         /* of images whose values the file gives as no length; NULL */
-    double frequency; /* [Hz] of sweeps of strain or temperature whose file gives none; NaN */
+    const char
+        *temperature_in_name; /* pattern of names of files without a temperature: "#" is the
+                                 temperature in degrees Celsius, "*" is anything; NULL = none */
+    double pixel_size;        /* [m] for images without a size in the file; NaN = none */
+    const char
+        *height_unit; /* for images whose values have no unit of length in the file; NULL = none */
+    double frequency; /* [Hz] for strain or temperature sweeps whose file states none; NaN = none */
 } wt_read_options;
-WT_API wt_read_options wt_read_defaults(void); /* everything, nothing replaced */
+WT_API wt_read_options wt_read_defaults(void); /* Reads everything, replaces nothing. */
 WT_API const wt_params *wt_read_params(void);
 
 /* ---- reading ------------------------------------------------------------------------------ */
 
-/* Force curves as a stream: memory does not grow with the map. Samples are in the order of time,
- * which runs on from segment to segment; a force is positive when the tip is pushed away from the
- * sample; heights keep the direction of the file (in JPK files they fall during the approach). The
- * source borrows the input and the formats. A curve that cannot be read gives its status and
- * message; the next call goes on with the curve after it, until WT_END. */
+/* Stream of force curves: memory does not grow with the map. Samples are in order of time, which
+ * continues from segment to segment. Forces are positive when the tip is repelled. Heights keep the
+ * direction of the file (in JPK files they fall during the approach). The source borrows the input
+ * and the formats. A curve that cannot be read returns its status and message; the next call
+ * continues with the next curve, until WT_END. */
 typedef struct wt_force_source wt_force_source;
 WT_API wt_status wt_force_open(const wt_formats *formats, wt_input *input,
                                const wt_read_options *options, wt_log *log,
@@ -166,39 +167,40 @@ WT_API wt_status wt_force_open(const wt_formats *formats, wt_input *input,
 WT_API wt_status wt_force_next(wt_force_source *source, wt_force_curve *curve,
                                wt_error *err) WT_NODISCARD;
 WT_API void wt_force_close(wt_force_source *source);
-WT_API size_t wt_force_count(const wt_force_source *source); /* SIZE_MAX if not known */
+WT_API size_t wt_force_count(const wt_force_source *source); /* SIZE_MAX if unknown */
 
-/* Appends the isotherms of one file to `sweep` (zero-initialised for the first file). Mixing
- * tension and shear is WT_E_UNIT. */
+/* Appends the isotherms of one file to `sweep` (zero-initialised for the first file). WT_E_UNIT if
+ * tension and shear are mixed. */
 WT_API wt_status wt_sweep_read(const wt_formats *formats, wt_input *input,
                                const wt_read_options *options, wt_log *log, wt_sweep *sweep,
                                wt_error *err) WT_NODISCARD;
-/* All images (or one-row spectra) of a file: *images is an array of *n, each to be cleared, then
- * the array freed with free(). */
+/* Reads all images (or one-row spectra) of a file. *images is an array of *n. The caller clears
+ * each with wt_image_clear and frees the array with free(). */
 WT_API wt_status wt_images_read(const wt_formats *formats, wt_input *input,
                                 const wt_read_options *options, wt_log *log, wt_image **images,
                                 size_t *n, wt_error *err) WT_NODISCARD;
 WT_API wt_status wt_power_spectrum_read(const wt_formats *formats, wt_input *input,
                                         const wt_read_options *options, wt_log *log,
                                         wt_power_spectrum *spectrum, wt_error *err) WT_NODISCARD;
-/* The thermal noise of a lever; amplitude densities are squared. */
+/* Reads the thermal noise spectrum of a cantilever; amplitude densities are squared. */
 WT_API wt_status wt_noise_read(const wt_formats *formats, wt_input *input,
                                const wt_read_options *options, wt_log *log,
                                wt_noise_spectrum *spectrum, wt_error *err) WT_NODISCARD;
-/* A record of friction. A load that is negative when it presses is turned round. */
+/* Reads a friction record. The sign of a load that is negative under pressure is inverted. */
 WT_API wt_status wt_record_read(const wt_formats *formats, wt_input *input,
                                 const wt_read_options *options, wt_log *log, wt_record *record,
                                 wt_error *err) WT_NODISCARD;
-/* What a file is, for `weartrack info`: rows of (item, value, unit, source), all text. */
+/* Creates the metadata table of a file for `weartrack info`: rows of (item, value, unit, source),
+ * all text. */
 WT_API wt_status wt_describe(const wt_formats *formats, wt_input *input,
                              const wt_read_options *options, wt_log *log, wt_table **facts,
                              wt_error *err) WT_NODISCARD;
 
 /* ---- descriptions ------------------------------------------------------------------------- */
 
-/* Checks one description (schema, then what a schema cannot say) and, if sample is not NULL, runs
- * it on that file. `report` gets rows of (column, quantity, unit, first value, ...) of what is
- * understood. */
+/* Checks one description (schema, then further rules). If sample is not NULL, it also reads that
+ * file. `report` receives rows of (column, quantity, unit, first value, ...) of the recognised
+ * columns. */
 WT_API wt_status wt_description_check(const char *xml_path, wt_input *sample,
                                       const wt_read_options *options, wt_log *log,
                                       wt_table **report, wt_error *err) WT_NODISCARD;

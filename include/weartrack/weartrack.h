@@ -1,4 +1,4 @@
-/* weartrack - everything. SPDX-License-Identifier: GPL-3.0-or-later */
+/* weartrack - all public headers. SPDX-License-Identifier: GPL-3.0-or-later */
 #ifndef WEARTRACK_WEARTRACK_H
 #define WEARTRACK_WEARTRACK_H
 

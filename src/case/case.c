@@ -1,4 +1,4 @@
-/* A case and what it owns. SPDX-License-Identifier: GPL-3.0-or-later */
+/* Creates and frees a case, and changes it for a call. SPDX-License-Identifier: GPL-3.0-or-later */
 #include "case/case.h"
 #include "case/case_schema.h"
 #include "dma/rubber.h"

@@ -1,5 +1,4 @@
-/* The files of a case and how they are read.
- * SPDX-License-Identifier: GPL-3.0-or-later */
+/* Reads the file sets of a case and their options. SPDX-License-Identifier: GPL-3.0-or-later */
 #include "case/case_sections.h"
 
 #include "indentation/indent.h"
@@ -17,7 +16,7 @@ static const wt_param rows[] = {SPRING_CONSTANT(case_files, PARAM_NO_OPTION, ind
                                 SENSITIVITY(case_files, PARAM_NO_OPTION, indent_error_check)};
 PARAM_TABLE(case_group_params, case_files, rows, no_files, NO_PARTS)
 
-/* What the attributes of a node say on top of what is there. */
+/* The attributes of a node override the values that `set` and `lever` have already. */
 static wt_status read_attributes(wt_case *c, const xmlNode *node, wt_file_set *set,
                                  case_files *lever, wt_error *err)
 {
@@ -39,7 +38,8 @@ static bool is_same_value(double a, double b)
     return !(a < b) && !(a > b) && !isnan(a) && !isnan(b);
 }
 
-/* One value for the group, or none if its files differ, and an error that is none too small. */
+/* Combines the values of all files of a group. The value is NaN if the files differ; the relative
+ * error is the largest one, NaN if a file states none. */
 static void join_file(wt_estimate *group, double *error, wt_estimate of_file, bool first)
 {
     const double relative = of_file.standard_error / of_file.value;

@@ -1,5 +1,5 @@
-/* Reading parameters and text from the nodes of a case file.
- * SPDX-License-Identifier: GPL-3.0-or-later */
+/* Reads parameters and text from the nodes of a case file. SPDX-License-Identifier:
+ * GPL-3.0-or-later */
 #include "case/case_node.h"
 
 #include "core/base/param.h"
@@ -48,7 +48,7 @@ wt_status case_at_param(const xmlNode *section, wt_status status, wt_error *err)
     return case_at(node != NULL ? node : section, status, err);
 }
 
-/* Text owned by the case, blanks around it removed; takes `raw`. */
+/* Copies `raw` without surrounding blanks into the memory of the case. Frees `raw`. */
 static wt_status keep_text(wt_case *c, xmlChar *raw, const char **text, wt_error *err)
 {
     static const char blanks[] = " \t\r\n";
@@ -86,7 +86,7 @@ static wt_status read_attribute(wt_case *c, const xmlNode *section, const char *
     return status;
 }
 
-/* Every element of the name: the schema lets only that of a list stand there again. */
+/* Reads every element with the name; the schema allows a repetition only for lists. */
 static wt_status read_param(wt_case *c, const xmlNode *section, const char *param,
                             case_setting *setting, wt_error *err)
 {

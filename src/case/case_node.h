@@ -1,4 +1,4 @@
-/* Reading parameters and text from the nodes of a case file. Internal to case.
+/* Functions that read parameters and text from the nodes of a case file. Internal to case.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #ifndef WT_CASE_CASE_NODE_H
 #define WT_CASE_CASE_NODE_H
@@ -7,23 +7,23 @@
 
 #include <libxml/tree.h>
 
-/* First child element of that name, NULL if there is none. */
+/* Returns the first child element with the name, NULL if there is none. */
 xmlNode *case_child(const xmlNode *parent, const char *name);
-/* Next sibling element of that name. */
+/* Returns the next sibling element with the name, NULL if there is none. */
 xmlNode *case_next(const xmlNode *node, const char *name);
 
 /* Adds "line N, <name>" to an error and returns `status`. */
 wt_status case_at(const xmlNode *node, wt_status status, wt_error *err);
-/* The same of an error whose place is the name of a parameter in this section. */
+/* Variant for an error whose place is the name of a parameter in this section. */
 wt_status case_at_param(const xmlNode *section, wt_status status, wt_error *err);
 
-/* Text of a node, owned by the case. */
+/* Returns the text of a node. The case owns the text. */
 wt_status case_node_text(wt_case *c, const xmlNode *node, const char **text,
                          wt_error *err) WT_NODISCARD;
-/* The name of a parameter in a section: in <sliding>, "sliding-temperature" is "temperature". */
+/* Returns the element name of a parameter: in <sliding>, "sliding-temperature" is "temperature". */
 const char *case_param_name(const char *section, const char *param);
-/* Sets every parameter of the table that is there, as an element or as an attribute of `section`.
- * The structure must live as long as the case. */
+/* Sets every parameter that the section states as an element or an attribute. The structure must
+ * live as long as the case. */
 wt_status case_read_params(wt_case *c, const xmlNode *section, const wt_params *params,
                            void *structure, wt_error *err) WT_NODISCARD;
 

@@ -1,5 +1,4 @@
-/* XML, schema, sections: the text of a case file to a case.
- * SPDX-License-Identifier: GPL-3.0-or-later */
+/* Parses a case file: XML, schema, sections. SPDX-License-Identifier: GPL-3.0-or-later */
 #include "case/case_sections.h"
 
 #include <libxml/parser.h>
@@ -7,12 +6,12 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* A case is written by hand; anything larger is something else. */
+/* Limit for the size of a case file, which is written by hand. */
 #define MAX_CASE_BYTES ((size_t)4 << 20)
 
-/* ---- schema messages in our form ------------------------------------------------------------- */
+/* ---- schema messages ------------------------------------------------------------------------- */
 
-/* The text between `begin` and `end` in a message; "" if they are not there. */
+/* Extracts the text between `begin` and `end` from a message; "" if they are missing. */
 static void text_between(const char *message, const char *begin, const char *end, char *out,
                          size_t size)
 {
@@ -35,7 +34,7 @@ typedef struct complaint {
     char message[512];
 } complaint;
 
-/* Keeps the first message: the others follow from it. */
+/* Stores the first message only, because the others follow from it. */
 static void keep_first_message(void *user, xmlErrorPtr error)
 {
     complaint *c = user;
@@ -60,7 +59,7 @@ static wt_status schema_error(const complaint *c, wt_error *err)
     if (tail != NULL)
         *tail = '\0';
     const size_t length = strlen(said);
-    if (length > 0 && said[length - 1] == '.') /* more follows in the sentence */
+    if (length > 0 && said[length - 1] == '.') /* the error message continues after this text */
         said[length - 1] = '\0';
     wt_fail(err, WT_E_SCHEMA, "%s", said[0] != '\0' ? said : c->message);
     wt_error_place(err, "line %ld", c->line);
@@ -107,7 +106,7 @@ static wt_status read_document(const wt_case *c, xmlDoc **out, wt_error *err)
         return wt_fail(err, WT_E_MEMORY, "out of memory");
     wt_status status = WT_OK;
     xmlDoc *doc = xmlCtxtReadMemory(context, c->xml, (int)c->xml_length, NULL, NULL, options);
-    const size_t beginning = c->xml_length < 16 ? c->xml_length : 16; /* byte order, blanks */
+    const size_t beginning = c->xml_length < 16 ? c->xml_length : 16; /* byte order mark, blanks */
     if (doc == NULL && memchr(c->xml, '<', beginning) == NULL) {
         status = wt_fail(err, WT_E_SCHEMA, "is no case file");
         wt_error_expected(err, "an XML file that begins with <?xml or <case");
@@ -147,7 +146,7 @@ static wt_status parse_case(wt_case *c, wt_error *err)
         {"dma", case_read_dma},
         {"roughness", case_read_roughness},
         {"sliding", case_read_sliding},
-        {"record", case_read_record}, /* may tell the wear of the layer */
+        {"record", case_read_record}, /* before the layer, whose wear it may state */
         {"layer", case_read_layer},
         {"identify", case_read_identify},
         {"compare", case_read_compare},

@@ -1,4 +1,4 @@
-/* The sections of a case file: their parameters, and what is in them beside.
+/* Reads the sections of a case file: their parameters and their nested elements.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "case/case_sections.h"
 #include "dma/rubber.h"
@@ -34,7 +34,7 @@ static wt_status check_disjoint(const wt_case *c, const xmlNode *section, wt_err
     return WT_OK;
 }
 
-/* The file of the choices, relative to the case. */
+/* The path of the file with manual overrides is relative to the case. */
 static wt_status read_choices(wt_case *c, const xmlNode *section, wt_error *err)
 {
     const xmlNode *node = case_child(section, "choices");
@@ -255,7 +255,8 @@ wt_status case_read_sliding(wt_case *c, const xmlNode *section, wt_error *err)
     return status;
 }
 
-/* As that of the bulk, and its files with those of the case. */
+/* The material of the layer has the same elements as that of the bulk. Its files join those of the
+ * case. */
 static wt_status read_layer_material(wt_case *c, const xmlNode *node, wt_error *err)
 {
     static const char *const instead[] = {"modulus-ratio", "ratio-slope", "ratio-by-rate"};
@@ -308,8 +309,9 @@ wt_status case_read_layer(wt_case *c, const xmlNode *section, wt_error *err)
         status = check_ratio_slope(c, section, err);
     wt_layer_job checked = c->layer;
     if (c->record.n > 0 && isnan(checked.specific_wear_rate.value)) {
-        c->has_wear = true;                   /* or a result of weartrack record has it */
-        checked.specific_wear_rate.value = 1; /* whatever they will tell */
+        c->has_wear = true; /* or a result of `weartrack record` contains it */
+        checked.specific_wear_rate.value =
+            1; /* placeholder for the check, until the records are read */
     }
     if (status == WT_OK)
         status = case_at_param(section, wt_layer_job_check(&checked, err), err);

@@ -1,4 +1,4 @@
-/* What a case may hold, what it may ask for, and what stages hand on.
+/* Names of the resources of a plan, and the resources of tables and figures.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "case/resources.h"
 

@@ -1,11 +1,12 @@
-/* What a case may hold, what it may ask for, and what stages hand on: the things that the plan
- * reasons about. A new one is a row. Internal to case. SPDX-License-Identifier: GPL-3.0-or-later */
+/* Resources of a plan: what a case contains, what it can request, and what stages pass to other
+ * stages. A new resource is a row here. Internal to case. SPDX-License-Identifier:
+ * GPL-3.0-or-later */
 #ifndef WT_CASE_RESOURCES_H
 #define WT_CASE_RESOURCES_H
 
 #include "core/table/schema.h"
 
-/* Sources: id, words, what a case without it lacks, whether the case `c` has it. */
+/* Sources: id, name, text for a case without it, condition that the case `c` has it. */
 #define SOURCES(X)                                                                                 \
     X(BULK_CURVES, "bulk curves", "no bulk curves (<bulk> in <indentation>)", c->bulk.n > 0)       \
     X(TRACK_CURVES, "wear-track curves", "no wear-track curves (<track> in <indentation>)",        \
@@ -60,8 +61,8 @@
     X(ASKED_FLASH, "flash temperature", "no flash temperature (<flash-temperature> in <sliding>)", \
       c->has_sliding && c->sliding.flash.on)
 
-/* Tables: id, name, schema and what completes its name. The curve of a group is a block of two
- * tables, which the groups share. */
+/* Tables: id, name, schema, suffix of the table name. The curve of a group is a block in two tables
+ * that both groups share. */
 #define TABLE_THINGS(X)                                                                            \
     X(INDENTATION_BULK, "indentation/bulk", &indentation_schema, "bulk")                           \
     X(INDENTATION_TRACK, "indentation/track", &indentation_schema, "track")                        \
@@ -122,7 +123,7 @@
     X(COVERAGE, "coverage", &coverage_schema, "")                                                  \
     X(WORK_PRECISION, "work_precision", &work_precision_schema, "")
 
-/* Handed from stage to stage only: id, words. */
+/* Resources that are passed between stages only: id, name. */
 #define INNER_THINGS(X)                                                                            \
     X(RUBBER, "material")                                                                          \
     X(SURFACE, "roughness law")                                                                    \
@@ -135,20 +136,20 @@ typedef enum flow_resource {
 } flow_resource;
 enum { FLOW_FIRST_TABLE = FLOW_INDENTATION_BULK, FLOW_FIRST_INNER = FLOW_RUBBER };
 
-/* Bit i = thing i, of which there are more than 64. */
+/* Set of resources: bit i stands for resource i. There are more than 64. */
 __extension__ typedef unsigned __int128 flow_things;
 #define FLOW_BIT(thing) ((flow_things)1 << (unsigned)(thing))
 #define FLOW_SOURCES (FLOW_BIT(FLOW_FIRST_TABLE) - 1)
 #define FLOW_TABLES (FLOW_BIT(FLOW_FIRST_INNER) - 1 - FLOW_SOURCES)
-/* What costs more than it tells most, or is of another measurement than sliding needs: only where a
- * case names it. */
+/* Tables that are expensive, or that concern another measurement than sliding. They are computed
+ * only if a case names them. */
 #define FLOW_BY_NAME                                                                               \
     (FLOW_BIT(FLOW_ERROR_BUDGET) | FLOW_BIT(FLOW_COVERAGE) | FLOW_BIT(FLOW_WORK_PRECISION) |       \
      FLOW_BIT(FLOW_RAMP) | FLOW_BIT(FLOW_GLASS_TRANSITION) | FLOW_BIT(FLOW_MODULI_AT) |            \
      FLOW_BIT(FLOW_PRONY_REDUCED) | FLOW_BIT(FLOW_RELAXATION_SPECTRUM) | FLOW_BIT(FLOW_PAYNE) |    \
      FLOW_BIT(FLOW_PAYNE_SWEEP))
 
-/* What holds records against the case. */
+/* Comparison of the case with its records. */
 #define FLOW_VALIDATIONS                                                                           \
     (FLOW_BIT(FLOW_VALIDATION) | FLOW_BIT(FLOW_VALIDATION_RUNNING_IN) |                            \
      FLOW_BIT(FLOW_VALIDATION_COURSE) | FLOW_BIT(FLOW_VALIDATION_CHOICES) |                        \
@@ -156,16 +157,16 @@ __extension__ typedef unsigned __int128 flow_things;
 
 typedef struct flow_resource_row {
     const char *words, *missing;
-    const table_schema *schema; /* of a table of its own, else NULL */
+    const table_schema *schema; /* NULL if the resource is not a table of its own */
     const char *suffix;
 } flow_resource_row;
 extern const flow_resource_row flow_thing_rows[FLOW_N_THINGS];
 
-/* Words of the things, parted by commas. */
+/* Writes the names of the resources, separated by commas. */
 void flow_resources_list(flow_things things, char *text, size_t size);
 int flow_resources_count(flow_things things);
-/* Things behind a table or a figure of a result, none for what every result has; false if there is
- * no such table or figure. */
+/* Finds the resources of a table or a figure. The set is empty for tables that every result has.
+ * False if the name is unknown. */
 bool flow_resources_of_table(const char *table, flow_things *things);
 bool flow_resources_of_figure(const char *figure, flow_things *things);
 

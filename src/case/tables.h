@@ -1,4 +1,4 @@
-/* The columns and keys of the tables about a run and its files. Included by tables.h alone.
+/* Columns and keys of the tables about a run and its files. Only tables.h includes this file.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #ifndef WT_CASE_TABLES_H
 #define WT_CASE_TABLES_H

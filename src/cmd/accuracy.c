@@ -21,8 +21,8 @@ static void say_keys(const cmd_session *s, const wt_table *table)
     }
 }
 
-/* The case is asked for its budget and its error against run time, or its coverage, and nothing
- * else. */
+/* Runs a case with requests for only its error budget and error against run time, or its coverage.
+ */
 static wt_status ask_case(cmd_session *s, wt_run_options *run)
 {
     const bool covers = run->trials > 0;

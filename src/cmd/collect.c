@@ -1,7 +1,7 @@
-/* weartrack collect: results of cases side by side. SPDX-License-Identifier: GPL-3.0-or-later */
+/* weartrack collect: compares results of cases. SPDX-License-Identifier: GPL-3.0-or-later */
 #include "cmd/table_output.h"
 
-/* The results that can be read; the call goes on without the others. */
+/* Reads the results. A file that cannot be read is reported and skipped. Returns their number. */
 static size_t read_cases(cmd_session *s, wt_collected *cases, wt_result **results)
 {
     const wt_progress *progress = &s->work.progress;

@@ -21,7 +21,8 @@ static bool is_called(const wt_table *table, const char *name)
     return strcmp(wt_table_name(table), name) == 0;
 }
 
-/* The table of the group, or the first of another name; what is called the track is no bulk. */
+/* Finds the table of the group, or else the first indentation table; a table of the track is no
+ * bulk. */
 static wt_status find_group(const compare_call *call, int g, const wt_table **table, wt_error *err)
 {
     const compare_input *input = &call->input[g];
@@ -84,7 +85,7 @@ static void compare_groups(compare_call *call, const char *master)
     wt_result_free(dma);
 }
 
-/* The table of the moduli of dwells of an input. */
+/* Finds the table of dwell moduli of an input. */
 static wt_status find_dwells(const compare_input *input, const wt_table **table, wt_error *err)
 {
     if (input->tables == NULL) {
@@ -121,7 +122,7 @@ static void compare_dwells(compare_call *call, const char *master)
 
 enum { OWN, OF_GROUPS, OF_MATERIALS, OF_RUBBER, OF_READING, PARTS };
 
-/* What nothing here is asked would be left out without a word. */
+/* Rejects options that have no effect on this comparison. */
 static bool check_options(compare_call *call, bool materials, bool master)
 {
     const cmd_part *parts = call->s.parts;
@@ -151,7 +152,7 @@ static bool needs_two(cmd_session *s)
                            s->n_files);
 }
 
-/* What a file is its content says. */
+/* Reads the inputs. The content of a file decides its kind. */
 static bool read_inputs(compare_call *call, size_t least)
 {
     cmd_session *s = &call->s;
@@ -217,7 +218,7 @@ int cmd_compare(int argc, char **argv)
             own.master != NULL && cmd_tables_have(call.input[0].tables, "dwell_moduli");
         const bool materials = own.master == NULL && compare_takes_materials(&call);
         if (call.s.n_files < 2 && call.input[0].tables == NULL) {
-            call.s.err = call.input[0].failure; /* it may be what was asked for */
+            call.s.err = call.input[0].failure; /* the file may be the intended result */
             cmd_end(&call.s, call.s.err.status);
         } else if (call.s.n_files < 2 && !dwells) {
             (void)needs_two(&call.s);

@@ -1,20 +1,20 @@
-/* What weartrack compare was given. SPDX-License-Identifier: GPL-3.0-or-later */
+/* Inputs of weartrack compare. SPDX-License-Identifier: GPL-3.0-or-later */
 #ifndef WT_CMD_COMPARE_H
 #define WT_CMD_COMPARE_H
 
 #include "cmd/table_output.h"
 
-/* A file: its tables, or why it has none. */
+/* A file: its tables, or the error that it has none. */
 typedef struct compare_input {
     const char *path;
     wt_result *tables;
     wt_error failure;
-    /* of a material: */
+    /* for a material: */
     wt_rubber rubber;
-    wt_table *shift_factors; /* of isotherms that were fitted here */
+    wt_table *shift_factors; /* of isotherms that this call fits */
 } compare_input;
 
-/* Both comparisons. */
+/* One call, for comparisons of groups and of materials. */
 typedef struct compare_call {
     cmd_session s;
     wt_compare_job groups;
@@ -24,12 +24,12 @@ typedef struct compare_call {
     compare_input *input; /* [s.n_files] */
 } compare_call;
 
-/* Whether the files are materials: some say so, or are no tables, and none holds curves of an
- * indentation. */
+/* True if the files are materials: at least one is or may be one, and none has indentation tables.
+ */
 bool compare_takes_materials(const compare_call *call);
-/* Whether one of them is measured isotherms, which are read and fitted here. */
+/* True if one of them has measured isotherms, which this call fits. */
 bool compare_reads_isotherms(const compare_call *call);
-/* Compares them and writes the tables. */
+/* Compares the materials and writes the tables. */
 void compare_materials(compare_call *call);
 
 #endif

@@ -4,7 +4,8 @@
 
 #include <string.h>
 
-/* A text that is not ours, a spreadsheet, a folder, a pattern. Standard input is read once. */
+/* True for a foreign text, a spreadsheet, a folder or a pattern. Standard input can be read only
+ * once. */
 static bool may_be_measured(const compare_input *input)
 {
     const bool other = input->tables == NULL && input->failure.status != WT_E_MEMORY;
@@ -47,7 +48,7 @@ static wt_status fit_material(compare_call *call, compare_input *input, wt_error
     wt_job work = call->s.work;
     work.formats = call->s.formats;
     work.left_out |= WT_EXTRA_REDUCED | WT_EXTRA_SPECTRUM;
-    if (input->tables != NULL) /* the file is an input already */
+    if (input->tables != NULL) /* the file is already in the provenance */
         work.provenance = NULL;
     set.patterns = &input->path;
     set.n_patterns = 1;
@@ -57,9 +58,9 @@ static wt_status fit_material(compare_call *call, compare_input *input, wt_error
     input->shift_factors = tables.shift_factors;
     tables.shift_factors = NULL;
     wt_master_tables_clear(&tables);
-    if (status == WT_E_AMBIGUOUS || status == WT_E_NOT_FOUND) /* of its samples */
+    if (status == WT_E_AMBIGUOUS || status == WT_E_NOT_FOUND) /* the error is about its samples */
         wt_error_file(&failure, input->path);
-    /* what is nothing that is known might have been meant for a result */
+    /* for an unknown format show the error of reading it as a result */
     if (status != WT_OK)
         *err = status == WT_E_FORMAT && input->tables == NULL ? input->failure : failure;
     return status;
@@ -76,7 +77,7 @@ static wt_status read_material(compare_call *call, compare_input *input, wt_erro
     return err->status;
 }
 
-/* The name of the file, with its folders if another is called so too. */
+/* Returns the name of the file, with its folders if another file has the same name. */
 static const char *name_of(const compare_call *call, size_t i)
 {
     const char *slash = strrchr(call->s.files[i], '/');
@@ -108,7 +109,7 @@ void compare_materials(compare_call *call)
     wt_compared *of = calloc(s->n_files, sizeof *of);
     wt_status made =
         of == NULL ? wt_fail(&s->err, WT_E_MEMORY, "out of memory") : check_names(call, &s->err);
-    /* without all that was asked for there is no comparison */
+    /* the comparison needs every material */
     wt_table_free(s->work.failures);
     s->work.failures = NULL;
     for (size_t i = 0; made == WT_OK && i < s->n_files; i++) {

@@ -2,11 +2,11 @@
  */
 #include "cmd/cmd.h"
 
-/* Where the tables go: written as they come to a text stream, or collected for the HDF5 store,
- * where force curves are written as they come. Memory hardly grows with a map. */
+/* Destination of the tables. A text stream receives them as they come. For the HDF5 store they are
+ * collected, but force curves are written as they come. Memory hardly grows with a map. */
 typedef struct destination {
     cmd_session *session;
-    cmd_sink sink;      /* its stream: NULL before the first table */
+    cmd_sink sink;      /* its stream is NULL before the first table */
     wt_map_writer *map; /* NULL before the first curve of a store */
 } destination;
 

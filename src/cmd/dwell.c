@@ -1,4 +1,4 @@
-/* weartrack dwell: relaxation and creep behind the approach of force curves.
+/* weartrack dwell: relaxation and creep after the approach of force curves.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "cmd/cmd.h"
 

@@ -1,4 +1,5 @@
-/* Tables for other programs, in the form asked for. SPDX-License-Identifier: GPL-3.0-or-later */
+/* Writes tables for other programs in the requested form. SPDX-License-Identifier: GPL-3.0-or-later
+ */
 #include "cmd/export.h"
 
 #include <string.h>

@@ -1,5 +1,4 @@
-/* Tables for other programs, in the form asked for.
- * SPDX-License-Identifier: GPL-3.0-or-later */
+/* Tables for other programs in the requested form. SPDX-License-Identifier: GPL-3.0-or-later */
 #ifndef WT_CMD_EXPORT_H
 #define WT_CMD_EXPORT_H
 
@@ -12,8 +11,8 @@ typedef struct export_options {
 } export_options;
 const wt_params *export_params(void);
 
-/* Writes the table to -o or standard output. Unless --as is among the options given, the end of the
- * name after -o decides. */
+/* Writes the table to -o or standard output. Without --as the suffix of the name after -o decides
+ * the form. */
 wt_status export_table(cmd_session *s, const cmd_part *part, const wt_table *table);
 
 #endif

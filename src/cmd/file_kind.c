@@ -1,4 +1,4 @@
-/* What a file turned out to be. SPDX-License-Identifier: GPL-3.0-or-later */
+/* Detects the kind of a file. SPDX-License-Identifier: GPL-3.0-or-later */
 #include <string.h>
 
 #include "cmd/file_kind.h"
@@ -20,7 +20,7 @@ void file_kind_value(const char *value, const char *unit, char *out, size_t size
         if (strcmp(unit, si[i]) == 0) {
             char digits[128];
             wt_format_si(number, unit, DIGITS, digits, sizeof digits);
-            /* without the zeros at the end: 61.0000 mN/m is 61 mN/m */
+            /* without trailing zeros: 61.0000 mN/m is 61 mN/m */
             const size_t n = strcspn(digits, " e");
             size_t kept = n;
             while (memchr(digits, '.', n) != NULL && kept > 0 && digits[kept - 1] == '0')
@@ -35,11 +35,11 @@ void file_kind_value(const char *value, const char *unit, char *out, size_t size
         snprintf(out, size, "%s", value);
 }
 
-/* Items by which a file shows what it holds, or which a case tells about it. */
+/* Metadata items that show the content of a file or that a case needs. */
 static const struct {
     const char *item;
-    unsigned kind;    /* that a file with this item has; 0: any */
-    const char *next; /* what to do with it if it is the first; NULL: by its kind */
+    unsigned kind;    /* WT_KIND_* of a file with this item; 0: any */
+    const char *next; /* subcommand for the file if the item is the first; NULL: by its kind */
 } telling[] = {{"curves", WT_KIND_FORCE, NULL},
                {"thermal noise", WT_KIND_NOISE, "thermal"},
                {"record of friction", WT_KIND_RECORD, "record"},
@@ -58,7 +58,7 @@ static void read_fact(const char *item, const char *value, const char *unit, con
     for (size_t i = 0; i < COUNT_OF(telling); i++) {
         char shown[160];
         if (strcmp(item, telling[i].item) != 0 || strcmp(value, "0") == 0 ||
-            strstr(found->words, item) != NULL) /* the header and what became of it */
+            strstr(found->words, item) != NULL) /* header value and converted value */
             continue;
         if (found->kind == 0) {
             found->kind = telling[i].kind;
@@ -70,7 +70,7 @@ static void read_fact(const char *item, const char *value, const char *unit, con
                                                                                         : ": ",
                  item, shown);
     }
-    static const char radius[] = "tip radius, "; /* the unit behind it */
+    static const char radius[] = "tip radius, "; /* followed by the unit */
     if (strncmp(item, radius, sizeof radius - 1) == 0) {
         const char *of = item + sizeof radius - 1;
         snprintf(found->tip, sizeof found->tip, "sphere:radius=%s%.*s", value,
@@ -91,7 +91,7 @@ static bool begins_with(const char *text, const char *begin)
     return strncmp(text, begin, strlen(begin)) == 0;
 }
 
-/* What the columns of a table are, and heights along one line. */
+/* Reads the quantities of the columns, and detects heights along one line. */
 static void read_columns(const char *item, const char *value, file_kind *found)
 {
     found->has_x |= begins_with(value, "position_x");
@@ -109,7 +109,7 @@ bool file_kind_lacks(const file_kind *found, size_t missing)
     return found->missing[missing] && !by_column;
 }
 
-/* A column that says no unit is told with a --units of its own. */
+/* Stores the name of a column without a unit, which needs its own --units. */
 static void read_unitless(const char *item, const char *value, file_kind *found)
 {
     static const char column[] = "column \"";
@@ -138,7 +138,7 @@ static void read_facts(const wt_formats *formats, const wt_table *facts, file_ki
     }
     found->is_result =
         found->is_result && format != NULL && strncmp(format->id, "weartrack-", 10) == 0;
-    /* what is not readable as it is does not show its kind */
+    /* a file that is not readable yet does not show its kind */
     if (found->kind == 0 && format != NULL && !found->is_result)
         found->kind = format->kinds & (~format->kinds + 1);
     if (format != NULL && found->kind == WT_KIND_FORCE && (format->kinds & WT_KIND_IMAGE) != 0 &&

@@ -41,7 +41,7 @@ static void show_format(const wt_formats *formats, const char *id, FILE *out)
                 f->title);
 }
 
-/* What there is to show of the id, NULL: all formats. */
+/* Writes the description of a format, or the list of all formats for NULL. */
 static void write_formats(cmd_session *s, const char *id)
 {
     if (id != NULL && strcmp(id, "schema") != 0 && wt_formats_find(s->formats, id) == NULL) {
@@ -59,7 +59,7 @@ static void write_formats(cmd_session *s, const char *id)
         cmd_fail(s);
 }
 
-/* A description and, if there is a second file, a sample. */
+/* Checks a description and, if there is a second file, reads this sample with it. */
 static void check_description(cmd_session *s, const wt_read_options *options)
 {
     wt_input *input = NULL;

@@ -2,7 +2,7 @@
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "cmd/sliding_options.h"
 
-/* The tables that follow that of friction, each where it has something to say. */
+/* Further tables, each if it applies. */
 enum { AREA, DIRECTIONS, SOFTENING, FLASH, ANISOTROPY, MAP, DECADES, N_FURTHER };
 
 static bool is_wanted(const wt_sliding *s, size_t k)
@@ -25,8 +25,8 @@ static bool is_wanted(const wt_sliding *s, size_t k)
     }
 }
 
-/* What else a layer of this subcommand has does not reach the bare surface, of which map and
- * decades are. */
+/* The map and the contributions by scale are those of the bare surface, which the other layer
+ * options do not affect. */
 static wt_status make_map(const wt_sliding *sliding, const wt_job *work, wt_table **table,
                           wt_error *err)
 {

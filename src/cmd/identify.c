@@ -1,4 +1,4 @@
-/* weartrack identify: critical energy and wear rate from what is seen of a layer.
+/* weartrack identify: critical energy and wear rate from an observed layer.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "cmd/sliding_options.h"
 
@@ -20,7 +20,7 @@ int cmd_identify(int argc, char **argv)
     cmd_sliding s;
     wt_table *table = NULL;
     cmd_sliding_init(&s, (cmd_part){wt_identify_job_params(), &job, NULL, 0});
-    /* the energy knows nothing of the shear stress */
+    /* the energy does not depend on the shear stress */
     s.parts[CMD_CONTACT].only =
         "material dma roughness strain-softening softening-temperature wear-of";
     s.parts[CMD_CONDITIONS].only =

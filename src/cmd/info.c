@@ -1,4 +1,5 @@
-/* weartrack info: what a file is. SPDX-License-Identifier: GPL-3.0-or-later */
+/* weartrack info: shows the kind and the metadata of a file. SPDX-License-Identifier:
+ * GPL-3.0-or-later */
 #include <string.h>
 
 #include "cmd/file_kind.h"
@@ -19,7 +20,7 @@ static void print_facts(const char *name, const wt_table *facts)
         const char *s = wt_table_text(facts, row, FACTS_SOURCE);
         const char *v = wt_table_text(facts, row, FACTS_VALUE);
         if (strcmp(label, "file") == 0 && strcmp(v, name) == 0)
-            continue; /* the heading says it */
+            continue; /* the heading has it */
         char shown[1024], line[2048];
         file_kind_value(v, wt_table_text(facts, row, FACTS_UNIT), shown, sizeof shown);
         snprintf(line, sizeof line, *s != '\0' ? "%s  (%s)" : "%s%s", shown, s);
@@ -29,7 +30,7 @@ static void print_facts(const char *name, const wt_table *facts)
     }
 }
 
-/* Whether it is known what the file is. */
+/* Prints one file; true if its format is known. */
 static bool info_one(cmd_session *s, const char *path, const wt_read_options *options,
                      file_kind *found)
 {
@@ -38,7 +39,7 @@ static bool info_one(cmd_session *s, const char *path, const wt_read_options *op
     const wt_status status = file_kind_detect(s, path, options, log, &facts, found);
     if (status == WT_OK)
         print_facts(path, facts);
-    /* Somebody who asks what a file is wants to see everything that is odd about it. */
+    /* Notes are shown, too, as the user wants all remarks on the file. */
     cmd_print_log(s, log, true);
     if (status != WT_OK)
         cmd_fail_one(s);
@@ -47,7 +48,7 @@ static bool info_one(cmd_session *s, const char *path, const wt_read_options *op
     return status == WT_OK;
 }
 
-/* As a shell takes it for one word. */
+/* Prints one word, quoted for a shell. */
 static void print_word(const char *word)
 {
     static const char plain[] =
@@ -62,7 +63,7 @@ static void print_word(const char *word)
     fputs(mark, stdout);
 }
 
-/* What the user must say. Units that a column does not say are not guessed. */
+/* Prints the options that the user must supply. Missing units of columns are not guessed. */
 static void print_missing(const file_kind *found)
 {
     const char *name = found->unitless;
@@ -78,7 +79,7 @@ static void print_missing(const file_kind *found)
     }
 }
 
-/* The command to type next for the only file, or for all of them. */
+/* Prints a suggestion for the next command, for the only file or for all. */
 static void print_next(const char *const *files, size_t n, const file_kind *found)
 {
     if (found->nothing)
@@ -99,10 +100,11 @@ static void print_next(const char *const *files, size_t n, const file_kind *foun
         print_word(*found->tip != '\0' ? found->tip : "pyramid:half-angle=35deg,radius=20nm");
     print_missing(found);
     print_word(files[0]);
-    char *output = found->is_result ? NULL
-                                    : cmd_default_name(files[0], cmd_is_store(files[0])
-                                                                     ? "-result.h5" /* not itself */
-                                                                     : ".h5");
+    char *output = found->is_result
+                       ? NULL
+                       : cmd_default_name(files[0], cmd_is_store(files[0])
+                                                        ? "-result.h5" /* not the input itself */
+                                                        : ".h5");
     if (output != NULL) {
         fputs(" -o", stdout);
         print_word(output);

@@ -2,7 +2,7 @@
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "cmd/sliding_options.h"
 
-/* The tables, each where it is asked for. */
+/* Output tables, each if requested. */
 enum {
     LAYER,
     ENERGY_DENSITY,
@@ -16,7 +16,7 @@ enum {
     N_TABLES
 };
 
-/* What the layer is beyond its thickness at constant load. */
+/* Computes the further tables: bands, running-in, steady states with feedback, regime map. */
 static wt_status make_models(cmd_sliding *s, const wt_layer_job *job, wt_table *table[N_TABLES])
 {
     const wt_sliding *sliding = &s->conditions;

@@ -1,4 +1,4 @@
-/* What is said on standard error as lines of JSON, for programs that run many calls.
+/* Writes messages on standard error as lines of JSON, for programs that run many calls.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include <string.h>
 #include <time.h>
@@ -6,7 +6,7 @@
 #include "cmd/cmd.h"
 #include "core/base/json.h"
 
-static const char *of; /* the subcommand; NULL: what is said is for people */
+static const char *of; /* name of the subcommand; NULL: messages are plain text */
 
 void cmd_log_json(const char *name)
 {
@@ -24,7 +24,7 @@ static void put_member(const char *name, const char *text)
     json_put_text(stderr, text);
 }
 
-/* In UTC, as ISO 8601 has it; nothing where the clock knows no date. */
+/* Writes the time in UTC (ISO 8601); nothing if the clock is invalid. */
 static void put_time(void)
 {
     char text[32];

@@ -1,5 +1,5 @@
-/* The command line's beginning and end: finds the subcommand in the table, and makes sure that what
- * was printed has arrived. SPDX-License-Identifier: GPL-3.0-or-later */
+/* Entry point of the command: finds the subcommand in the table and checks that the output was
+ * written. SPDX-License-Identifier: GPL-3.0-or-later */
 #include <errno.h>
 #include <signal.h>
 #include <string.h>
@@ -10,7 +10,7 @@
 int cmd_full_argc;
 char **cmd_full_argv;
 
-/* One table drives dispatch, --help and the tests. */
+/* This table drives dispatch, --help and the tests. */
 const cmd_command cmd_commands[] = {
     {"Files", NULL, NULL},
     {"info", cmd_info, "what a file is, what is in it, what is missing or odd"},
@@ -62,7 +62,7 @@ static void print_help(FILE *out)
           out);
 }
 
-/* A full disk or a closed pipe is not a success. */
+/* Closes standard output. A full disk or a closed pipe is a failure. */
 static int close_stdout(int status)
 {
     if (fflush(stdout) != 0 || ferror(stdout) || fclose(stdout) != 0) {
@@ -96,12 +96,12 @@ int main(int argc, char **argv)
 {
     cmd_full_argc = argc;
     cmd_full_argv = argv;
-    /* `weartrack ... | head` shall end quietly, also where a parent ignores the signal. */
+    /* `weartrack ... | head` must end quietly, also if a parent ignores the signal. */
     signal(SIGPIPE, SIG_DFL);
     wt_protect_begin();
     cmd_end_without_memory();
-    /* A line is one write: forty thousand bad files are as many, not three million. The room is
-     * static, for the words that say that memory is short must not need any. */
+    /* Standard error is line-buffered: one write per line. The buffer is static, as a message about
+     * memory must not need any. */
     static char words[BUFSIZ];
     (void)setvbuf(stderr, words, _IOLBF, sizeof words);
 
@@ -124,7 +124,7 @@ int main(int argc, char **argv)
     else
         status = dispatch(argc - 1, argv + 1);
     if (wt_sandbox_limitations() !=
-        NULL) /* of the system, not of the data: no remark of a result */
+        NULL) /* about the system, not the data: no remark of a result */
         cmd_message("weartrack: warning: %s\n", wt_sandbox_limitations());
     status = close_stdout(status);
     const cmd_word last = {"status", NULL, (size_t)status};

@@ -1,11 +1,11 @@
-/* When memory runs out this command ends, at once and with a word. The library says "out of memory"
- * wherever it allocates, but what it calls does not: UDUNITS, libxml2 and the C library's regular
- * expressions crash, or take an element for a missing one. A program can stand before them all, a
- * library cannot. Nothing is lost by it: what is being written has no name yet.
+/* Ends the command with a message when memory runs out. The library reports "out of memory"
+ * wherever it allocates, but its dependencies do not: UDUNITS, libxml2 and the regular expressions
+ * of the C library crash or treat an element as missing. A program can replace the allocator, a
+ * library cannot. No output is lost, as unfinished files have temporary names.
  *
- * Large pieces are left to who asks: a length in a file can be anything, and a message about the
- * file says more. So are those of another process, such as the one that reads HDF5.
- * SPDX-License-Identifier: GPL-3.0-or-later */
+ * Large allocations return NULL to their caller: a length in a file can be anything, and a message
+ * about the file is more useful. The same holds in other processes, such as the one that reads
+ * HDF5. SPDX-License-Identifier: GPL-3.0-or-later */
 #include "cmd/cmd.h"
 
 #include <dlfcn.h>
@@ -13,7 +13,7 @@
 #include <malloc.h>
 #include <unistd.h>
 
-/* A sanitizer brings its own allocator, and stops at the first failure too. */
+/* A sanitizer has its own allocator and also stops at the first failure. */
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
 #define OTHER_ALLOCATOR
 #elif defined(__has_feature)
@@ -29,8 +29,8 @@ void cmd_end_without_memory(void)
 {
     owner = getpid();
 #ifdef __GLIBC__
-    /* Else what was freed once raises the size from which pieces are given back to the system, up
-     * to 32 MB: the directory of a map would lie beside the table that comes after it. */
+    /* Fixed thresholds. Otherwise glibc raises them up to 32 MB after a large block is freed, and
+     * keeps memory of a map that it could return to the system. */
     (void)mallopt(M_MMAP_THRESHOLD, LARGE);
     (void)mallopt(M_TRIM_THRESHOLD, LARGE);
 #endif
@@ -49,7 +49,8 @@ static void *given_memory(void *memory, size_t size)
     _exit(CMD_FAILED);
 }
 
-/* The function of that name that this one stands before; NULL while the loader looks for it. */
+/* Returns the next function of that name in the loading order; NULL while the loader searches for
+ * it. */
 static void *next_function(void **kept, const char *name)
 {
     static _Thread_local bool looking;
@@ -63,7 +64,7 @@ static void *next_function(void **kept, const char *name)
     return *kept;
 }
 
-/* ISO C has no conversion between the two kinds of pointers. */
+/* ISO C has no conversion between object and function pointers. */
 typedef union function {
     void *found;
     void *(*one)(size_t size);
@@ -81,7 +82,7 @@ void *malloc(size_t size)
 void *calloc(size_t n, size_t size)
 {
     static function real;
-    /* Where the product overflows there is no such memory. */
+    /* An overflowing product is larger than any memory. */
     const size_t all = size > 0 && n > SIZE_MAX / size ? SIZE_MAX : n * size;
     return next_function(&real.found, "calloc") != NULL ? given_memory(real.two(n, size), all)
                                                         : NULL;
@@ -94,7 +95,7 @@ void *realloc(void *old, size_t size)
                                                          : NULL;
 }
 
-/* FFTW's. */
+/* FFTW calls it. */
 void *memalign(size_t alignment, size_t size)
 {
     static function real;

@@ -20,7 +20,7 @@ static const wt_param saved_rows[] = {
 };
 CMD_OPTIONS(saved_params, saved_shifts, saved_rows)
 
-/* The material for other programs. */
+/* Options of the export to finite-element programs. */
 typedef struct exported {
     const char *const *exports;
     size_t n_exports;
@@ -52,7 +52,7 @@ static wt_status save_shifts(const char *path, const wt_table *shifts, wt_error 
     return cmd_sink_close(&sink, status, err);
 }
 
-/* The program and, behind the colon, the file. */
+/* Splits PROGRAM:FILE at the colon. */
 static bool split_export(const char *text, wt_fem_program *program, const char **file)
 {
     const char *colon = strchr(text, ':');
@@ -60,7 +60,7 @@ static bool split_export(const char *text, wt_fem_program *program, const char *
     return **file != '\0' && wt_fem_program_find(text, (size_t)(colon - text), program);
 }
 
-/* One file takes one of them; on standard output each would be unreadable. */
+/* Rejects two outputs to the same file or to standard output. */
 static bool check_outputs(cmd_session *s, const saved_shifts *saved, const exported *own)
 {
     const char *result = s->common.output != NULL ? s->common.output : "-";
@@ -82,7 +82,7 @@ static bool check_outputs(cmd_session *s, const saved_shifts *saved, const expor
     return true;
 }
 
-/* Before the work begins. */
+/* Checks the exports before the computation. */
 static bool check_exports(cmd_session *s, const exported *own)
 {
     for (size_t i = 0; i < own->n_exports; i++) {
@@ -116,7 +116,7 @@ static wt_status write_exports(cmd_session *s, const exported *own, const wt_mas
     return status;
 }
 
-/* Few terms for finite elements take several times as long as the fit. */
+/* True if the reduced series is requested. It takes several times as long as the fit. */
 static bool asks_for_few_terms(const cmd_part *part, const exported *own)
 {
     static const char *const options[] = {"prony-terms", "prony-error", "prony-long-term"};
@@ -126,8 +126,8 @@ static bool asks_for_few_terms(const cmd_part *part, const exported *own)
     return asked;
 }
 
-/* All that master wrote, those of the sample or of whatever else, or a table of the user's own:
- * `shifts` is one of `given`. */
+/* Reads the shifts from an output of master, for the sample if it has several, or from any other
+ * table. `shifts` is a table of `given`. */
 static wt_status read_shifts(cmd_session *s, const char *path, const char *sample,
                              wt_result **given, const wt_table **shifts)
 {
@@ -146,8 +146,8 @@ static wt_status read_shifts(cmd_session *s, const char *path, const char *sampl
     return of_samples ? cmd_check_sample(*given, path, "shift_factors", sample, &s->err) : status;
 }
 
-/* Fits the sample, writes what goes into files of its own and finishes the call; `made`: what was
- * read. */
+/* Fits one sample, writes its separate files and finishes the call. `made` is the status of
+ * reading. */
 static void master_of_one(cmd_session *s, wt_status made, const wt_master_job *job,
                           const wt_shared_shift_law_job *common, const saved_shifts *saved,
                           const exported *own)
@@ -228,11 +228,11 @@ int cmd_master(int argc, char **argv)
     job.sets = &set;
     job.n_sets = 1;
     wt_cost_stage(s.cost, "master_curve");
-    s.work.dma = &sweep; /* read once, for all samples */
+    s.work.dma = &sweep; /* read once for all samples */
     wt_status made = WT_OK;
     if (saved.read != NULL)
         made = read_shifts(&s, saved.read, set.read.sample, &given, &job.shifts);
-    /* what goes into a file of its own is of one sample */
+    /* separate files are for one sample only */
     if (made == WT_OK && set.read.sample == NULL && saved.written == NULL && own.n_exports == 0)
         made = wt_samples_read(&set, 1, &s.work, &samples, &s.err);
     if (made == WT_OK && samples.n > 1)

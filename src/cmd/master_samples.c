@@ -1,4 +1,4 @@
-/* weartrack master of several samples: a master curve of each, and all of them side by side.
+/* weartrack master of several samples: a master curve for each, and their comparison.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "cmd/master.h"
 
@@ -9,9 +9,9 @@ enum { TABLES = 7, NAME_SIZE = 48 };
 
 typedef struct sample_fit {
     wt_master_tables tables;
-    wt_table *named[TABLES]; /* owned once they are named */
+    wt_table *named[TABLES]; /* owned after renaming */
     wt_rubber rubber;
-    char name[NAME_SIZE]; /* of its tables */
+    char name[NAME_SIZE]; /* suffix of its tables */
     bool fitted;
 } sample_fit;
 
@@ -23,7 +23,7 @@ static bool is_taken(const sample_fit *fits, size_t i)
     return false;
 }
 
-/* What names of tables may hold; another sample of the same letters has a number behind. */
+/* Sets a suffix with the characters allowed in table names; a duplicate has a number appended. */
 static void name_tables(sample_fit *fits, size_t i, const char *sample)
 {
     char *const name = fits[i].name;
@@ -48,7 +48,7 @@ static const char *shown_name(const char *sample)
     return sample[0] != '\0' ? sample : "sweeps without a sample";
 }
 
-/* What is noticed of one sample is told of it. */
+/* Copies log entries with the name of the sample. */
 static void hand_on(const wt_log *from, const char *sample, wt_log *to)
 {
     for (size_t i = 0; i < wt_log_count(from); i++) {
@@ -102,7 +102,8 @@ static wt_status fit_one(cmd_session *s, wt_master_job *job, wt_file_set *set, c
                            : wt_job_failed(&s->work, shown_name(sample), status, &failure, &s->err);
 }
 
-/* Each; one that cannot be fitted is listed, and is an error only if no other can. */
+/* Fits each sample. One that cannot be fitted is listed as a failure; it is an error only if no
+ * sample can. */
 static wt_status fit_all(cmd_session *s, wt_master_job *job, wt_file_set *set,
                          const wt_samples *samples, sample_fit *fits)
 {
@@ -117,7 +118,7 @@ static wt_status fit_all(cmd_session *s, wt_master_job *job, wt_file_set *set,
     return n_fitted > 0 ? WT_OK : wt_fail(&s->err, WT_E_EMPTY, "no sample has a master curve");
 }
 
-/* Those with a series side by side; where they have nothing in common that is said. */
+/* Compares the samples that have a series; a warning states if they have no common range. */
 static void compare_samples(cmd_session *s, const wt_samples *samples, const sample_fit *fits,
                             wt_compared *of, wt_materials_tables *tables)
 {
@@ -136,8 +137,7 @@ static void compare_samples(cmd_session *s, const wt_samples *samples, const sam
     wt_log_add(s->work.log, WT_WARNING, NULL, NULL, "not compared: %s", message);
 }
 
-/* One law of all, if it is asked for; that there is none is listed, as a sample that cannot be
- * fitted is. */
+/* Fits a shared law if requested; a failure is listed like that of a sample. */
 static wt_status find_common_law(cmd_session *s, wt_shared_shift_law_job *job,
                                  const wt_samples *samples, const sample_fit *fits,
                                  wt_table **table)

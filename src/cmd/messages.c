@@ -1,4 +1,5 @@
-/* Words on standard error: errors, warnings, progress. SPDX-License-Identifier: GPL-3.0-or-later */
+/* Writes errors, warnings and progress on standard error. SPDX-License-Identifier: GPL-3.0-or-later
+ */
 #include <signal.h>
 #include <stdarg.h>
 #include <string.h>
@@ -8,14 +9,14 @@
 #include "core/base/utf8.h"
 #include "core/table/registry.h"
 
-/* A character that a terminal might obey. */
+/* True for a control character of a terminal. */
 static bool is_control(const char *text)
 {
     const unsigned char c = (unsigned char)text[0];
     return (c < 0x20 && c != '\t') || c == 0x7f || (c == 0xc2 && (unsigned char)text[1] < 0xa0);
 }
 
-/* A line of progress, which other words take the place of. */
+/* True if a progress line is displayed, which other messages replace. */
 static bool progress_stands;
 
 static void erase_progress(void)
@@ -113,7 +114,7 @@ bool cmd_fail(cmd_session *s)
     return false;
 }
 
-/* Entries of the log with the same words, about several files. */
+/* Log entries with equal texts about several files. */
 typedef struct fold {
     wt_log_entry entry; /* the first of them */
     size_t first, n_files, n;
@@ -133,7 +134,8 @@ static int by_first(const void *a, const void *b)
     return ((const fold *)a)->first < ((const fold *)b)->first ? -1 : 1;
 }
 
-/* Folds n entries, in the order of the first of each; returns how many there are then. */
+/* Groups n entries with equal texts, in the order of the first of each; returns the number of
+ * groups. */
 static size_t fold_equal(fold *folds, size_t n)
 {
     size_t kept = 0;
@@ -222,7 +224,7 @@ bool cmd_print_failures(cmd_session *s, const wt_table *failures)
         cmd_event("failed", words, COUNT_OF(words));
         if (cmd_is_json())
             continue;
-        /* most messages begin with the file they are about */
+        /* most messages begin with the file */
         if (strncmp(what, where, strlen(where)) == 0)
             cmd_message("  %s\n", what);
         else
@@ -237,7 +239,7 @@ bool cmd_print_failures(cmd_session *s, const wt_table *failures)
 
 static const int interruptions[] = {SIGINT, SIGTERM, SIGHUP};
 enum { N_INTERRUPTIONS = COUNT_OF(interruptions) };
-static volatile sig_atomic_t interrupted; /* number of the signal; all that a handler may write */
+static volatile sig_atomic_t interrupted; /* number of the signal, written by the handler */
 
 static void note_interruption(int number)
 {
@@ -246,7 +248,7 @@ static void note_interruption(int number)
 
 void cmd_catch_interruptions(void)
 {
-    /* The second one ends the program at once. A signal that the parent ignores stays ignored. */
+    /* A second signal ends the program at once. A signal that the parent ignores stays ignored. */
     struct sigaction catch = {.sa_handler = note_interruption, .sa_flags = (int)SA_RESETHAND};
     struct sigaction before;
     sigemptyset(&catch.sa_mask);
@@ -255,7 +257,7 @@ void cmd_catch_interruptions(void)
             sigaction(interruptions[i], &catch, NULL);
 }
 
-/* What was begun has been removed: now the signal does what it always does. */
+/* Unfinished files have been removed: the signal has its default action now. */
 static void release_interruptions(void)
 {
     struct sigaction before;
@@ -273,7 +275,7 @@ static bool report_progress(void *user, const char *what, size_t done, size_t to
     const double now = wt_time_wall();
     if (interrupted != 0)
         return false;
-    /* Only work over a second is worth a line. */
+    /* Progress is shown after one second. */
     if (!state->active || now - state->start < 1 || now - state->shown < state->interval)
         return true;
     state->shown = now;
@@ -295,7 +297,7 @@ wt_progress cmd_progress_start(cmd_session *s)
 {
     const double now = wt_time_wall();
     const bool is_json = cmd_is_json();
-    /* a program wants a line a second; people look at ten */
+    /* JSON has one line per second, a terminal ten updates */
     s->progress = (cmd_progress){now, now, is_json ? 1 : 0.1,
                                  !s->common.quiet && (is_json || isatty(STDERR_FILENO))};
     return (wt_progress){report_progress, &s->progress};

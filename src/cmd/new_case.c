@@ -1,5 +1,5 @@
-/* weartrack new-case: a commented case file from the files that there are.
- * SPDX-License-Identifier: GPL-3.0-or-later */
+/* weartrack new-case: writes a commented case file for given files. SPDX-License-Identifier:
+ * GPL-3.0-or-later */
 #include <dirent.h>
 #include <errno.h>
 #include <stdlib.h>
@@ -8,7 +8,7 @@
 
 #include "cmd/new_case.h"
 
-/* The path as it holds from the folder of the case; NULL: no memory. */
+/* Returns the path relative to the folder of the case, or absolute; NULL: no memory. */
 static char *path_in_case(const new_case *c, const char *path)
 {
     const char *const output = c->s->common.output;
@@ -18,9 +18,10 @@ static char *path_in_case(const new_case *c, const char *path)
     return whole != NULL ? whole : strdup(path);
 }
 
-/* ---- what the files are ---------------------------------------------------------------------- */
+/* ---- kinds of the files -----------------------------------------------------------------------
+ */
 
-/* Which of the words is in the name, in small letters or capitals; NULL: none. */
+/* Returns the first word that the name contains, ignoring case; NULL: none. */
 static const char *find_word(const char *name, size_t length, const char *const *words)
 {
     for (size_t i = 0; words[i] != NULL; i++)
@@ -33,8 +34,8 @@ static const char *find_word(const char *name, size_t length, const char *const 
 enum { MOST_WORDS = 7 };
 typedef const char *const word_list[MOST_WORDS];
 
-/* By the name of the file, else by that of its folder, else by those of the folders above, as far
- * as they tell the files apart: those behind the first `common` characters. */
+/* Finds the group by the name of the file, else of its folder, else of the folders above that
+ * differ between the files, those after the first `common` characters. */
 static bool find_group_by(entry *e, size_t common, word_list words[])
 {
     const char *const path = e->path, *end = path + strlen(path);
@@ -53,8 +54,7 @@ static bool find_group_by(entry *e, size_t common, word_list words[])
     return false;
 }
 
-/* A reference may be one of anything, of the track or of the lever: it tells where nothing else
- * does. */
+/* Finds the group of a file. "reference" is ambiguous and counts only if no other word is found. */
 static void find_group(entry *e, size_t common)
 {
     static word_list words[] = {
@@ -65,7 +65,7 @@ static void find_group(entry *e, size_t common)
         (void)find_group_by(e, common, weak);
 }
 
-/* What the names of force curves say of them; says where they say nothing. */
+/* Assigns force curves to groups by their names; a warning states how many are guesses. */
 static void guess_groups(new_case *c)
 {
     const entry *first = NULL;
@@ -93,7 +93,7 @@ static void guess_groups(new_case *c)
                    n_guessed, n);
 }
 
-/* Force curves are bulk until their names have been looked at. */
+/* Returns the section of a kind; force curves are bulk until their names are evaluated. */
 static place place_of(const file_kind *found)
 {
     return found->kind == WT_KIND_SWEEP      ? DMA
@@ -109,8 +109,8 @@ static bool is_profile(const file_kind *found)
     return found->one_row || (found->has_x && !found->has_y);
 }
 
-/* Height maps are of the counter surface, unless a name says that they are of a spot or there is a
- * spectrum of it; a profile whose name says that it is of the track tells what a record wore. */
+/* Assigns height maps: they belong to the counter surface, unless a name indicates a spot or there
+ * is a spectrum of it. A profile with a track in its name belongs to the record. */
 static void guess_maps(new_case *c)
 {
     static const char *const surface[] = {"road",     "counter",   "asphalt", "concrete",
@@ -138,7 +138,7 @@ static void guess_maps(new_case *c)
                    n_guessed, n_guessed == 1 ? " stands" : "s stand");
 }
 
-/* Whether its name can stand in a case, where it must be read back as it is. */
+/* Checks that the name can be stored in a case and read back unchanged. */
 static wt_status check_name(new_case *c, entry *e)
 {
     wt_error *const err = &c->s->err;
@@ -154,7 +154,7 @@ static wt_status check_name(new_case *c, entry *e)
     return WT_E_ARG;
 }
 
-/* With everything that lies there, as notes and pictures. */
+/* True for files of a folder that are no measurements, such as notes and pictures. */
 static bool is_left_out(const wt_error *failure, bool in_folder)
 {
     return in_folder && (failure->status == WT_E_FORMAT || failure->status == WT_E_EMPTY);
@@ -177,7 +177,7 @@ static void look_at_entry(new_case *c, entry *e, bool in_folder)
     wt_table_free(facts);
 }
 
-/* What a pattern stands for. */
+/* Adds the files that match a pattern. */
 static wt_status add_files(new_case *c, const char *pattern, bool in_folder)
 {
     char **paths = NULL;
@@ -199,13 +199,13 @@ static wt_status add_files(new_case *c, const char *pattern, bool in_folder)
     return WT_OK;
 }
 
-/* Files that are not hidden, and folders, which come in the order of their names. */
+/* Filter of scandir: entries that are not hidden. */
 static int is_shown(const struct dirent *item)
 {
     return item->d_name[0] != '.';
 }
 
-/* Of a failure, which is no reason to leave out the others. */
+/* Reports a failure and continues with the other files. */
 static wt_status say_and_go_on(new_case *c, wt_status status)
 {
     if (status == WT_OK || status == WT_E_MEMORY)
@@ -214,7 +214,7 @@ static wt_status say_and_go_on(new_case *c, wt_status status)
     return WT_OK;
 }
 
-/* A page that was made of an earlier case, with its plots: nothing there was measured. */
+/* True for the folder of a report, which has no measurements. */
 static bool is_report(const char *folder)
 {
     char head[1024] = "", *const page = wt_path_join(folder, "index.html");
@@ -227,8 +227,8 @@ static bool is_report(const char *folder)
     return strstr(head, "name=\"generator\" content=\"weartrack ") != NULL;
 }
 
-/* Files of a folder and of the folders in it; links to folders are not followed, which may lead
- * back up. */
+/* Adds the files of a folder and its subfolders. Links to folders are not followed, as they may
+ * form a loop. */
 static wt_status add_folder(new_case *c, const char *folder)
 {
     struct dirent **items = NULL;
@@ -236,7 +236,7 @@ static wt_status add_folder(new_case *c, const char *folder)
     if (is_report(folder))
         return WT_OK;
     wt_status status = add_files(c, folder, true);
-    status = status == WT_E_NOT_FOUND ? WT_OK : status; /* folders only */
+    status = status == WT_E_NOT_FOUND ? WT_OK : status; /* only subfolders */
     const int n = status == WT_OK ? scandir(folder, &items, is_shown, alphasort) : 0;
     if (n < 0) {
         status = wt_fail(&c->s->err, WT_E_IO, "cannot read the folder: %s", strerror(errno));
@@ -255,7 +255,8 @@ static wt_status add_folder(new_case *c, const char *folder)
     return status;
 }
 
-/* What one argument stands for; without a file it is said and the others go on. */
+/* Adds the files of one argument; if there are none, the failure is reported and the call
+ * continues. */
 static wt_status add_argument(new_case *c, const char *pattern)
 {
     struct stat info;
@@ -270,7 +271,7 @@ static wt_status add_argument(new_case *c, const char *pattern)
     return say_and_go_on(c, status);
 }
 
-/* Of what was left out, and whether anything is left. */
+/* Warns of skipped files; an error if no other file remains. */
 static wt_status tell_left_out(new_case *c)
 {
     const entry *first = NULL;

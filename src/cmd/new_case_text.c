@@ -1,4 +1,4 @@
-/* The text of a new case. SPDX-License-Identifier: GPL-3.0-or-later */
+/* Writes the text of a new case. SPDX-License-Identifier: GPL-3.0-or-later */
 #include "cmd/new_case.h"
 
 #include "core/base/utf8.h"
@@ -7,7 +7,7 @@
 
 /* ---- names in XML ---------------------------------------------------------------------------- */
 
-/* Well-formed UTF-8, but no character of XML: U+FFFE and U+FFFF. */
+/* True for U+FFFE and U+FFFF: well-formed UTF-8, but not allowed in XML. */
 static bool is_no_character(const char *text)
 {
     return strncmp(text, "\xEF\xBF\xBE", 3) == 0 || strncmp(text, "\xEF\xBF\xBF", 3) == 0;
@@ -41,7 +41,7 @@ static void put_text(FILE *out, const char *text)
     }
 }
 
-/* In a comment two hyphens must not follow one another. */
+/* Writes a comment, in which two adjacent hyphens are not allowed. */
 static void put_comment(FILE *out, const char *text)
 {
     const size_t length = strlen(text);
@@ -64,7 +64,7 @@ size_t new_case_count(const new_case *c, place where)
 
 /* ---- sections ------------------------------------------------------------------------------ */
 
-/* Why a file of force curves stands where it stands. */
+/* Writes the reason for the group of a file of force curves. */
 static void put_reason(FILE *out, const entry *e)
 {
     if (e->place > TRACK)
@@ -76,7 +76,7 @@ static void put_reason(FILE *out, const entry *e)
                 e->word, e->of_folder ? "folder" : "file");
 }
 
-/* Of the columns that say none. */
+/* Writes placeholders for units of columns without one. */
 static void put_units(FILE *out, const char *names)
 {
     for (size_t k = 0, n; *names != '\0'; names += n + (names[n] != '\0'), k++) {
@@ -106,7 +106,7 @@ static void put_file(FILE *out, const entry *e, const char *indent, const char *
 static void put_files(FILE *out, const new_case *c, place where, const char *element)
 {
     const char *indent = where == BULK || where == TRACK ? "      " : "    ";
-    const entry *last = NULL; /* equal words stand once */
+    const entry *last = NULL; /* equal comments appear once */
     for (size_t i = 0; i < c->n; i++) {
         const entry *e = &c->entries[i];
         if (e->place != where)
@@ -123,7 +123,7 @@ static void put_files(FILE *out, const new_case *c, place where, const char *ele
     }
 }
 
-/* Of an element that stands once: what else it could be is a comment. */
+/* Writes an element that occurs once; other candidates are comments. */
 static void put_one(FILE *out, const new_case *c, place where, const char *element)
 {
     const entry *first = NULL;
@@ -142,7 +142,7 @@ static void put_one(FILE *out, const new_case *c, place where, const char *eleme
     }
 }
 
-/* The files of a place between two lines; false if there are none. */
+/* Writes the files of a section between two lines; false if there are none. */
 static bool put_section(FILE *out, const new_case *c, place where, const char *begin,
                         const char *element, const char *end)
 {

@@ -1,5 +1,5 @@
-/* Options: the parameters of the structures that a subcommand fills give the parser and the help,
- * so they cannot disagree. SPDX-License-Identifier: GPL-3.0-or-later */
+/* Parses options and prints help, both from the parameter tables of the structures of a subcommand.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #include <getopt.h>
 #include <stdarg.h>
 #include <string.h>
@@ -51,9 +51,9 @@ PARAM_LOCAL_TABLE(common_params, cmd_common, common_rows, cmd_common_defaults, N
 /* One option of the call. */
 typedef struct option_row {
     cmd_part *part;
-    size_t number; /* of the parameter in the table */
+    size_t number; /* index of the parameter in its table */
     const wt_param *param;
-    bool negated; /* a flag that is set by default: --no-NAME */
+    bool negated; /* flag that is set by default: --no-NAME */
     char name[NAME_SIZE];
 } option_row;
 
@@ -100,7 +100,7 @@ bool cmd_param_error(cmd_session *s)
     return option_error(s, option);
 }
 
-/* Whether `names`, parted by blanks, has this one. */
+/* True if `names`, separated by blanks, contains the name. */
 static bool is_listed(const char *names, const char *name)
 {
     const size_t length = strlen(name);
@@ -161,8 +161,8 @@ static const option_row *find_option(const option_list *list, const char *name, 
     return NULL;
 }
 
-/* In the order of `names`, parted by blanks; a name that is no option stands there as it is, for
- * the tests to see. */
+/* Prints the options in the order of `names`, separated by blanks. An unknown name is printed
+ * unchanged, which the tests detect. */
 static void print_listed(const option_list *list, const char *names)
 {
     for (const char *p = names; *p != '\0'; p += strspn(p, " ")) {
@@ -215,7 +215,7 @@ static void print_help(const cmd_usage *usage, const option_list *list, bool all
 
 /* ---- parsing ------------------------------------------------------------------------------ */
 
-/* Stores one value; false when it is wrong. */
+/* Sets one option; false if the value is invalid. */
 static bool set_option(cmd_session *s, const option_row *row, const char *text)
 {
     cmd_part *part = row->part;
@@ -230,7 +230,7 @@ static bool set_option(cmd_session *s, const option_row *row, const char *text)
     return s->err.status == WT_E_MEMORY ? cmd_fail(s) : option_error(s, row->name);
 }
 
-/* What getopt did not like, in words. `word` is the argument it stopped at. */
+/* Reports an option that getopt rejected. `word` is the argument. */
 static bool bad_option(cmd_session *s, const struct option *longs, int code, const char *word)
 {
     if (code == ':')
@@ -257,7 +257,7 @@ static bool bad_option(cmd_session *s, const struct option *longs, int code, con
                : cmd_usage_error(s, "unknown option '%s'", word);
 }
 
-/* Nothing is written under the name of what it is not. */
+/* Rejects output suffixes of formats that are not supported. */
 static bool check_output(cmd_session *s, const cmd_usage *usage)
 {
     static const char of_sheet[] = "TABLE.csv` gives a table that one opens";
@@ -290,8 +290,8 @@ static bool check_output(cmd_session *s, const cmd_usage *usage)
     return true;
 }
 
-/* A usage error if one of the inputs is empty or is standard input a second time, or if the file of
- * -o would be lost. */
+/* Usage error if an input is empty or is standard input for the second time, or if -o would
+ * overwrite an input. */
 static bool check_inputs(cmd_session *s, const char *const *inputs, size_t n, size_t *n_pipes)
 {
     const char *output = s->common.output;
@@ -318,7 +318,7 @@ static bool check_number(cmd_session *s, const cmd_usage *usage)
     return true;
 }
 
-/* The names in the text, parted by its zero bytes or else by its lines; returns their number. */
+/* Splits names that are separated by zero bytes or else by lines; returns their number. */
 static size_t split_names(char *text, size_t length, const char **names)
 {
     const char end = memchr(text, '\0', length) != NULL ? '\0' : '\n';
@@ -335,7 +335,7 @@ static size_t split_names(char *text, size_t length, const char **names)
     return n;
 }
 
-/* The files of the call: its arguments and what --files-from names. */
+/* Collects the files of the call: arguments and those of --files-from. */
 static bool list_files(cmd_session *s, size_t n, char **arguments)
 {
     const char *from = s->common.files_from;
@@ -347,7 +347,8 @@ static bool list_files(cmd_session *s, size_t n, char **arguments)
         status = wt_input_bytes(input, &bytes, &length, &s->err);
     if (status == WT_OK) {
         s->names = calloc(length + 1, 1);
-        s->files = malloc((n + length / 2 + 1) * sizeof *s->files); /* a name and its end: 2 */
+        s->files = malloc((n + length / 2 + 1) *
+                          sizeof *s->files); /* a name and its separator need 2 bytes */
         if (s->names == NULL || s->files == NULL)
             status = wt_fail(&s->err, WT_E_MEMORY, "out of memory");
     }
@@ -368,7 +369,7 @@ static bool list_files(cmd_session *s, size_t n, char **arguments)
     return true;
 }
 
-/* The options as getopt wants them. */
+/* Builds the option tables of getopt. */
 static void list_for_getopt(const option_list *list, struct option *longs, char *letters)
 {
     size_t n_letters = 0;
@@ -387,7 +388,7 @@ static void list_for_getopt(const option_list *list, struct option *longs, char 
     longs[list->n] = (struct option){NULL, 0, NULL, 0};
 }
 
-/* Sets all options; `inputs` [argc] gets the files among their values. */
+/* Sets all options; `inputs` [argc] receives the input files among their values. */
 static bool parse_options(cmd_session *s, const option_list *list, int argc, char **argv,
                           const char **inputs, size_t *n_inputs)
 {

@@ -1,4 +1,4 @@
-/* Tables to where the user wants them. SPDX-License-Identifier: GPL-3.0-or-later */
+/* Writes tables to files and standard output. SPDX-License-Identifier: GPL-3.0-or-later */
 #include <string.h>
 #include <sys/stat.h>
 
@@ -32,7 +32,7 @@ wt_status cmd_try_output(const char *path, wt_error *err)
     struct stat info;
     if (cmd_is_standard(path) ||
         (stat(path, &info) == 0 && !S_ISREG(info.st_mode) && !S_ISDIR(info.st_mode)))
-        return WT_OK; /* a pipe is opened once */
+        return WT_OK; /* a pipe can be opened only once */
     wt_atomic_file *file = NULL;
     const wt_status status = wt_outfile_open(path, &file, err);
     wt_outfile_discard(file);
@@ -88,7 +88,7 @@ wt_status cmd_provenance(wt_result *result, wt_error *err)
     return status == WT_OK ? WT_OK : wt_fail(err, status, "out of memory");
 }
 
-/* A result that is kept says how it was made; one in a pipe goes on to others. */
+/* Adds the table "methods" to a stored result. A stream does not need it. */
 static wt_status add_methods(wt_result *result, wt_error *err)
 {
     wt_table *methods = NULL;

@@ -1,5 +1,5 @@
-/* weartrack record: friction and wear as a tribometer measured them.
- * SPDX-License-Identifier: GPL-3.0-or-later */
+/* weartrack record: evaluates friction records and wear of a tribometer. SPDX-License-Identifier:
+ * GPL-3.0-or-later */
 #include "cmd/cmd.h"
 
 int cmd_record(int argc, char **argv)

@@ -40,7 +40,7 @@ static const char *cell(const wt_table *methods, size_t row, const char *column)
     return wt_table_text(methods, row, (size_t)wt_table_find(methods, column));
 }
 
-/* Number of the reference of a row, from 1: that of the first row that has it; 0: none. */
+/* Returns the number of the reference of a row, from 1 in order of first occurrence; 0: none. */
 static size_t number_of(const wt_table *methods, size_t row)
 {
     const char *const reference = cell(methods, row, "reference");
@@ -98,9 +98,10 @@ static wt_status write_methods(cmd_session *s)
     return status;
 }
 
-/* ---- places ---------------------------------------------------------------------------------- */
+/* ---- output paths ------------------------------------------------------------------------------
+ */
 
-/* Whether two names, of files that need not be there, are one in the same folder. */
+/* True if two names are the same file, which need not exist. */
 static bool is_same(const char *a, const char *b)
 {
     struct stat of_a, of_b;
@@ -115,7 +116,7 @@ static bool is_same(const char *a, const char *b)
     return same || strcmp(a, b) == 0;
 }
 
-/* Of pages, pictures and a folder nothing goes to standard output, and no two have one name. */
+/* Checks that no output goes to standard output and that all have different names. */
 static bool check_names(cmd_session *s, const own_options *own)
 {
     const struct {
@@ -143,7 +144,7 @@ static bool is_in(const char *path, const char *folder)
     return n > 0 && strncmp(path, folder, n) == 0 && path[n] == '/';
 }
 
-/* Whether all of several outputs could be written, before there is the first one. */
+/* Checks that all outputs can be written, before the first one is. */
 static wt_status try_places(cmd_session *s, const wt_report_options *options,
                             const own_options *own)
 {
@@ -152,7 +153,7 @@ static wt_status try_places(cmd_session *s, const wt_report_options *options,
     if (output != NULL && (own->browse != NULL || own->sheets != NULL))
         status = wt_report_check(output, options, &s->err);
     for (size_t i = 0; status == WT_OK && i < COUNT_OF(curves); i++)
-        if (curves[i] != NULL && !is_in(curves[i], output)) /* a folder that is made first */
+        if (curves[i] != NULL && !is_in(curves[i], output)) /* that folder is created first */
             status = cmd_try_output(curves[i], &s->err);
     if (status == WT_OK && (own->browse != NULL || own->sheets != NULL))
         status = wt_report_check_curves(s->result, &s->err);
@@ -161,7 +162,7 @@ static wt_status try_places(cmd_session *s, const wt_report_options *options,
 
 /* ---- the page -------------------------------------------------------------------------------- */
 
-/* What was asked for: the page or folder, the curves as a page, as sheets, or several of them. */
+/* Writes the requested outputs: page or folder, curve browser, curve sheets. */
 static wt_status write_pages(cmd_session *s, const wt_report_options *options,
                              const own_options *own)
 {
@@ -219,7 +220,7 @@ int cmd_report(int argc, char **argv)
     if (made == WT_OK)
         made = own.methods ? write_methods(&s) : write_pages(&s, &report_options, &own);
     if ((made == WT_E_MISSING || made == WT_E_UNIT) && s.err.file[0] == '\0')
-        wt_error_file(&s.err, s.files[0]); // what a table of it lacks
+        wt_error_file(&s.err, s.files[0]); // a table of it is incomplete
     if (made != WT_OK)
         cmd_fail(&s);
     else

@@ -1,4 +1,4 @@
-/* weartrack run: a whole case. SPDX-License-Identifier: GPL-3.0-or-later */
+/* weartrack run: runs a whole case. SPDX-License-Identifier: GPL-3.0-or-later */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -27,8 +27,8 @@ static void print_plan(const wt_table *plan)
     }
 }
 
-/* The answer is the data of this subcommand: it goes to standard output. What is folded on the page
- * is counted here. */
+/* Prints the answer on standard output, as it is the data of this subcommand. Folded answers are
+ * only counted. */
 static void print_answer(const wt_result *result)
 {
     const wt_table *answer = wt_result_find(result, "answer");
@@ -79,7 +79,7 @@ static const wt_param own_rows[] = {
 };
 CMD_OPTIONS(own_params, own_options, own_rows)
 
-/* One call. */
+/* One call of weartrack run. */
 typedef struct run_call {
     cmd_session s;
     own_options own;
@@ -90,7 +90,7 @@ typedef struct run_call {
     char *result_name, *folder_name;
 } run_call;
 
-/* Everything that can be refused is refused before the work begins. */
+/* Makes all checks that can fail before the computation. */
 static wt_status prepare_run(run_call *r)
 {
     const char *path = r->s.files[0], *output = r->s.common.output;
@@ -129,7 +129,7 @@ static wt_status compute_run(run_call *r)
     return status;
 }
 
-/* Whether the result that is there stands; it is the result of the session then. */
+/* True if the existing result is up to date; it then becomes the result of the session. */
 static bool is_kept(run_call *r)
 {
     wt_result *before = NULL;
@@ -139,7 +139,7 @@ static bool is_kept(run_call *r)
     cmd_session *s = &r->s;
     if (!r->own.keep || access(r->result_name, F_OK) != 0)
         return false;
-    if (s->common.formats != NULL) /* whose descriptions are not among the inputs */
+    if (s->common.formats != NULL) /* its descriptions are not in the provenance */
         snprintf(why, sizeof why, "--formats");
     else if (wt_store_read(r->result_name, &before, NULL) != WT_OK)
         snprintf(why, sizeof why, "it cannot be read");
@@ -159,7 +159,7 @@ static bool is_kept(run_call *r)
     return current;
 }
 
-/* A page that is older than the result was not finished. */
+/* True if the page is complete, that is, not older than the result. */
 static bool is_page_kept(const run_call *r)
 {
     struct stat page, result;
@@ -186,7 +186,7 @@ static wt_status draw_page(run_call *r)
     return status;
 }
 
-/* What is given in the call replaces what the case asks for. */
+/* Uses the report options of the case unless the call sets them. */
 static void take_case_report(run_call *r, const cmd_part *given)
 {
     const wt_report_options *const asked = wt_case_report(r->the_case);
@@ -225,7 +225,7 @@ static wt_status run_case(run_call *r, const cmd_part *report_given)
     if (status != WT_OK)
         return status;
     print_answer(r->s.result);
-    fflush(stdout); /* it stands, whatever becomes of the pictures */
+    fflush(stdout); /* the answer is complete even if drawing fails */
     if (!r->s.common.quiet)
         cmd_message("result: %s%s\n", r->result_name,
                     kept ? " (kept: nothing that it was made of has changed)" : "");

@@ -1,4 +1,4 @@
-/* weartrack sensitivity: deflection sensitivity of curves on a hard surface.
+/* weartrack sensitivity: deflection sensitivity from curves on a hard surface.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "cmd/cmd.h"
 

@@ -1,5 +1,4 @@
-/* What every subcommand sets up before its job and says after it.
- * SPDX-License-Identifier: GPL-3.0-or-later */
+/* Common start and end of all subcommands. SPDX-License-Identifier: GPL-3.0-or-later */
 #include "cmd/cmd.h"
 #include "core/base/spell_suggest.h"
 
@@ -80,7 +79,7 @@ bool cmd_begin_job(cmd_session *s, const cmd_usage *usage, cmd_part *parts, size
     return true;
 }
 
-/* Names that no file has are most likely misspelled. */
+/* Warns of --columns that no file uses: the names are probably misspelled. */
 static void say_columns(cmd_session *s)
 {
     const wt_provenance *p = wt_result_provenance(s->result);

@@ -1,5 +1,4 @@
-/* Options about rubber, counter surface and conditions. SPDX-License-Identifier: GPL-3.0-or-later
- */
+/* Options for rubber, counter surface and conditions. SPDX-License-Identifier: GPL-3.0-or-later */
 #include <math.h>
 #include <string.h>
 
@@ -80,13 +79,14 @@ int cmd_sliding_free(cmd_sliding *s)
     return cmd_session_free(&s->session);
 }
 
-/* What is known of a layer is that of CMD_OWN where a subcommand has it there. */
+/* True if an option of the layer is given. Its options are in CMD_OWN or CMD_KNOWN, depending on
+ * the subcommand. */
 static bool is_given_of_layer(const cmd_sliding *s, const char *name)
 {
     return cmd_given(&s->parts[CMD_OWN], name) || cmd_given(&s->parts[CMD_KNOWN], name);
 }
 
-/* A slope is that of a ratio: no file of the layer takes one. */
+/* Checks that one source of the layer modulus is given; a slope needs a ratio. */
 static bool check_layer_modulus(cmd_sliding *s)
 {
     const bool ratio = is_given_of_layer(s, "modulus-ratio");
@@ -142,22 +142,23 @@ static wt_status fit_material(cmd_sliding *s, wt_error *err)
     return status;
 }
 
-/* A law in words, and no name of a file: what is wrong with it is wrong with the call. */
+/* True if the text is a law and not a file name: its errors are usage errors. */
 static bool is_law(const char *text)
 {
     return text != NULL &&
            (strncmp(text, "self-affine:", 12) == 0 || strncmp(text, "fractional-zener:", 17) == 0);
 }
 
-/* What is given as a material. */
+/* Source and destination of a material. */
 typedef struct given_rubber {
     const char *from, *sample;
-    wt_result **tables; /* those of a result */
+    wt_result **tables; /* receives the tables of a result */
     wt_rubber *rubber;
 } given_rubber;
 
-/* A result: the series, the points of its master curve if they are asked for or all there is. A
- * file without either is taken for a table of moduli, and if it is none the first error holds. */
+/* Reads a material: the series of a result, or the points of its master curve if requested or if
+ * there is no series. Any other file is read as a table of moduli; if that fails, the first error
+ * is reported. */
 static wt_status read_material(const cmd_sliding *s, given_rubber given, wt_error *err)
 {
     const char *const from = given.from, *const sample = given.sample;
@@ -184,7 +185,7 @@ static wt_status read_material(const cmd_sliding *s, given_rubber given, wt_erro
     const bool of_samples =
         status == WT_E_AMBIGUOUS || cmd_tables_have(*given.tables, "shift_factors");
     if (status != WT_OK && status != WT_E_MEMORY && !of_samples && strcmp(from, "-") != 0) {
-        if (*given.tables != NULL) { /* an input already */
+        if (*given.tables != NULL) { /* already in the provenance */
             work.provenance = NULL;
             work.cost = NULL;
         }
@@ -211,7 +212,7 @@ static wt_layer_observation *known_of(cmd_sliding *s)
                : &s->known;
 }
 
-/* The modulus of the layer from files. */
+/* Reads the modulus of the layer from files. */
 static wt_status read_layer(cmd_sliding *s, wt_error *err)
 {
     const cmd_contact *c = &s->contact;
@@ -276,7 +277,7 @@ bool cmd_sliding_open(cmd_sliding *s)
     if (!cmd_begin_reading(&s->session, s->set.read.format) ||
         !cmd_share_units(&s->session, &s->set.read))
         return false;
-    /* without all that was asked for there is no friction */
+    /* friction needs every input */
     wt_table_free(work->failures);
     work->failures = NULL;
     wt_cost_stage(s->session.cost, s->contact.material != NULL ? "given_material" : "master_curve");

@@ -1,5 +1,5 @@
-/* weartrack spot: how rough a spot is for its depth, and what stayed of an indentation.
- * SPDX-License-Identifier: GPL-3.0-or-later */
+/* weartrack spot: roughness of a spot relative to the depth, and remaining imprint of an
+ * indentation. SPDX-License-Identifier: GPL-3.0-or-later */
 #include "cmd/cmd.h"
 
 int cmd_spot(int argc, char **argv)

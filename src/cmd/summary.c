@@ -2,10 +2,10 @@
 #include "cmd/export.h"
 #include "cmd/table_output.h"
 
-/* What becomes of one file. */
+/* Result of reading one file: headlines or failure. */
 typedef struct one_result {
-    wt_table *headlines; /* or */
-    wt_error *failure;   /* NULL: there was no memory even for that */
+    wt_table *headlines; /* NULL after a failure */
+    wt_error *failure;   /* NULL after a failure: out of memory */
     size_t n_remarks;
 } one_result;
 
@@ -14,7 +14,7 @@ typedef struct reading {
     one_result *results;
 } reading;
 
-/* Never fails: a file that cannot be read is one row less. */
+/* Reads one file on a worker thread. It never fails; a failure is stored. */
 static wt_status read_one(void *user, size_t i, unsigned worker)
 {
     const reading *const r = user;
@@ -35,8 +35,8 @@ static wt_status read_one(void *user, size_t i, unsigned worker)
     return WT_OK;
 }
 
-/* Says what became of the files, in their order. Those that were read are then the first of them,
- * with their headlines. */
+/* Reports failures in the order of the files and moves the files that were read to the front, with
+ * their headlines. Returns their number. */
 static size_t keep_read(cmd_session *s, one_result *results, wt_table **headlines)
 {
     size_t n_read = 0;
@@ -63,7 +63,7 @@ static size_t keep_read(cmd_session *s, one_result *results, wt_table **headline
     return n_read;
 }
 
-/* The headlines of the files that can be read, which are then the first of the files. */
+/* Reads the headlines of all files in parallel; those that were read are moved to the front. */
 static wt_status read_all(cmd_session *s, wt_table **headlines, size_t *n_read)
 {
     one_result *const results = calloc(s->n_files, sizeof *results);

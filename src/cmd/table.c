@@ -1,5 +1,4 @@
-/* weartrack table: one table of a result for other programs. SPDX-License-Identifier:
- * GPL-3.0-or-later */
+/* weartrack table: exports one table of a result. SPDX-License-Identifier: GPL-3.0-or-later */
 #include "cmd/export.h"
 #include "cmd/table_output.h"
 #include "core/base/spell_suggest.h"
@@ -19,7 +18,7 @@ static const wt_param rows[] = {
 };
 CMD_OPTIONS(own_params, own_options, rows)
 
-/* The table of that name; without a name the only one. */
+/* Finds the table of that name; without a name the only table. */
 static wt_status choose_table(const wt_result *result, const char *path, const char *name,
                               const wt_table **table, wt_error *err)
 {

@@ -1,4 +1,4 @@
-/* Tables from files. SPDX-License-Identifier: GPL-3.0-or-later */
+/* Reads tables from files and selects samples. SPDX-License-Identifier: GPL-3.0-or-later */
 #include <string.h>
 
 #include "cmd/table_output.h"
@@ -53,9 +53,10 @@ wt_status cmd_table_find(const wt_result *tables, const char *path, const char *
     return WT_E_NOT_FOUND;
 }
 
-/* ---- of samples ------------------------------------------------------------------------------ */
+/* ---- samples -----------------------------------------------------------------------------------
+ */
 
-/* What stands behind the name of a table and a slash; NULL: it is another table. */
+/* Returns the part after the name of a table and a slash; NULL: another table. */
 static const char *suffix_of(const wt_table *table, const char *name)
 {
     const size_t n = strlen(name);
@@ -63,7 +64,7 @@ static const char *suffix_of(const wt_table *table, const char *name)
     return strncmp(own, name, n) == 0 && own[n] == '/' ? own + n + 1 : NULL;
 }
 
-/* Whether the shifts with a suffix, or without one, name the sample. */
+/* True if the shifts with a suffix, or without one, have the sample's name. */
 static bool names_sample(const wt_result *tables, const char *suffix, const char *sample)
 {
     for (size_t i = 0; i < wt_result_n_tables(tables); i++) {
@@ -106,7 +107,7 @@ wt_status cmd_check_sample(const wt_result *tables, const char *path, const char
                                      used > 0 ? ", " : "", suffix);
     }
     if (used == 0 && (sample == NULL || wt_result_find(tables, table) == NULL))
-        return WT_OK; /* it is not of samples at all */
+        return WT_OK; /* the tables have no samples */
     const wt_table *const shifts = wt_result_find(tables, "shift_factors");
     const char *const alone = shifts != NULL ? wt_table_key(shifts, "sample") : NULL;
     if (sample == NULL)

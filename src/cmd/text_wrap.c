@@ -1,9 +1,9 @@
-/* Lines for people: text broken between words. SPDX-License-Identifier: GPL-3.0-or-later */
+/* Wraps text between words. SPDX-License-Identifier: GPL-3.0-or-later */
 #include <string.h>
 
 #include "cmd/cmd.h"
 
-/* Readable on the screen of an instrument computer and in an e-mail. */
+/* Width that fits on small screens and in e-mails. */
 enum { LINE_WIDTH = 96 };
 
 size_t cmd_text_width(const char *text, size_t n)
@@ -16,7 +16,7 @@ size_t cmd_text_width(const char *text, size_t n)
 
 void cmd_wrap(FILE *out, size_t column, size_t indent, const char *text)
 {
-    bool begin = true; /* nothing of the text is on this line yet */
+    bool begin = true; /* the line has no text yet */
     for (const char *p = text; *p != '\0';) {
         const size_t blanks = strspn(p, " ");
         const size_t word = strcspn(p + blanks, " \n");

@@ -1,4 +1,4 @@
-/* weartrack thermal: spring constant by the thermal noise of the lever.
+/* weartrack thermal: spring constant from the thermal noise of the cantilever.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "cmd/cmd.h"
 

@@ -1,8 +1,8 @@
-/* weartrack validate: measured friction held against what a case predicts.
+/* weartrack validate: compares measured friction with the prediction of a case.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "cmd/cmd.h"
 
-/* What is asked of the case, and told in the order of the tables. */
+/* Requested tables in their order. */
 static const char asked[] = "validation validation_running_in validation_course validation_choices "
                             "validation_sources wear";
 

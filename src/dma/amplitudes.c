@@ -1,25 +1,25 @@
-/* Isotherms and temperature sweeps of several strain amplitudes: a filled rubber softens with
- * strain, so that a master curve, and moduli against temperature, are of one.
+/* Selects the isotherms and temperature sweeps of one strain amplitude. A filled rubber softens
+ * with strain, so a master curve belongs to one amplitude.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "dma/sweep_input.h"
 
 #include <math.h>
 #include <stdlib.h>
 
-/* Kelvin within which two are of one temperature, which is what two runs of one chamber agree to;
- * relative difference within which they are of one frequency (exports of four digits differ by
- * 5e-4); and the ratio that makes their amplitudes two, as in dma/numerics/master_notes.c. */
+/* Two runs of one chamber agree within 1.5 K. Exports with four digits differ by 5e-4 in
+ * frequency. Two amplitudes are different if their ratio exceeds 2, as in
+ * dma/numerics/master_notes.c. */
 static const double same_temperature = 1.5, same_frequency = 1e-3, other_amplitude = 2;
 
-/* An isotherm or a temperature sweep: its amplitude (NaN: not measured) and where it was measured.
- */
+/* Amplitude of an isotherm or a temperature sweep (NaN if unmeasured) with its ranges of
+ * temperature [K] and angular frequency [rad/s]. */
 typedef struct part {
     const char *source;
     bool is_ramp, drop;
     double amplitude, temperature[2], frequency[2];
 } part;
 
-/* Geometric mean. */
+/* Returns the geometric mean of the positive amplitudes, or NaN if there is none. */
 static double mean_amplitude(const double *strain, size_t n)
 {
     double sum = 0;
@@ -32,7 +32,8 @@ static double mean_amplitude(const double *strain, size_t n)
     return known > 0 ? exp(sum / (double)known) : (double)NAN;
 }
 
-/* Isotherms, then temperature sweeps; those without points share nothing. */
+/* Lists the isotherms first, then the temperature sweeps. An entry without points overlaps no
+ * other entry. */
 static void list_parts(const wt_sweep *sweep, part *parts)
 {
     for (size_t i = 0; i < sweep->n_isotherms; i++) {
@@ -55,7 +56,7 @@ static void list_parts(const wt_sweep *sweep, part *parts)
     }
 }
 
-/* Whether they share temperatures and frequencies and differ in amplitude. */
+/* Returns true if both share temperatures and frequencies and differ in amplitude. */
 static bool amplitudes_differ(const part *a, const part *b)
 {
     const double ratio = a->amplitude / b->amplitude;
@@ -86,7 +87,8 @@ static bool is_nearer(const part *a, const part *b, double wanted)
     return fabs(log2(a->amplitude / wanted)) <= fabs(log2(b->amplitude / wanted));
 }
 
-/* How far what was asked for is from what was measured. */
+/* Warns if the requested amplitude differs by more than a factor of 2 from every measured
+ * amplitude. */
 static void check_wanted(const part *parts, size_t n, double wanted, wt_log *log)
 {
     const part *nearest = NULL;
@@ -105,7 +107,8 @@ static void check_wanted(const part *parts, size_t n, double wanted, wt_log *log
                    100 * wanted, 100 * nearest->amplitude);
 }
 
-/* Those that are not kept go behind the others and are cleared with `dropped`. */
+/* Moves the excluded sweeps to a temporary sweep and frees them. Logs the number of excluded
+ * sweeps. */
 static wt_status take_out(wt_sweep *sweep, const part *parts, wt_log *log, wt_error *err)
 {
     wt_sweep dropped = {0};

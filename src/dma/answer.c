@@ -1,4 +1,4 @@
-/* What the answer says of the rubber. SPDX-License-Identifier: GPL-3.0-or-later */
+/* Summary lines of a case about the rubber. SPDX-License-Identifier: GPL-3.0-or-later */
 #include "case/answer/answer_context.h"
 #include "case/answer/format_number.h"
 
@@ -9,7 +9,7 @@ struct law_text {
     char text[256];
 };
 
-/* The law of the shift factors with its constants. */
+/* Returns the shift law and its constants as text. */
 static struct law_text law_words(const table_view *shift)
 {
     struct law_text words;
@@ -39,7 +39,8 @@ void answer_rubber(const answer_context *story)
     const wt_estimate equilibrium = prony_value(prony, PRONY_KEY_EQUILIBRIUM_MODULUS),
                       limit = prony_value(prony, PRONY_KEY_EQUILIBRIUM_LIMIT);
     const char *verdict = shift_factors_words(shift, SHIFT_FACTORS_KEY_SUPERPOSITION);
-    const bool holds = strncmp(verdict, "holds", 5) == 0; /* else a caveat says it */
+    const bool holds =
+        strncmp(verdict, "holds", 5) == 0; /* otherwise a remark states the verdict */
     answer_add_sentence(story, "What is the rubber like?", "material",
                         "At %s, from %zu isotherms: %s; equilibrium modulus %s%s (%s).%s%s%s",
                         format_celsius(reference).text, shift->n_rows, law_words(shift).text,

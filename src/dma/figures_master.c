@@ -1,14 +1,12 @@
-/* Figures of isotherms and what is made of them: before and after shifting,
- * and the planes without a frequency in which superposition is seen.
- *
- * SPDX-License-Identifier: GPL-3.0-or-later
- */
+/* Figures of isotherms and of the master curve, and superposition plots without a frequency
+ * axis.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "report/drawing.h"
 
 #include <math.h>
 #include <string.h>
 
-/* ---- what is made of two moduli -------------------------------------------------------------- */
+/* ---- quantities computed from both moduli ---------------------------------------------------- */
 
 static double storage_of(double storage, double loss)
 {
@@ -37,13 +35,13 @@ static double angle_of(double storage, double loss)
     return atan2(loss, storage) * (180 / M_PI);
 }
 
-/* By its name in the script, and as it is done here for the axes. */
+/* A quantity with its name in the gnuplot script and the C function that sets the axis limits. */
 typedef struct combination {
     const char *name;
     double (*of)(double storage, double loss);
     axis_scale scale;
     bool is_modulus;
-    const char *label, *behind; /* of a modulus: before and behind its letter */
+    const char *label, *behind; /* for a modulus: text before and after its letter */
 } combination;
 
 static const combination storage_log = {"storage", storage_of, AXIS_LOG, true, "", "′"},
@@ -53,7 +51,7 @@ static const combination storage_log = {"storage", storage_of, AXIS_LOG, true, "
                          size_log = {"size", size_of, AXIS_LOG, true, "|", "*|"},
                          angle = {"angle", angle_of, AXIS_FROM_ZERO, false, "δ (°)", ""};
 
-/* Columns of the data of every figure of the master curve, the first behind the frequency. */
+/* Data columns that all figures of the master curve share; column 0 is the frequency. */
 enum { STORAGE = 1, TEMPERATURE = 3, FITTED = 4 };
 
 static void define_combinations(figure_drawing *d)
@@ -94,7 +92,7 @@ static void combined_axis(figure_drawing *d, const char *axis, const combination
 
 /* ---- isotherms and master curve -------------------------------------------------------------- */
 
-/* Points take the colour of the temperature they were measured at, in all figures the same. */
+/* Points have the colour of their temperature of measurement in all figures. */
 static void plot_points(figure_drawing *d, const char *using, const char *with)
 {
     const bool coloured = !span_empty(&d->colour);
@@ -102,7 +100,7 @@ static void plot_points(figure_drawing *d, const char *using, const char *with)
               with, coloured ? "lc palette" : "lc rgb 'black'");
 }
 
-/* The spectrum with its interval: columns of value, low and high. */
+/* Plots the interval of the fit. The data columns are value, lower limit and upper limit. */
 static void plot_band(figure_drawing *d, size_t column, const char *unit, const char *title)
 {
     plot_item(d, d->data[0], "($1*x_unit):($%zu*%s):($%zu*%s) with filledcurves ls 61", column + 1,
@@ -112,7 +110,7 @@ static void plot_band(figure_drawing *d, size_t column, const char *unit, const 
 
 static const char one_spectrum[] = "one spectrum", interval_title[] = "95 % interval";
 
-/* The axis says to which temperature it is reduced. */
+/* Labels the axis with the reference temperature. */
 static void reduced_axis(figure_drawing *d)
 {
     char label[DRAWING_LABEL];
@@ -127,7 +125,7 @@ static void plot_spectrum(figure_drawing *d, size_t column, const char *unit, co
     plot_key(d, title);
 }
 
-/* How the two moduli are drawn. */
+/* Plot styles of the two moduli. */
 typedef struct marking {
     const char *storage, *loss;
 } marking;
@@ -150,7 +148,7 @@ static void plot_moduli(figure_drawing *d, bool fitted, marking with)
     plot_end(d);
 }
 
-/* Moduli above, tan delta below. */
+/* The upper panel shows the moduli, the lower panel tan delta. */
 static void draw_over_frequency(figure_drawing *d, bool fitted, marking with)
 {
     char label[64];
@@ -185,7 +183,7 @@ static size_t count_isotherms(const figure_drawing *d)
     return wt_table_block(d->table->table, d->table->n_rows - 1) + 1;
 }
 
-/* Joined points; of many the line alone. */
+/* Joins the points by lines. Dense isotherms are drawn as lines without points. */
 static void draw_isotherms(figure_drawing *d)
 {
     enum { MANY = 25 };
@@ -237,7 +235,7 @@ static void caption_master_curve(figure_drawing *d)
                        "the points of all temperatures on one line without steps.");
 }
 
-/* ---- after a step ---------------------------------------------------------------------------- */
+/* ---- step experiments ------------------------------------------------------------------------ */
 
 static void draw_step(figure_drawing *d, bool fitted)
 {
@@ -329,7 +327,7 @@ static void draw_wicket(figure_drawing *d)
 
 /* ---- descriptions ---------------------------------------------------------------------------- */
 
-/* Of the planes: the data are the same. */
+/* Members that all superposition plots share. */
 #define PLANE                                                                                      \
     .table = &master_curve_schema, .data_title = "master curve",                                   \
     .x = {MASTER_CURVE_ANGULAR_FREQUENCY, AXIS_LOG, "Reduced angular frequency"},                  \
@@ -340,7 +338,7 @@ static void draw_wicket(figure_drawing *d)
                CURVE(MASTER_CURVE_TEMPERATURE, DATA), CURVE(MASTER_CURVE_FITTED_STORAGE, DATA),    \
                CURVE(MASTER_CURVE_FITTED_LOSS, DATA)}
 
-/* Isotherms of steps; other master curves have none of them, which is not worth a word. */
+/* Figures of step experiments. Without step data no message about missing data is printed. */
 #define AFTER_STEP(id, heading, quantity, label, OWN_VALUE)                                        \
     {                                                                                              \
         .name = id, .title = heading, .table = &master_curve_schema, .data_title = heading,        \

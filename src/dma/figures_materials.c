@@ -1,13 +1,12 @@
-/* Figures of materials side by side: their moduli, and the ratios.
- *
- * SPDX-License-Identifier: GPL-3.0-or-later
- */
+/* Figures that compare materials: their moduli and the ratios of their moduli.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "report/drawing.h"
 
 #include <math.h>
 #include <string.h>
 
-/* A band between two columns, from 1, in the tint of a group; without an interval none. */
+/* Draws the area between two data columns (counted from 1) in the tint of a group. Draws nothing
+ * if the columns have no values. */
 static void plot_interval(figure_drawing *d, int section, const char *x, size_t column,
                           size_t group)
 {
@@ -22,7 +21,7 @@ static void plot_interval(figure_drawing *d, int section, const char *x, size_t 
 
 enum { ROLES = 3 };
 
-/* Columns of the data: frequency, then each quantity with the ends of its interval. */
+/* The data columns are the frequency, then each quantity with its lower and upper limit. */
 static void plot_materials(figure_drawing *d, size_t column, bool titled, const char *dash)
 {
     for (size_t i = 0; i < d->n_groups; i++) {
@@ -75,7 +74,7 @@ static void caption_materials(figure_drawing *d)
 
 /* ---- ratios ---------------------------------------------------------------------------------- */
 
-/* One column of panels: over frequency, or over temperature. */
+/* One column of panels, over frequency or over temperature. */
 typedef struct ratio_side {
     const char *over;
     material_ratio_column column;
@@ -141,8 +140,8 @@ static void draw_ratio(figure_drawing *d, const ratio_side *side, size_t q, valu
     plot_end(d);
 }
 
-/* Rows: E', E'' and tan delta. Left over frequency, right over temperature, if there are several.
- */
+/* The rows are E', E'' and tan delta. The left column is over frequency. A right column over
+ * temperature exists if there are several temperatures. */
 static void draw_material_ratio(figure_drawing *d)
 {
     ratio_side sides[] = {{.over = "frequency",
@@ -180,7 +179,7 @@ static void caption_material_ratio(figure_drawing *d)
     if (isfinite(at))
         text_append_translated(&d->caption, " Over frequency: at %s.",
                                VALUE(d->language, WT_Q_TEMPERATURE, NULL, at));
-    if (d->width > 1 && isfinite(frequency.value)) /* beside it */
+    if (d->width > 1 && isfinite(frequency.value)) /* there is a second column */
         text_append_translated(&d->caption, " Over temperature: at %s.",
                                ESTIMATE(d->language, &frequency));
     text_append_translated(&d->caption, " Do they differ? %s.",
@@ -191,9 +190,9 @@ static void caption_material_ratio(figure_drawing *d)
 
 /* ---- one law for samples --------------------------------------------------------------------- */
 
-/* Shifts about the common law above; below, what each sample's own law has more. Columns of the
- * data: temperature, shift with its error, law and difference, each with the ends of its interval.
- */
+/* The upper panel shows the shifts with the shared law. The lower panel shows the difference of
+ * each sample's separate law. Data columns: temperature, shift, its error, then law and
+ * difference with their limits. */
 static void draw_common_law(figure_drawing *d)
 {
     enum { SHIFT = 2, LAW = 4, DIFFERENCE = 7 };

@@ -1,7 +1,5 @@
-/* Figures of the shift factors: horizontal ones with their law, vertical ones.
- *
- * SPDX-License-Identifier: GPL-3.0-or-later
- */
+/* Figures of the horizontal shift factors with their law and of the vertical shift factors.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "report/drawing.h"
 
 #include "core/base/quantity.h"
@@ -11,7 +9,8 @@
 
 /* ---- shift factors --------------------------------------------------------------------------- */
 
-/* Temperatures of the isotherms that determine the law: over the others it is not drawn. */
+/* Returns the temperature range of the isotherms that determine the law. The law is drawn only
+ * there. */
 static value_span span_of_law(const figure_drawing *d)
 {
     value_span span = SPAN_EMPTY;
@@ -21,8 +20,8 @@ static value_span span_of_law(const figure_drawing *d)
     return span;
 }
 
-/* The law as it was fitted, with the offset of the reference isotherm, over those only; the pole is
- * never in it. */
+/* Writes the fitted law, with the offset of the reference isotherm, as gnuplot functions. They
+ * are limited to the determined range, which never includes the pole. */
 static bool define_law(figure_drawing *d)
 {
     const table_view *shifts = d->table;
@@ -37,7 +36,7 @@ static bool define_law(figure_drawing *d)
     const value_span over = span_of_law(d);
     if ((!has_wlf && !has_energy) || !isfinite(reference) || !isfinite(offset) || span_empty(&over))
         return false;
-    /* K and degrees Celsius; WLF above the joint, Arrhenius below it */
+    /* joint [K] converted to degrees Celsius; WLF applies above it, Arrhenius below */
     const double at = isfinite(joint) ? joint - WT_ZERO_CELSIUS : has_wlf ? -300 : 1e6;
     text_format(&d->script, "c1 = %s; c2 = %s; t_ref = %s; offset = %s\n",
                 LITERAL(has_wlf ? c1 : 0), LITERAL(has_wlf ? c2 : 1),
@@ -65,7 +64,7 @@ static size_t count_undetermined(const table_view *shift_factors)
     return n;
 }
 
-/* What the law leaves of the shifts: columns of shift, its error and the law. */
+/* Range of the residuals of the law. The data columns are shift, its error, a flag and the law. */
 static value_span span_residual(const figure_drawing *d, double offset)
 {
     const wt_table *data = d->sections[d->data[0]];
@@ -98,14 +97,14 @@ static void plot_residual(figure_drawing *d)
     plot_end(d);
 }
 
-/* The law that was fitted has an error. */
+/* Returns true if the law was stated. Only a fitted law has a standard error. */
 static bool law_is_given(const table_view *shifts)
 {
     const wt_estimate slope = shift_factors_value(shifts, SHIFT_FACTORS_KEY_LAW_SLOPE);
     return isfinite(slope.value) && !isfinite(slope.standard_error);
 }
 
-/* Shifts with their law above, what it leaves of them below. */
+/* The upper panel shows the shifts and their law, the lower panel the residuals. */
 void draw_shift_factors(figure_drawing *d)
 {
     if (!drawing_data(d))

@@ -1,12 +1,10 @@
-/* Figure of strain sweeps: how a filled rubber softens with the amplitude of strain.
- *
- * SPDX-License-Identifier: GPL-3.0-or-later
- */
+/* Figure of strain sweeps: softening of a filled rubber with the strain amplitude.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "report/drawing.h"
 
 #include <math.h>
 
-/* Places in the data: strain, what the curves are described in, the frequency. */
+/* Data columns: strain, the moduli and the laws, and the frequency. */
 enum { STORAGE = 2, LOSS = 3, STORAGE_LAW = 4, LOSS_LAW = 5, FREQUENCY = 6 };
 
 static bool has_law(const figure_drawing *d)
@@ -17,7 +15,8 @@ static bool has_law(const figure_drawing *d)
     return false;
 }
 
-/* Points of a panel, coloured by frequency where there are several, and the law through them. */
+/* Plots the points of a panel and the law of Kraus. Several frequencies are distinguished by
+ * colour. */
 static void plot_points(figure_drawing *d, int column, int law, int style, const char *title)
 {
     const bool coloured = d->colour.high > d->colour.low;
@@ -33,7 +32,7 @@ static void plot_points(figure_drawing *d, int column, int law, int style, const
                translate(d->language, title));
 }
 
-/* Where so much of the start is left. */
+/* Marks the strain at which the given fraction of the initial storage modulus remains. */
 static void plot_mark(figure_drawing *d, payne_column strain, double left, const char *title)
 {
     const unsigned columns[] = {strain, PAYNE_STORAGE_START};
@@ -42,7 +41,7 @@ static void plot_mark(figure_drawing *d, payne_column strain, double left, const
               translate(d->language, title));
 }
 
-/* Storage modulus above, loss modulus below. */
+/* The upper panel shows the storage modulus, the lower panel the loss modulus. */
 static void draw_payne(figure_drawing *d)
 {
     if (!drawing_data(d))
@@ -60,7 +59,7 @@ static void draw_payne(figure_drawing *d)
     plot_end(d);
     drawing_axis(d, "y", &d->figure->y[1], NULL, d->y[1]);
     plot_points(d, LOSS, LOSS_LAW, 52, loss);
-    drawing_colours(d, "points ls 51"); /* of both, where the key has room */
+    drawing_colours(d, "points ls 51"); /* for both panels; the key of this panel has free space */
     plot_end(d);
     text_add(&d->script, "unset multiplot\n");
 }

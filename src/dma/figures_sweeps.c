@@ -1,7 +1,5 @@
-/* Figures of the dynamic mechanical analysis: comparison with the indentation, temperature sweeps.
- *
- * SPDX-License-Identifier: GPL-3.0-or-later
- */
+/* Figures of DMA: comparison with indentation, relaxation spectrum and temperature sweeps.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "report/drawing.h"
 
 #include <math.h>
@@ -9,7 +7,8 @@
 
 /* ---- comparison with the indentation --------------------------------------------------------- */
 
-/* The DMA at the frequencies of all groups is one line, or one for each temperature. */
+/* The DMA moduli at the frequencies of all groups form one line, or one line for each
+ * temperature. */
 static void draw_dma_comparison(figure_drawing *d)
 {
     static const unsigned dma[] = {DMA_COMPARISON_EQUIVALENT_FREQUENCY,
@@ -60,7 +59,7 @@ static void draw_relaxation_spectrum(figure_drawing *d)
 
 /* ---- temperature sweeps ---------------------------------------------------------------------- */
 
-/* Points of a panel, coloured by frequency where there are several, and the peaks in it. */
+/* Plots the points of a panel, coloured by frequency if there are several. */
 static void plot_ramp(figure_drawing *d, int column, int style, const char *title)
 {
     const bool coloured = d->colour.high > d->colour.low;
@@ -79,7 +78,7 @@ static void plot_peaks(figure_drawing *d, glass_transition_column peak, const ch
               translate(d->language, title));
 }
 
-/* Moduli above, loss factor below. */
+/* The upper panel shows the moduli, the lower panel the loss factor. */
 static void draw_ramp(figure_drawing *d)
 {
     if (!drawing_data(d))

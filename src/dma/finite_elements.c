@@ -1,14 +1,13 @@
-/* The material for programs of finite elements: the reduced series, the law of its shifts and how
- * its moduli go with temperature, as their manuals ask for them. Abaqus: *ELASTIC or *HYPERELASTIC
- * with MODULI=INSTANTANEOUS, *VISCOELASTIC TIME=PRONY, *TRS. Ansys: MP or TB,HYPER, TB,PRONY,
- * TB,SHIFT. Both move time, not frequency. Abaqus (Analysis User's Guide, time domain
- * viscoelasticity): reduced time is the integral of dt/A, log10 A = -C1 (T - T0) / (C2 + T - T0),
- * so A is aT. Ansys (Material Reference, time-temperature superposition): reduced time is A t,
- * log10 A = C1 (T - T0) / (C2 + T - T0), so A is 1/aT; the constants are the same. Code_Aster has
- * no series of its own: a behaviour of MFront with its numbers in DEFI_MATERIAU. For vibrations
- * Abaqus has *VISCOELASTIC, FREQUENCY=PRONY (Keywords Reference): the same terms beside the
- * elasticity in the end, MODULI=LONG TERM; it moves no frequency with temperature.
- *
+/* Export of the material to finite element programs: reduced Prony series, shift law and
+ * vertical shift. Abaqus uses *ELASTIC or *HYPERELASTIC with MODULI=INSTANTANEOUS, *VISCOELASTIC
+ * TIME=PRONY and *TRS. Ansys uses MP or TB,HYPER, TB,PRONY and TB,SHIFT. Both shift time, not
+ * frequency. In Abaqus reduced time is the integral of dt/A, with log10 A = -C1 (T - T0) / (C2 +
+ * T - T0), so A is aT (Analysis User's Guide, time domain viscoelasticity). In Ansys reduced
+ * time is A t, with log10 A = C1 (T - T0) / (C2 + T - T0), so A is 1/aT (Material Reference,
+ * time-temperature superposition). The constants are the same. Code_Aster has no such series; an
+ * MFront behaviour takes the numbers from DEFI_MATERIAU. For vibrations Abaqus has
+ * *VISCOELASTIC, FREQUENCY=PRONY with MODULI=LONG TERM and no temperature shift (Keywords
+ * Reference).
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "dma/sweep_input.h"
 
@@ -25,7 +24,7 @@
 
 static const struct system {
     const char *words;
-    double stress, time, density; /* Pa, s, kg/m3 of the unit */
+    double stress, time, density; /* size of the unit in Pa, s and kg/m^3 */
 } systems[] = {
     [WT_SOLID_M_KG_S] = {"metre, kilogram, second; stress in Pa", 1, 1, 1},
     [WT_SOLID_MM_T_S] = {"millimetre, tonne, second; stress in MPa", 1e6, 1, 1e12},
@@ -61,24 +60,24 @@ static const wt_param rows[] = {
 PARAM_TABLE(wt_fem_export_options_params, wt_fem_export_options, rows,
             wt_fem_export_options_defaults, NO_PARTS)
 
-/* What is written, in the units of the file. */
+/* Material data in the units of the file. */
 typedef struct solid {
     FILE *out;
-    const char *comment; /* begins a line of comment */
+    const char *comment; /* start of a comment line */
     wt_rubber rubber;
-    table_view series, shifts_of; /* the second without a table: not known */
+    table_view series, shifts_of; /* shifts_of.table is NULL if the shift factors are unknown */
     const struct system *system;
     const wt_fem_export_options *options;
     const char *name;
     bool incompressible;
-    double nu, zero;           /* of the unit of temperature [K] */
-    double reference;          /* temperature */
+    double nu, zero;           /* Poisson's ratio; zero of the temperature unit [K] */
+    double reference;          /* reference temperature */
     double instant, long_term; /* Young's moduli */
-    bool shifts;               /* c1 and c2 are there */
+    bool shifts;               /* c1 and c2 are set */
     double c1, c2;
-    double fastest;  /* storage modulus at the highest frequency that was measured, Young's */
-    size_t n_levels; /* of temperature; 1: alike at all */
-    double *level, *factor; /* temperature, and what the moduli are multiplied by there */
+    double fastest;  /* storage modulus (Young's) at the highest measured frequency */
+    size_t n_levels; /* number of temperature levels; 1: the moduli do not depend on temperature */
+    double *level, *factor; /* temperature and the factor on the moduli there */
 } solid;
 
 static void print_solid(solid *s, const char *format, ...) WT_PRINTF(2, 3);
@@ -92,7 +91,7 @@ static void print_solid(solid *s, const char *format, ...)
     clocale_leave(before);
 }
 
-/* ---- what the tables say --------------------------------------------------------------------- */
+/* ---- values from the tables ------------------------------------------------------------------ */
 
 static double shear_of(const solid *s, double young)
 {
@@ -104,14 +103,14 @@ static double bulk_of(const solid *s, double young)
     return young / (3 * (1 - 2 * s->nu));
 }
 
-/* Arrhenius is WLF whose pole is at absolute zero, about any temperature. */
+/* The Arrhenius law is a WLF law with its pole at absolute zero, for any reference temperature. */
 static void arrhenius_as_wlf(double activation_energy, double about, double *c1, double *c2)
 {
     *c1 = -2 * wt_arrhenius_log_shift(activation_energy, about, 2 * about);
     *c2 = about;
 }
 
-/* Of a joined law that which holds at the reference. */
+/* Sets the WLF constants. For a joined law it uses the branch at the reference temperature. */
 static void take_law(solid *s)
 {
     const wt_shift_law *law = &s->rubber.law;
@@ -125,7 +124,8 @@ static void take_law(solid *s)
     }
 }
 
-/* The vertical shift, whose factor is 1 at the reference where that lies beyond the isotherms. */
+/* Fills the temperature levels with their factors. A reference outside the isotherms becomes a
+ * level with factor 1. */
 static wt_status take_levels(solid *s, wt_error *err)
 {
     const wt_rubber *r = &s->rubber;
@@ -140,7 +140,7 @@ static wt_status take_levels(solid *s, wt_error *err)
     }
     for (size_t i = 0; i < r->n_vertical; i++) {
         if (s->n_levels > 0 && !(r->vertical_temperature[i] > s->level[s->n_levels - 1]))
-            continue; /* a second isotherm there */
+            continue; /* another isotherm at the same temperature */
         s->level[s->n_levels] = r->vertical_temperature[i];
         s->factor[s->n_levels++] = pow(10, -r->vertical_log_b[i]);
     }
@@ -153,7 +153,7 @@ static wt_status take_levels(solid *s, wt_error *err)
     return WT_OK;
 }
 
-/* Young's moduli, in the units of the file. */
+/* Converts the series to Young's moduli in the units of the file. */
 static wt_status take_series(solid *s, wt_error *err)
 {
     wt_prony *p = &s->rubber.prony;
@@ -182,16 +182,16 @@ static wt_status take_series(solid *s, wt_error *err)
     return WT_OK;
 }
 
-/* ---- what is said above the numbers ---------------------------------------------------------- */
+/* ---- header comments ------------------------------------------------------------------------- */
 
-/* A joined law beyond its joint Tj, for a subroutine of the user: those programs hold one branch.
- */
+/* Writes the other branch of a joined law as a comment for a user subroutine. The programs
+ * accept only one branch. */
 static void say_other_branch(solid *s)
 {
     const wt_shift_law *law = &s->rubber.law;
     const bool below = s->reference + s->zero < law->joint;
     double c1 = law->wlf.c1, c2 = law->wlf.c2;
-    if (below) { /* WLF from the joint on */
+    if (below) { /* WLF with the joint as reference */
         const double from = law->joint - law->wlf.reference_temperature;
         c1 = law->wlf.c1 * law->wlf.c2 / (law->wlf.c2 + from);
         c2 = law->wlf.c2 + from;
@@ -239,7 +239,7 @@ static double deviation_percent(const table_view *series, prony_reduced_key key)
     return 100 * share;
 }
 
-/* What the series rests on: it says so wherever the file goes. */
+/* Writes the verdict on superposition, so that each exported file contains it. */
 static void say_superposition(solid *s)
 {
     if (s->shifts_of.table != NULL) {
@@ -348,7 +348,7 @@ static void write_abaqus(solid *s)
         print_solid(s, "*TRS, DEFINITION=WLF\n%.12g, %.12g, %.12g\n", s->reference, s->c1, s->c2);
 }
 
-enum { ANSYS_PAIRS = 3, ANSYS_TEMPERATURES = 6 }; /* of one of its lines */
+enum { ANSYS_PAIRS = 3, ANSYS_TEMPERATURES = 6 }; /* values in one input line */
 
 static void ansys_prony(solid *s, const char *what)
 {
@@ -363,7 +363,7 @@ static void ansys_prony(solid *s, const char *what)
     }
 }
 
-/* Values in rows of six from the first place on. */
+/* Writes up to six values, starting at index i. */
 static void ansys_row(solid *s, const char *command, const char *name, const double *value,
                       double scale, size_t i)
 {
@@ -410,8 +410,8 @@ static void write_ansys(solid *s)
                 s->c1, s->c2);
 }
 
-/* The stress of a term relaxes by its own Hooke's law: exact for strain at a constant rate within a
- * step. Names of the properties in the order of LISTE_COEF. */
+/* The stress of each term relaxes by its elastic law. The step is exact for a constant strain
+ * rate within it. The properties are in the order of LISTE_COEF. */
 static const char mfront_integrator[] =
     "@Integrator {\n"
     "  const real Tm = T + dT;\n"
@@ -503,7 +503,7 @@ static void write_table(solid *s)
     }
 }
 
-/* ---- the whole ------------------------------------------------------------------------------- */
+/* ---- interface ------------------------------------------------------------------------------- */
 
 static const struct program {
     const char *name, *comment;
@@ -525,8 +525,8 @@ bool wt_fem_program_find(const char *name, size_t length, wt_fem_program *progra
 
 static const char default_name[] = "RUBBER";
 
-/* What all programs take for a name: Ansys names parameters with 32 characters at most, Code_Aster
- * concepts with 8. */
+/* Checks the material name. Ansys allows 32 characters for a parameter, Code_Aster 8 for a
+ * concept. */
 static wt_status check_name(wt_fem_program program, const char *name, wt_error *err)
 {
     static const char letters[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz";

@@ -1,4 +1,4 @@
-/* A law in one word, as an option has it: "self-affine:q0=1e3rad/m,...".
+/* Parser of a law given as an option value, such as "self-affine:q0=1e3rad/m,...".
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "dma/law_parse.h"
 

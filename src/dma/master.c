@@ -1,4 +1,5 @@
-/* The DMA job: sweeps to one spectrum with shift factors, their law, master curve and series.
+/* The DMA job: fits one spectrum to the sweeps and builds the tables of shift factors, master
+ * curve and series.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "dma/master.h"
 #include "dma/ramp_windows.h"
@@ -130,7 +131,7 @@ static void set_verdict(table_writer *t, const wt_master *m)
     shift_factors_set_print(t, SHIFT_FACTORS_KEY_KRAMERS_KRONIG_P, "%.3g", m->kramers_kronig_p);
 }
 
-/* More of a standard error than this is seen in an interval: a twentieth of half of it. */
+/* Fraction of a standard error that is visible in an interval: a twentieth of its half width. */
 static const double seen = 0.1;
 
 static bool is_settled(const wt_master *m)
@@ -180,7 +181,7 @@ TABLE_ROW(master_curve, MASTER_CURVE, double angular_frequency, storage_modulus,
 
 TABLE_KEYS_OF(master_curve, MASTER_CURVE, wt_master)
 
-/* A compliance is one over what stands in the place of the modulus. */
+/* Converts the interval of log10 of a modulus to that of the compliance, its inverse. */
 static wt_interval inverse_of(wt_interval x)
 {
     return flow_power_of_ten((wt_interval){-x.value, x.standard_error, -x.high, -x.low});
@@ -213,7 +214,7 @@ static void put_point(table_writer *t, const wt_master *m, size_t i)
               .own_time = relaxes || creeps ? 1 / own_frequency : none);
 }
 
-/* Columns of what was not measured. */
+/* Returns a bit mask of the columns without measured data. */
 static uint64_t not_measured(const wt_master *m)
 {
     static const master_curve_column relaxation[] = {
@@ -267,11 +268,11 @@ static wt_status prony_table(const wt_master *m, wt_table **table, wt_error *err
 
 /* ---- draws ----------------------------------------------------------------------------------- */
 
-/* Their seed is not that of a job, so that what is stored is what a job has that goes from the
- * isotherms on. */
+/* The draws have a fixed seed, so that the stored tables equal those of a job that starts from
+ * the isotherms. */
 enum { DRAWS_SEED = 1 };
 
-/* To seven digits, far below the scatter of the draws: short where it is written. */
+/* Rounds to seven digits, far below the scatter of the draws, which shortens the tables. */
 static double to_seven_digits(double x)
 {
     if (!(fabs(x) > 0) || !isfinite(x))
@@ -283,7 +284,8 @@ static double to_seven_digits(double x)
 TABLE_ROW(material_draws, MATERIAL_DRAWS, double draw, temperature, log_b, equilibrium_modulus,
           wlf_c1, wlf_c2, activation_energy;)
 
-/* A row for each isotherm with a vertical shift, or one row; the first has the rest of the draw. */
+/* Adds a row for each isotherm with a vertical shift, or one row. The first row also has the
+ * constants of the draw. */
 static void put_material(table_writer *t, const wt_master *m, size_t draw, const wt_prony *prony,
                          const wt_shift_law *law, const double *log_b)
 {
@@ -349,7 +351,8 @@ static wt_status draw_tables(const wt_master *m, size_t n, wt_master_tables *tab
 
 /* ---- the job --------------------------------------------------------------------------------- */
 
-/* Strain sweeps say nothing of the spectrum. */
+/* Strain sweeps contain no information about the spectrum. The function warns if they are
+ * skipped and fails if there is no other data. */
 static wt_status check_strain(const wt_sweep *sweep, const wt_job *work, wt_error *err)
 {
     const size_t n = sweep->n_strain_sweeps;
@@ -365,7 +368,7 @@ static wt_status check_strain(const wt_sweep *sweep, const wt_job *work, wt_erro
     return WT_E_EMPTY;
 }
 
-/* What is left of the sweeps, with the shifts that are given. */
+/* Removes the excluded data from the sweeps and sets the stated shifts. */
 static wt_status prepare_sweep(const wt_master_job *job, const wt_job *work, wt_shift_law *law,
                                wt_sweep *sweep, wt_error *err)
 {
@@ -383,7 +386,7 @@ static wt_status prepare_sweep(const wt_master_job *job, const wt_job *work, wt_
     return status;
 }
 
-/* Temperature sweeps become isotherms of `sweep`. */
+/* Fits the sweeps. Temperature sweeps are converted to isotherms of `sweep`. */
 static wt_status fit_sweeps(const wt_master_job *job, const wt_job *work, wt_sweep *sweep,
                             wt_master *master, wt_error *err)
 {
@@ -395,7 +398,7 @@ static wt_status fit_sweeps(const wt_master_job *job, const wt_job *work, wt_swe
                                 : wt_master_fit(sweep, &job->fit, work->log, master, err);
     if (status == WT_OK)
         return WT_OK;
-    /* the fit sees isotherms, not files */
+    /* the fit does not know the files, so the error gets them here */
     const size_t n = sweep->n_isotherms;
     if (job->n_sets > 0 && job->sets[0].n_patterns > 0)
         wt_error_file(err, job->sets[0].patterns[0]);
@@ -405,7 +408,7 @@ static wt_status fit_sweeps(const wt_master_job *job, const wt_job *work, wt_swe
     return status;
 }
 
-/* Without it there is no series. */
+/* Returns true if the data determine the level of the moduli. Without it there is no series. */
 static bool tells_level(const wt_master *m)
 {
     const wt_shift_by by = wt_master_shifted_by(m);
@@ -420,7 +423,7 @@ static wt_status no_level(const wt_master *m, wt_error *err)
     return WT_E_MISSING;
 }
 
-/* Of sweeps that all name the same one, or NULL. */
+/* Returns the sample name if all sweeps have the same one, otherwise NULL. */
 static const char *sample_of(const wt_sweep *sweep)
 {
     const char *name = sweep->n_isotherms > 0 ? sweep->isotherms[0].sample
@@ -444,7 +447,7 @@ static wt_status say_sample(const wt_sweep *sweep, wt_table *shift_factors, wt_e
     return table_end(&t, NULL);
 }
 
-/* All but the master curve. */
+/* Builds all tables except the master curve. */
 static wt_status make_tables(const wt_master *m, size_t n_draws, const wt_job *work,
                              wt_master_tables *t, wt_error *err)
 {
@@ -509,7 +512,8 @@ static void say_unfinished(const wt_master *m, const wt_job *work)
                    m->step_left);
 }
 
-/* In decades, of E' if it is told. */
+/* Returns the standard error [decade] of the fitted E' if it exists, otherwise of E'' or tan
+ * delta. */
 static double shown_error(const wt_master *m, size_t i)
 {
     return !isnan(m->fitted_storage[i].value) ? m->fitted_storage[i].standard_error
@@ -517,7 +521,7 @@ static double shown_error(const wt_master *m, size_t i)
                                               : m->fitted_loss_factor[i].standard_error;
 }
 
-/* The main number is E', known everywhere: the mean of its relative standard error. */
+/* Reports the cost. The reported number is the mean relative standard error of E'. */
 static void say_cost(const wt_master *m, const wt_job *work)
 {
     double error = 0;
@@ -573,7 +577,7 @@ wt_status wt_master_make(const wt_master_job *job, const wt_job *work, wt_master
     if (status == WT_OK && rubber != NULL) {
         rubber->sweep = sweep;
         rubber->fit = job->fit;
-        rubber->fit.terms_per_decade = master.terms_per_decade; /* which need not be found again */
+        rubber->fit.terms_per_decade = master.terms_per_decade; /* avoids a second search */
         sweep = (wt_sweep){0};
     }
     if (status == WT_OK && tables != NULL && (t.fit = malloc(sizeof *t.fit)) == NULL)
@@ -588,7 +592,7 @@ wt_status wt_master_make(const wt_master_job *job, const wt_job *work, wt_master
         *tables = t;
         t = (wt_master_tables){0};
     }
-    if (status != WT_OK) { /* it is not filled */
+    if (status != WT_OK) { /* the fit is not set on failure */
         free(t.fit);
         t.fit = NULL;
     }

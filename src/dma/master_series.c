@@ -1,5 +1,6 @@
-/* What the DMA job tells of the spectrum itself: its density with the error, few terms in its
- * place, and four constants. SPDX-License-Identifier: GPL-3.0-or-later */
+/* Tables of the relaxation spectrum: density with its error, reduced series and fractional Zener
+ * law.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "dma/master.h"
 #include "dma/sweep_input.h"
 
@@ -33,7 +34,7 @@ wt_status flow_spectrum_table(const wt_master *m, wt_table **table, wt_error *er
     return table_end(&t, table);
 }
 
-/* Half of the 95 % interval of a modulus, relative, where it is widest. */
+/* Returns the largest relative half width of the 95 % intervals of a modulus. */
 static double widest_interval(const wt_interval *fitted, size_t n)
 {
     double most = 0;
@@ -42,7 +43,8 @@ static double widest_interval(const wt_interval *fitted, size_t n)
     return most;
 }
 
-/* In the words that friction takes, as moduli of tension, and beside the series. */
+/* Sets the keys of the fractional Zener law with tensile moduli, in the syntax of the friction
+ * option, and its comparison with the series. */
 static wt_status put_zener(const wt_master *m, const wt_prony *p, double poisson_ratio,
                            table_writer *t, wt_error *err)
 {
@@ -51,7 +53,8 @@ static wt_status put_zener(const wt_master *m, const wt_prony *p, double poisson
     wt_zener_fit z;
     const wt_status status = wt_master_zener(m, p, &z, err);
     if (status != WT_OK)
-        return status == WT_E_MEMORY ? status : WT_OK; /* no such law: none is told */
+        return status == WT_E_MEMORY ? status
+                                     : WT_OK; /* without a fitted law the keys stay unset */
     clocale_print(words, sizeof words, "fractional-zener:e0=%.4gPa,eg=%.4gPa,tau=%.4gs,alpha=%.4g",
                   to_young * z.e0, to_young * z.eg, z.tau, z.alpha);
     prony_reduced_set_text(t, PRONY_REDUCED_KEY_ZENER,
@@ -102,7 +105,7 @@ static wt_status put_reduced(const wt_master *m, const wt_prony *p, double poiss
     return status != WT_OK ? status : ended;
 }
 
-/* The series for finite elements, and a remark where it is off by more than asked for. */
+/* Builds the table of the reduced series. It warns if the deviation exceeds the requested limit. */
 wt_status flow_reduced_table(const wt_master *m, const wt_master_job *job, const wt_job *work,
                              wt_table **table, wt_error *err)
 {

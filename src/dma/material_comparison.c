@@ -1,4 +1,4 @@
-/* The comparison of materials: what they have in common, their moduli there and the ratios.
+/* The job that compares materials: common ranges, moduli and ratios.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "dma/material_comparison.h"
 #include "core/base/equivalence_margin.h"
@@ -14,15 +14,15 @@
 #include <string.h>
 
 enum { Q = MATERIALS_QUANTITIES };
-/* Places where two are compared: six in the width of a relaxation time, 1.14 decades, for 50
- * decades, and as many temperatures as a figure shows well. More find no difference that is wider.
- */
+/* Points of the comparison: six per width of a relaxation time (1.14 decades), up to 50 decades,
+ * and 25 temperatures. A finer grid does not find further differences. */
 enum { PER_DECADE = 6, MOST_PLACES = 300, TEMPERATURES = 25 };
 
-/* A material without a shift law is that of its reference up to this far [K]: a chamber holds its
- * temperature no better. */
+/* A material without a shift law is used within 1 K of its reference. A chamber is no more
+ * stable. */
 static const double same_temperature = 1;
-static const double ten_hertz = 20 * M_PI; /* [rad/s], of what is told in one number */
+static const double ten_hertz =
+    20 * M_PI; /* default frequency of the comparison over temperature [rad/s] */
 
 wt_materials_job wt_materials_job_defaults(void)
 {
@@ -53,7 +53,7 @@ void wt_materials_tables_clear(wt_materials_tables *tables)
     *tables = (wt_materials_tables){0};
 }
 
-/* ---- what they have in common ---------------------------------------------------------------- */
+/* ---- common ranges --------------------------------------------------------------------------- */
 
 typedef struct range {
     double low, high;
@@ -69,7 +69,7 @@ static bool range_holds(range r, double x)
     return x >= r.low && x <= r.high;
 }
 
-/* Where it was measured; a law without isotherms goes anywhere. */
+/* Returns the measured temperature range [K]. A law without isotherms has no limits. */
 static range temperatures_of(const wt_rubber *rubber)
 {
     const double reference = rubber->prony.reference_temperature;
@@ -80,7 +80,8 @@ static range temperatures_of(const wt_rubber *rubber)
     return (range){rubber->temperature_min, rubber->temperature_max};
 }
 
-/* What is not known is no limit. */
+/* Returns the measured frequency range at a temperature [rad/s]. An unknown limit is 0 or
+ * infinity. */
 static wt_status frequencies_of(const wt_rubber *rubber, double temperature, range *r,
                                 wt_error *err)
 {
@@ -113,7 +114,7 @@ static wt_status no_common_temperature(const wt_materials_job *job, wt_error *er
 
 typedef struct setting {
     range temperature;
-    double at_temperature, at_frequency; /* frequency NaN: they have none at all temperatures */
+    double at_temperature, at_frequency; /* [K], [rad/s]; frequency NaN: not yet chosen */
 } setting;
 
 static wt_status find_temperature(const wt_materials_job *job, setting *s, wt_error *err)
@@ -157,7 +158,7 @@ static wt_status no_common_frequency(const wt_compared pair[2], const range own[
     return WT_E_RANGE;
 }
 
-/* Over temperature there is nothing to compare at what was asked for. */
+/* Fails because no temperature has the requested frequency in both materials. */
 static wt_status no_such_frequency(const wt_compared pair[2], const range own[2], const setting *s,
                                    wt_error *err)
 {
@@ -175,9 +176,9 @@ static wt_status no_such_frequency(const wt_compared pair[2], const range own[2]
     return WT_E_RANGE;
 }
 
-/* ---- places ---------------------------------------------------------------------------------- */
+/* ---- points of comparison -------------------------------------------------------------------- */
 
-/* PER_DECADE of a range, its ends among them; returns how many. */
+/* Fills PER_DECADE points per decade of a range, including its limits. Returns their number. */
 static size_t over_frequency(range r, double temperature, material_place place[MOST_PLACES])
 {
     const double decades = log10(r.high / r.low);
@@ -189,7 +190,7 @@ static size_t over_frequency(range r, double temperature, material_place place[M
     return n;
 }
 
-/* Those temperatures of the common range at which both have the frequency. */
+/* Fills the temperatures of the common range at which both materials have the frequency. */
 static wt_status over_temperature(const wt_compared pair[2], const setting *s, double frequency,
                                   material_place place[TEMPERATURES], size_t *n, wt_error *err)
 {
@@ -211,10 +212,10 @@ static wt_status over_temperature(const wt_compared pair[2], const setting *s, d
     return WT_OK;
 }
 
-/* ---- what the draws do not hold -------------------------------------------------------------- */
+/* ---- systematic errors ----------------------------------------------------------------------- */
 
-/* Where superposition does not hold, one spectrum is off the isotherms by its misfit, and E'' by
- * what Kramers and Kronig demand of it. */
+/* Finds the errors that the draws do not contain. If superposition fails, the spectrum deviates
+ * from the isotherms by its misfit. E'' also deviates by the Kramers-Kronig inconsistency. */
 static wt_status find_beside(const wt_compared *m, double sample_error, compared_material *b,
                              wt_error *err)
 {
@@ -265,7 +266,7 @@ static wt_status add_material(const wt_compared *m, const compared_material *bes
     range own;
     wt_status status = frequencies_of(m->rubber, temperature, &own, err);
     if (status != WT_OK || !(own.low > 0) || !isfinite(own.high))
-        return status; /* one whose measured range is not known is seen where it is compared */
+        return status; /* a material without a known range is an error in the comparison only */
     const size_t n = over_frequency(own, temperature, place);
     status = material_values_make(m->rubber, beside, place, n, work, &v, err);
     table_block(t);
@@ -295,12 +296,12 @@ static void put_ratios(table_writer *t, const char *name, const char *over,
     }
 }
 
-/* ---- words ----------------------------------------------------------------------------------- */
+/* ---- texts ----------------------------------------------------------------------------------- */
 
-/* Of all pairs together. */
+/* Verdict texts of all pairs. */
 typedef struct verdict_texts {
     char differs[1024], settled_by[640], outside[640];
-    bool known, misfit; /* some interval is; one holds a misfit */
+    bool known, misfit; /* true if some interval is known; true if one contains a misfit */
 } verdict_texts;
 
 #define ADD(field, ...)                                                                            \
@@ -311,7 +312,7 @@ typedef struct verdict_texts {
         clocale_print((field) + more_, sizeof(field) - more_, __VA_ARGS__);                        \
     } while (0)
 
-/* What one of them alone has, by a fifth of a decade or more. */
+/* Lists the frequencies that only one material has, if they are a fifth of a decade or more. */
 static void say_outside(const wt_compared *m, range own, range shared, double temperature,
                         verdict_texts *s)
 {
@@ -341,7 +342,7 @@ static void say_temperatures(const wt_materials_job *job, const setting *set, ve
 
 /* ---- the job --------------------------------------------------------------------------------- */
 
-/* A material against the first. */
+/* Compares a material with the first one. */
 static wt_status add_pair(const wt_materials_job *job, const wt_compared pair[2],
                           const compared_material beside[2], const wt_job *work, setting *s,
                           table_writer *t, verdict_texts *words, wt_error *err)

@@ -1,5 +1,5 @@
-/* Inside the comparison of materials: their moduli with errors where they are compared, and the
- * verdict. Internal to dma. SPDX-License-Identifier: GPL-3.0-or-later */
+/* Internal interface of the comparison of materials: moduli with errors, ratios and verdict.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #ifndef WT_DMA_MATERIAL_COMPARISON_H
 #define WT_DMA_MATERIAL_COMPARISON_H
 
@@ -7,46 +7,48 @@
 
 enum { MATERIALS_E1, MATERIALS_E2, MATERIALS_TAN, MATERIALS_QUANTITIES };
 
-/* Where moduli are asked for. */
+/* Point at which moduli are compared: temperature [K] and angular frequency [rad/s]. */
 typedef struct material_place {
     double temperature, frequency;
 } material_place;
 
-/* ln E', ln E'' and ln tan delta of a material at places. */
+/* ln E', ln E'' and ln tan delta of a material at the points. */
 typedef struct material_values {
-    size_t n, n_draws; /* without draws the error is not known */
+    size_t n, n_draws; /* n_draws 0: the error is unknown */
     double *value;     /* [n * MATERIALS_QUANTITIES] */
-    double *error;     /* the same, standard errors by the draws and what is beside them */
-    double *draw;      /* [n_draws * n * MATERIALS_QUANTITIES] minus their mean */
+    double
+        *error; /* [n * MATERIALS_QUANTITIES] standard errors of the draws and systematic errors */
+    double *draw; /* [n_draws * n * MATERIALS_QUANTITIES] deviations of the draws from their mean */
 } material_values;
 
-/* Relative errors that the draws do not hold, by quantity. */
+/* Relative systematic errors by quantity, which the draws do not contain. */
 typedef struct compared_material {
     double misfit[MATERIALS_QUANTITIES], sample[MATERIALS_QUANTITIES];
 } compared_material;
 
-/* v: cleared by the caller, also on failure. */
+/* Computes the moduli at n points. The caller clears v, also on failure. */
 wt_status material_values_make(const wt_rubber *rubber, const compared_material *beside,
                                const material_place *place, size_t n, const wt_job *work,
                                material_values *v, wt_error *err) WT_NODISCARD;
 void material_values_clear(material_values *v);
 
-/* The second over the first: ln ratio and its standard error, both [n * MATERIALS_QUANTITIES]. */
+/* Ratio of the second material to the first: ln ratio and standard error, both [n *
+ * MATERIALS_QUANTITIES]. The caller clears it. */
 typedef struct material_ratio {
     size_t n;
     double *value, *error;
-    double critical; /* errors that no point of a curve is off by chance, in 95 of 100 trials */
-    bool known;      /* the errors are */
+    double critical; /* in standard errors; no point deviates more by chance in 95 of 100 cases */
+    bool known;      /* true if both errors are known */
 } material_ratio;
 wt_status material_ratio_make(const material_values *first, const material_values *second,
                               material_ratio *r, wt_error *err) WT_NODISCARD;
 void material_ratio_clear(material_ratio *r);
 
 typedef struct material_verdict {
-    char differs[512], settled_by[320]; /* the latter "" where nothing is left open */
+    char differs[512], settled_by[320]; /* settled_by is "" if the verdict is conclusive */
 } material_verdict;
 
-/* Of the second against the first. */
+/* Assesses the difference of the second material from the first. */
 material_verdict material_judge(const wt_compared pair[2], const material_values values[2],
                                 const compared_material beside[2], const material_ratio *ratio,
                                 double margin);

@@ -1,5 +1,5 @@
-/* Moduli of a material with their errors, and ratios of two. SPDX-License-Identifier:
- * GPL-3.0-or-later */
+/* Moduli of materials with their errors, and ratios of two materials.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "dma/material_comparison.h"
 
 #include "core/base/array.h"
@@ -17,7 +17,7 @@ void material_values_clear(material_values *v)
     *v = (material_values){0};
 }
 
-/* Places of one temperature follow one another: they are asked of one material. */
+/* Computes the log moduli of one draw. Consecutive points of one temperature share one material. */
 static wt_status moduli_of_draw(const wt_rubber *rubber, const material_place *place, size_t n,
                                 uint64_t seed, size_t replicate, double *value, wt_error *err)
 {
@@ -46,7 +46,7 @@ static wt_status moduli_of_draw(const wt_rubber *rubber, const material_place *p
     return status;
 }
 
-/* About their mean, and what they scatter by. */
+/* Subtracts the mean from the draws and computes their standard deviation. */
 static void centre_draws(material_values *v)
 {
     const size_t m = v->n * Q;
@@ -93,12 +93,12 @@ void material_ratio_clear(material_ratio *r)
     *r = (material_ratio){0};
 }
 
-/* The largest deviation of each pair of draws, in errors. Draws of one number were made from the
- * same random numbers, so that those of different numbers are paired. */
+/* Finds the 95 % quantile of the largest deviation over pairs of draws, in standard errors.
+ * Draws of equal number share random numbers, so only different numbers are paired. */
 static wt_status find_critical(const material_values *a, const material_values *b,
                                material_ratio *r, wt_error *err)
 {
-    enum { WAYS = 4 }; /* pairs of each draw with others, for draws are dear and pairs are not */
+    enum { WAYS = 4 }; /* pairs for each draw; a draw is expensive, a pair is not */
     const size_t m = r->n * Q, n = WAYS * a->n_draws;
     double *most = calloc(n + 1, sizeof *most);
     if (most == NULL)

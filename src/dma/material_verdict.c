@@ -1,4 +1,5 @@
-/* Do two materials differ? Yes, no within a margin, or: cannot say, and what would settle it.
+/* Verdict on the difference of two materials: yes, no within a margin, or inconclusive with a
+ * remedy.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "dma/material_comparison.h"
 
@@ -12,12 +13,12 @@ enum { Q = MATERIALS_QUANTITIES };
 
 static const char *const quantity_names[Q] = {"E'", "E''", "tan delta"};
 
-/* One quantity over all that was compared. */
+/* Result for one quantity over all compared points. */
 typedef struct result_value {
-    double low, high;     /* the ratio */
-    bool differs, within; /* somewhere for sure; everywhere within the margin */
-    size_t widest;        /* where the interval reaches furthest from one */
-    double reach;         /* that far, in ln */
+    double low, high;     /* extremes of the ratio */
+    bool differs, within; /* significant at some point; within the margin at all points */
+    size_t widest;        /* index of the point whose interval is farthest from 1 */
+    double reach;         /* limit of that interval, |ln ratio| */
 } result_value;
 
 static result_value find_difference(const material_ratio *r, int q, double margin)
@@ -100,7 +101,7 @@ static void say_difference(const result_value *f, const wt_compared pair[2], mat
         SAY(v->differs, "; not shown to differ: %s", list);
 }
 
-/* What the interval is mostly made of, where it reaches furthest. */
+/* Names the largest contribution to the widest inconclusive interval as the remedy. */
 static void say_what_settles(const result_value *f, const wt_compared pair[2],
                              const material_values values[2], const compared_material beside[2],
                              material_verdict *v)

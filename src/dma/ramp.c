@@ -1,6 +1,6 @@
-/* The job of temperature sweeps: glass transition by the peaks of tan delta and of the loss modulus
- * and the onset of the fall at each frequency, moduli at temperatures. SPDX-License-Identifier:
- * GPL-3.0-or-later */
+/* The job of temperature sweeps: glass transition from the peaks of tan delta and E'' and the
+ * onset of E', moduli at requested temperatures.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "dma/sweep_input.h"
 #include "job/cost.h"
 #include "job/inputs.h"
@@ -14,9 +14,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Frequencies that differ by less are one that was set at each temperature: exports of four digits
- * differ by 5e-4. Temperatures that make a temperature sweep, two more than the constants of a
- * parabola. */
+/* Frequencies within 1e-3 are one frequency, because exports with four digits differ by 5e-4. A
+ * temperature sweep needs two temperatures more than the constants of a parabola. */
 static const double same_frequency = 1e-3;
 enum { FEWEST = 5 };
 
@@ -84,7 +83,7 @@ static wt_status add_ramp(wt_sweep *sweep, const point *points, size_t n, wt_err
     return WT_OK;
 }
 
-/* Adds the isotherms of a sweep as temperature sweeps, one for each frequency that they share. */
+/* Converts the isotherms to temperature sweeps, one for each shared frequency, and adds them. */
 static wt_status add_isotherms(wt_sweep *sweep, wt_error *err)
 {
     size_t n = 0, all = 0;
@@ -120,14 +119,14 @@ static wt_status add_isotherms(wt_sweep *sweep, wt_error *err)
 
 typedef enum quantity { STORAGE, LOSS, FACTOR, QUANTITIES } quantity;
 
-/* The points of a ramp that have logarithms. */
+/* Points of a temperature sweep whose measured quantities are all positive. */
 typedef struct usable {
     size_t n;
     double *temperature, *value[QUANTITIES];
-    bool has[QUANTITIES]; /* it was measured */
+    bool has[QUANTITIES]; /* the quantity was measured */
 } usable;
 
-/* Ratio of the moduli, or what was measured without them. */
+/* Returns the ratio of the moduli, or the measured tan delta if the moduli are missing. */
 static double loss_factor(const wt_ramp *ramp, size_t i)
 {
     const double storage = ramp->storage_modulus[i];
@@ -216,11 +215,11 @@ static wt_status find_peak(const wt_ramp_job *job, const usable *u, quantity q, 
     return WT_OK;
 }
 
-/* More transitions than these no rubber has; what is left is scatter. */
+/* A rubber has fewer transitions than this; further peaks are scatter. */
 enum { MOST_OTHERS = 8 };
 
-/* Lower peaks of one quantity, a row for each: of which transition of the other quantity it is
- * nobody says. */
+/* Adds a row for each lower peak of one quantity. Its assignment to a peak of the other quantity
+ * is unknown. */
 static wt_status put_others(table_writer *t, const wt_ramp *ramp, const usable *u, quantity q,
                             wt_error *err)
 {
@@ -285,13 +284,12 @@ static wt_status put_moduli(table_writer *t, const wt_ramp_job *job, const wt_ra
     return status;
 }
 
-/* ---- how a peak moves with frequency ----------------------------------------------------------
- */
+/* ---- activation energy of a peak ------------------------------------------------------------- */
 
-/* Sums over the peaks at all frequencies: x = 1/T by its error, y = ln omega. */
+/* Weighted sums over the peaks at all frequencies, for x = 1/T with its error and y = ln omega. */
 typedef struct motion {
     size_t n;
-    double w, x, y, xx, xy, yy; /* about the first of them */
+    double w, x, y, xx, xy, yy; /* sums relative to the first peak */
     double x0, y0;
 } motion;
 
@@ -315,9 +313,9 @@ static void add_motion(motion *m, const wt_peak *peak, double angular_frequency)
     m->yy += w * y * y;
 }
 
-/* Apparent activation energy -R d ln omega / d (1/T), by the line of 1/T over ln omega, whose
- * errors are those of the peaks, or what they scatter about it if that is more: a curve of WLF is
- * such a scatter. A line through two frequencies has the errors of the peaks alone. */
+/* Returns the apparent activation energy -R d ln omega / d (1/T) from a line of 1/T over ln
+ * omega. The errors are those of the peaks, or their scatter if it is larger; WLF curvature
+ * counts as scatter. A line through two frequencies has the errors of the peaks alone. */
 static wt_estimate activation_energy(const motion *m)
 {
     const double none = (double)NAN, yy = m->yy - m->y * m->y / m->w,
@@ -335,7 +333,7 @@ typedef struct writers {
     table_writer ramp, transition, moduli;
 } writers;
 
-/* Of the frequency nearest to 1 Hz that has a peak. */
+/* The keys describe the frequency nearest to 1 Hz that has a peak. */
 TABLE_KEYS(glass_transition, GLASS_TRANSITION, wt_interval factor_peak, loss_peak, onset;
            wt_estimate factor_energy, loss_energy; double angular_frequency;
            const char *deformation;)

@@ -1,5 +1,5 @@
-/* Temperature sweeps as isotherms: points of neighbouring temperatures make one, each brought to
- * its temperature by the shift law, which is found with them.
+/* Converts temperature sweeps to isotherms. Points of neighbouring temperatures form one
+ * isotherm. The shift law, found in the same fit, moves each point to its temperature.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "dma/ramp_windows.h"
 
@@ -11,11 +11,10 @@
 #include <math.h>
 #include <stdlib.h>
 
-/* Windows are as many as describe a law well, ten for each of its constants, and are fitted
- * quickly, for time goes with the cube of them; points of one, for each of its frequencies and in
- * all, as SHIFT_MIN_POINTS. Of more points than tell anything, twenty in a window, neighbours are
- * joined. Rounds in which the points come to where they belong, each by half of the rest or,
- * foretold by two (Anderson's mixing), by up to eight times what one would. */
+/* 30 windows are ten for each constant of a law; the time grows with the cube of their number. A
+ * window needs one point for each frequency and LEAST_POINTS points, as SHIFT_MIN_POINTS. Above
+ * 600 points (20 per window) neighbours are merged. Each round moves the points by half of the
+ * residual. Anderson mixing of two rounds extrapolates by up to eight times. */
 enum {
     MOST_WINDOWS = 30,
     OF_FREQUENCY = 1,
@@ -24,26 +23,25 @@ enum {
     MOST_ROUNDS = 8,
     MOST_AHEAD = 8
 };
-static const double same_frequency = 1e-3; /* exports of four digits differ by 5e-4 */
-/* Points are where they belong when a round moves none further than this [decade]: 1 %, as noise.
- */
+static const double same_frequency = 1e-3; /* exports with four digits differ by 5e-4 */
+/* The rounds end if no point moves farther [decade]: 1 %, the size of the noise. */
 static const double enough = 0.005;
 
 enum { STORAGE, LOSS, FACTOR, QUANTITIES };
 
 typedef struct point {
     double temperature, frequency;
-    double
-        value[QUANTITIES]; /* storage and loss modulus, loss factor where it was measured alone */
-    double off;            /* what brings it to the temperature of its window [decade] */
-    double told, misses;   /* what the law last said of that, and how far `off` was from it */
+    double value[QUANTITIES]; /* storage modulus, loss modulus, and the loss factor if it was
+                                 measured alone */
+    double off;               /* log10 a to the temperature of its window [decade] */
+    double told, misses;      /* last value of the law and its difference from `off` [decade] */
 } point;
 
 typedef struct windows {
     size_t n, n_points, n_left_out;
-    point *point;          /* by temperature */
+    point *point;          /* sorted by temperature */
     size_t *first;         /* [n + 1] */
-    wt_isotherm *isotherm; /* [n] those of the sweep, whose arrays they borrow */
+    wt_isotherm *isotherm; /* [n] copies of the isotherms of the sweep; they borrow its arrays */
 } windows;
 
 static void windows_free(windows *w)
@@ -53,7 +51,7 @@ static void windows_free(windows *w)
     free(w->isotherm);
 }
 
-/* Frequencies of the sweeps, which are in their order. */
+/* Counts the distinct frequencies of the sorted sweeps. */
 static size_t count_frequencies(const wt_sweep *sweep)
 {
     size_t n = 0;
@@ -68,7 +66,7 @@ static size_t count_frequencies(const wt_sweep *sweep)
     return n;
 }
 
-/* Cuts the points where a window is wide enough and has enough of them. */
+/* Splits the points into windows that are wide enough and contain enough points. */
 static void cut_points(windows *w, size_t n_frequencies)
 {
     const size_t least =
@@ -92,7 +90,7 @@ static double value_of(const wt_ramp *r, int q, size_t k)
     return values[q] != NULL ? values[q][k] : (double)NAN;
 }
 
-/* What a sweep has at some point. */
+/* Finds which quantities have a value at some point of the sweep. */
 static void find_measured(const wt_ramp *r, bool has[QUANTITIES])
 {
     for (int q = 0; q < QUANTITIES; q++) {
@@ -102,7 +100,8 @@ static void find_measured(const wt_ramp *r, bool has[QUANTITIES])
     }
 }
 
-/* `each` neighbouring points of a sweep as one; those without logarithms count for nothing. */
+/* Adds the means of `each` neighbouring points of a sweep. Points without logarithms are
+ * skipped. */
 static void take_points(const wt_ramp *r, size_t each, windows *w)
 {
     bool has[QUANTITIES];
@@ -172,9 +171,9 @@ static wt_status add_isotherms(wt_sweep *sweep, windows *w, wt_error *err)
     return WT_OK;
 }
 
-/* What the law says of the points, given where they lie, comes nearer to where they belong by the
- * same share in each round; two rounds foretell where it ends (Anderson's mixing). The furthest
- * that a point is off what the law says. */
+/* Updates the shift of each point by the fitted law. The residual shrinks by the same factor in
+ * each round, so two rounds predict the limit (Anderson mixing). Returns the largest residual
+ * [decade]. */
 static double shift_by_fit(const windows *w, const wt_master *master, bool first)
 {
     double most = 0, product = 0, square = 0;
@@ -187,7 +186,7 @@ static double shift_by_fit(const windows *w, const wt_master *master, bool first
             product += misses * (misses - p->misses);
             square += (misses - p->misses) * (misses - p->misses);
             most = fmax(most, fabs(misses));
-            p->off = told - p->told; /* for the moment */
+            p->off = told - p->told; /* holds the change of the law until the second loop */
             p->told = told;
             p->misses = misses;
         }
@@ -198,7 +197,8 @@ static double shift_by_fit(const windows *w, const wt_master *master, bool first
     return most;
 }
 
-/* A law that is given needs not be listened to; nor are the shifts fitted. */
+/* Sets the shifts of points and isotherms by the stated law. No iteration is needed and no shift
+ * is fitted. */
 static wt_status shift_by_law(const windows *w, const wt_shift_law *law, wt_sweep *sweep,
                               wt_error *err)
 {
@@ -210,7 +210,7 @@ static wt_status shift_by_law(const windows *w, const wt_shift_law *law, wt_swee
     return flow_shifts_give(law, NULL, WT_VERTICAL_NONE, sweep, NULL, err);
 }
 
-/* The points as they would have been at the temperature of their window. */
+/* Writes the points to the isotherms, moved to the temperature of their window. */
 static void bring_to_windows(const windows *w, bool vertical)
 {
     for (size_t i = 0; i < w->n; i++) {
@@ -278,7 +278,7 @@ wt_status flow_ramps_fit(wt_sweep *sweep, const wt_master_options *options,
         status = shift_by_law(&w, given, sweep, err);
     wt_master_options quick = *options;
     if (quick.vertical != WT_VERTICAL_NONE)
-        quick.vertical = WT_VERTICAL_PHYSICAL; /* near enough for the law */
+        quick.vertical = WT_VERTICAL_PHYSICAL; /* accurate enough for the law */
     bool last = false;
     double moved = 0;
     for (int round = 0; status == WT_OK && !last; round++) {

@@ -1,4 +1,4 @@
-/* The rubber as the stages after the DMA know it, and its material law at a temperature.
+/* The rubber that later stages use, and its material law at a temperature.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "dma/rubber.h"
 #include "job/random_draws.h"
@@ -9,8 +9,8 @@
 #include <math.h>
 #include <stdlib.h>
 
-/* Without a shift law the material is used as it is up to this far from its reference [K]; a DMA
- * oven holds its temperature no better. */
+/* Without a shift law the material is valid within 1 K of its reference, the stability of a DMA
+ * oven. */
 #define SAME_TEMPERATURE 1.0
 
 void flow_rubber_drop_draws(wt_rubber *rubber)
@@ -36,8 +36,8 @@ void wt_rubber_clear(wt_rubber *rubber)
     *rubber = (wt_rubber){0};
 }
 
-/* log10 b_T, or a change of it at the isotherms, by linear interpolation; held outside, which *held
- * says, except that it is 0 at the reference temperature wherever that is. */
+/* Interpolates log10 b_T, or its change, linearly between the isotherms. Outside it is constant
+ * and *held is true, but it tends to 0 at the reference temperature. */
 static double vertical_shift(const wt_rubber *rubber, const double *b, double temperature,
                              bool *held)
 {
@@ -62,10 +62,10 @@ static double vertical_shift(const wt_rubber *rubber, const double *b, double te
     return b[i - 1] + (b[i] - b[i - 1]) * (temperature - t[i - 1]) / (t[i] - t[i - 1]);
 }
 
-/* Further away times and frequencies are no numbers: a double ends at 308 decades. */
+/* Limit of log10 aT. A double covers 308 decades of time and frequency. */
 static const double most_decades = 200;
 
-/* log10 a_T of a law. */
+/* Computes log10 a_T of a law, or fails if the law does not reach the temperature. */
 static wt_status horizontal_shift(const wt_shift_law *law, double reference, double temperature,
                                   double *log_a, wt_error *err)
 {
@@ -112,7 +112,7 @@ bool flow_rubber_reaches(const wt_rubber *rubber, double temperature, wt_error *
                                                   temperature, &log_a, why) == WT_OK;
 }
 
-/* Standard error of log10 a_T by those of the constants of a law that came with them. */
+/* Returns the standard error of log10 a_T from the errors of stated WLF constants. */
 static double law_error(const wt_rubber *rubber, double temperature)
 {
     const wt_wlf *wlf = &rubber->law.wlf;
@@ -139,8 +139,8 @@ static void make_statement(const wt_rubber *rubber, double temperature, bool hel
                       held ? " and the vertical shift held" : "");
 }
 
-/* The draw behind a replicate: they are gone through in turn, by the default seed from the first
- * one on, by the others from further on. NULL: the values as fitted. */
+/* Returns the draw of a replicate. The default seed starts with the first draw, other seeds
+ * start later. NULL means the fitted values. */
 static const wt_rubber_draw *draw_of(const wt_rubber *rubber, uint64_t seed, size_t replicate)
 {
     if (replicate == WT_NO_REPLICATE || rubber->n_draws == 0)
@@ -155,7 +155,7 @@ wt_shift_law flow_rubber_law(const wt_rubber *rubber, uint64_t seed, size_t repl
     return draw != NULL ? draw->law : rubber->law;
 }
 
-/* The series with times a and moduli 1/b times those at the reference temperature. */
+/* Copies the series, with times multiplied by a and moduli divided by b. */
 static wt_status shifted_series(const wt_rubber *rubber, const wt_rubber_draw *draw,
                                 double temperature, double a, double b, wt_prony *prony,
                                 wt_error *err)
@@ -207,7 +207,7 @@ static wt_status table_at(const wt_rubber *rubber, double a, double b, wt_materi
     return status;
 }
 
-/* The law of the moduli with times a and moduli 1/b times those at the reference temperature. */
+/* Creates the material, with times multiplied by a and moduli divided by b. */
 static wt_status law_at(const wt_rubber *rubber, const wt_rubber_draw *draw, double temperature,
                         double a, double b, wt_material **material, wt_error *err)
 {
@@ -224,8 +224,8 @@ static wt_status law_at(const wt_rubber *rubber, const wt_rubber_draw *draw, dou
     return series_at(rubber, draw, temperature, a, b, material, err);
 }
 
-/* Factors of times and moduli at a temperature (NaN: the reference, which it then is); held: that
- * of the moduli, beyond the isotherms. */
+/* Computes the factors of times and moduli at a temperature. NaN means the reference, which then
+ * replaces it. held: the factor of the moduli is extrapolated. */
 static wt_status factors_at(const wt_rubber *rubber, const wt_rubber_draw *draw, uint64_t seed,
                             size_t replicate, double *temperature, double *a, double *b, bool *held,
                             wt_error *err)

@@ -1,34 +1,36 @@
-/* The rubber as the stages after the DMA know it: its laws and tables.
- * Internal to dma. SPDX-License-Identifier: GPL-3.0-or-later */
+/* The rubber that later stages use: its laws and tables. Internal to dma.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #ifndef WT_DMA_RUBBER_H
 #define WT_DMA_RUBBER_H
 
 #include "job/inputs.h"
 
-/* The series of a rubber at a temperature in Young's moduli; to be cleared, also on failure. */
+/* Computes the series of a rubber at a temperature [K] in Young's moduli [Pa]. The caller clears
+ * `prony`, also on failure. */
 wt_status flow_rubber_spectrum(const wt_rubber *rubber, double temperature, wt_prony *prony,
                                char statement[256], wt_error *err) WT_NODISCARD;
 
 void flow_rubber_drop_draws(wt_rubber *rubber);
-/* The shift law of a replicate; the errors of constants that were given are not drawn. */
+/* Returns the shift law of a replicate. Errors of stated constants are not drawn. */
 wt_shift_law flow_rubber_law(const wt_rubber *rubber, uint64_t seed, size_t replicate);
-/* Whether the shift law takes the material to a temperature (NaN: the reference); if not, why. */
+/* Returns true if the shift law reaches the temperature [K] (NaN: the reference). Otherwise the
+ * error states the reason. */
 bool flow_rubber_reaches(const wt_rubber *rubber, double temperature, wt_error *why);
-/* Factors by which times and moduli at the reference temperature become those at another one (NaN:
- * the reference): E(w) is E_reference(w a_T) / b_T; and what must be said of them, "" if nothing.
- */
+/* Factors from the reference temperature to another one (NaN: the reference): E(w) =
+ * E_reference(w a_T) / b_T. The statement is a warning, or "" if there is none. */
 typedef struct rubber_shift {
     double a, b;
     char statement[256];
 } rubber_shift;
 wt_status flow_rubber_shift(const wt_rubber *rubber, double temperature, rubber_shift *shift,
                             wt_error *err) WT_NODISCARD;
-/* The parameters of a fractional Zener material, and those as a rubber, whose law is checked. */
+/* Parameters of a fractional Zener material, and the material as a rubber after a check of its
+ * law. */
 wt_zener flow_zener_defaults(void);
 const wt_params *flow_zener_params(void);
 wt_status flow_rubber_zener(const wt_zener *zener, double poisson_ratio, wt_rubber *rubber,
                             wt_error *err) WT_NODISCARD;
-/* A table of moduli as a rubber; its points are checked. */
+/* Reads a table of moduli as a rubber and checks its points. */
 wt_status flow_rubber_read(flow_file *file, const wt_rubber_options *options, double poisson_ratio,
                            const wt_job *work, wt_rubber *rubber, wt_error *err) WT_NODISCARD;
 

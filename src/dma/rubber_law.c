@@ -1,5 +1,6 @@
-/* A rubber whose moduli no series tells: the points of a table, those of a master curve, or a
- * fractional Zener law. SPDX-License-Identifier: GPL-3.0-or-later */
+/* A rubber without a Prony series: a table of moduli, the points of a master curve, or a
+ * fractional Zener law.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "dma/rubber.h"
 
 #include "core/base/array.h"
@@ -15,8 +16,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Points of several isotherms at the same frequency have each their noise: closer than this in ln
- * omega they are one. A twentieth of a decade. */
+/* Points of several isotherms closer than this in ln omega are averaged: a twentieth of a
+ * decade. */
 #define CLOSE (0.05 * M_LN10)
 
 static wt_rubber rubber_of(wt_rubber_kind kind, double poisson_ratio)
@@ -32,7 +33,7 @@ static wt_rubber rubber_of(wt_rubber_kind kind, double poisson_ratio)
                        .temperature_max = unknown};
 }
 
-/* Whether there is such a material. */
+/* Checks that the material can be created at its reference temperature. */
 static wt_status check_points(const wt_rubber *rubber, wt_error *err)
 {
     wt_material *material = NULL;
@@ -162,10 +163,11 @@ wt_status wt_rubber_open(const char *text, const wt_read_options *read,
 /* ---- the points of a master curve ------------------------------------------------------------ */
 
 typedef struct point {
-    double frequency, storage, loss; /* logarithms */
+    double frequency, storage, loss; /* natural logarithms */
 } point;
 
-/* Those that are not left out, rising, close ones joined; returns how many. */
+/* Collects the points that are not excluded, sorts them and averages close ones. Returns their
+ * number. */
 static size_t join_points(const table_view *view, point *p)
 {
     size_t n = 0, joined = 0;
@@ -234,7 +236,7 @@ wt_status wt_rubber_tabulate(wt_rubber *rubber, const wt_table *master_curve,
     wt_prony_clear(&rubber->prony);
     wt_sweep_clear(&rubber->sweep);
     flow_rubber_drop_draws(rubber);
-    rubber->c1_error = rubber->c2_error = 0; /* which are not all of its errors */
+    rubber->c1_error = rubber->c2_error = 0; /* they are not the whole error of the points */
     rubber->kind = WT_RUBBER_TABLE;
     rubber->extrapolation = options->extrapolation;
     rubber->sweep = sweep;
@@ -245,7 +247,7 @@ wt_status wt_rubber_tabulate(wt_rubber *rubber, const wt_table *master_curve,
     return check_points(rubber, err);
 }
 
-/* ---- in words -------------------------------------------------------------------------------- */
+/* ---- description ----------------------------------------------------------------------------- */
 
 static void describe_transverse(const wt_rubber *rubber, char *text, size_t size)
 {

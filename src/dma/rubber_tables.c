@@ -1,5 +1,6 @@
-/* The rubber from the tables of the DMA job, with the draws that carry its uncertainty. They may
- * come from a file of anyone. SPDX-License-Identifier: GPL-3.0-or-later */
+/* Creates the rubber from the tables of the DMA job, with the draws that contain its
+ * uncertainty. The tables may come from an untrusted file.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "weartrack/flow.h"
 
 #include "core/table/registry.h"
@@ -35,7 +36,7 @@ static wt_status read_shifts(const table_view *shifts, wt_rubber *rubber, wt_err
     if (correlation != NULL &&
         (!wt_number_parse(correlation, strlen(correlation), '.', &rubber->c_correlation) ||
          !isfinite(rubber->c_correlation)))
-        rubber->c_correlation = 0; /* of constants without errors too */
+        rubber->c_correlation = 0; /* also for constants without errors */
     rubber->vertical_temperature = malloc((rows + 1) * sizeof *rubber->vertical_temperature);
     rubber->vertical_log_b = malloc((rows + 1) * sizeof *rubber->vertical_log_b);
     if (rubber->vertical_temperature == NULL || rubber->vertical_log_b == NULL)
@@ -97,7 +98,7 @@ static wt_status bad_draw(const table_view *view, size_t row, const char *expect
     return WT_E_RANGE;
 }
 
-/* The rows of a table are as many for every draw and in their order. */
+/* Checks that every draw has the same number of rows and that the draws are in order. */
 static wt_status check_order(const table_view *view, size_t n_draws, long column, wt_error *err)
 {
     const size_t each = view->n_rows / n_draws;
@@ -113,7 +114,7 @@ static bool is_above(double x, double least)
     return isfinite(x) && x > least;
 }
 
-/* What is not of the kind of law stays NaN, as it is in the law as fitted. */
+/* Constants that the kind of law lacks stay NaN, as in the fitted law. */
 static wt_status read_law(const table_view *view, size_t first, const wt_rubber *rubber,
                           wt_rubber_draw *draw, wt_error *err)
 {

@@ -1,4 +1,4 @@
-/* DMA sweeps of several samples: which there are, and those of one.
+/* Lists the samples of DMA sweeps and selects one of them.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "dma/sweep_input.h"
 
@@ -8,7 +8,7 @@
 #include <string.h>
 
 static const char no_name[] = "(without a name)";
-/* Kelvin within which two isotherms are of one temperature. */
+/* Isotherms within 0.5 K have the same temperature. */
 static const double same_temperature = 0.5;
 
 static bool is_of(const char *sample, const char *name)
@@ -16,7 +16,7 @@ static bool is_of(const char *sample, const char *name)
     return strcmp(sample != NULL ? sample : "", name) == 0;
 }
 
-/* ---- which there are ------------------------------------------------------------------------- */
+/* ---- list of samples ------------------------------------------------------------------------- */
 
 static wt_status add_name(wt_samples *samples, const char *sample, wt_error *err)
 {
@@ -59,7 +59,7 @@ void wt_samples_clear(wt_samples *samples)
     *samples = (wt_samples){0, NULL};
 }
 
-/* ---- those of one ---------------------------------------------------------------------------- */
+/* ---- selection of one sample ----------------------------------------------------------------- */
 
 static void list_names(const wt_samples *samples, char *text, size_t size)
 {
@@ -104,7 +104,7 @@ wt_status flow_sample_take(wt_sweep *sweep, const char *name, wt_error *err)
     return there ? wt_sweep_keep_sample(sweep, name) : not_there(sweep, name, err);
 }
 
-/* Two files that measured at one temperature and say nothing of a sample. */
+/* Warns if two files measured at one temperature and neither names a sample. */
 static void warn_of_files(const wt_sweep *sweep, wt_log *log)
 {
     for (size_t i = 1; i < sweep->n_isotherms; i++) {

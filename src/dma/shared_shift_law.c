@@ -1,4 +1,4 @@
-/* The job of one law for several samples: the table, and whether they have one.
+/* The job of a shared shift law of several samples: its table and the verdict.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "job/inputs.h"
 
@@ -10,10 +10,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Samples of one law are told apart by chance about so often: the customary level for what shall
- * not be said lightly. */
+/* Significance level: the probability that samples of one law are reported as different. */
 static const double level = 0.01;
-/* Letters that a sample takes beside its name, whatever its numbers are. */
+/* Characters of the text of a sample in addition to its name. */
 enum { MOST_WORDS = 160 };
 
 wt_shared_shift_law_job wt_shared_shift_law_job_defaults(void)
@@ -57,9 +56,9 @@ static void put_sample(const wt_shared_shift_law_job *job, const wt_shared_shift
             TABLE_ADD(common_law, t, job->names[sample], NULL, moved, law->points[i]);
 }
 
-/* ---- words ----------------------------------------------------------------------------------- */
+/* ---- verdict and texts ----------------------------------------------------------------------- */
 
-/* The end of an interval of a difference that is furthest from 0; NaN: none is known. */
+/* Returns the limit of a difference that is farthest from 0, or NaN if no difference is known. */
 static double furthest_difference(const wt_shared_shift_law *law, size_t *sample)
 {
     double most = (double)NAN;
@@ -114,7 +113,7 @@ static void set_verdict(const wt_shared_shift_law_job *job, const wt_shared_shif
     }
 }
 
-/* As --shift-law takes it, at a reference temperature. */
+/* Formats the law at a reference temperature in the syntax of --shift-law. */
 static void law_words(const wt_shared_shift_law *law, double reference, char *text, size_t size)
 {
     if (law->kind == WT_LAW_WLF)
@@ -125,7 +124,7 @@ static void law_words(const wt_shared_shift_law *law, double reference, char *te
                       law->activation_energy.value / 1000);
 }
 
-/* A list with room for what is said of each sample. */
+/* Text buffer with space for the text of each sample. */
 typedef struct list {
     char *text; /* NULL: out of memory */
     size_t size, used;

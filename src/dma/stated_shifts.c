@@ -1,4 +1,4 @@
-/* Shifts that are given: by a law, or by a table that an earlier fit or another program made.
+/* Stated shifts: from a law, or from a table of an earlier fit or another program.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "core/base/spell_suggest.h"
 #include "dma/law_parse.h"
@@ -8,10 +8,10 @@
 #include <math.h>
 #include <string.h>
 
-/* A row of the table is that of an isotherm this close [K]: what a chamber holds. */
+/* A table row belongs to an isotherm within 0.5 K, the stability of a chamber. */
 static const double same_temperature = 0.5;
 
-/* ---- a law in words -------------------------------------------------------------------------- */
+/* ---- law as an option value ------------------------------------------------------------------ */
 
 static wt_wlf no_wlf(void)
 {
@@ -77,7 +77,8 @@ wt_status flow_shift_law(const char *text, wt_shift_law *law, wt_error *err)
     } else if (flow_is_law(&arrhenius_text, text)) {
         arrhenius a = no_arrhenius();
         law->kind = WT_LAW_ARRHENIUS;
-        law->wlf.reference_temperature = room; /* differences of shifts do not hang on it */
+        law->wlf.reference_temperature =
+            room; /* arbitrary, because differences of shifts do not depend on it */
         status = flow_law_parse(&arrhenius_text, text, &a, err);
         law->activation_energy = a.activation_energy;
     } else {
@@ -89,7 +90,7 @@ wt_status flow_shift_law(const char *text, wt_shift_law *law, wt_error *err)
     return status;
 }
 
-/* ---- to the isotherms ------------------------------------------------------------------------ */
+/* ---- shifts of the isotherms ----------------------------------------------------------------- */
 
 static wt_status give_law(const wt_shift_law *law, wt_sweep *sweep, wt_error *err)
 {
@@ -108,7 +109,7 @@ static wt_status give_law(const wt_shift_law *law, wt_sweep *sweep, wt_error *er
     return WT_OK;
 }
 
-/* The table of shifts, in kelvin. */
+/* Table of stated shifts with its conversion to kelvin. */
 typedef struct shift_rows {
     const wt_table *table;
     size_t temperature, log_a; /* columns */
@@ -125,7 +126,8 @@ static bool has_shift(const shift_rows *r, size_t row)
     return isfinite(wt_table_number(r->table, row, r->log_a));
 }
 
-/* First row of those nearest to a temperature, or the number of rows; how many there are. */
+/* Returns the first of the rows nearest to a temperature, or the number of rows. *n_alike:
+ * number of such rows. */
 static size_t nearest_rows(const shift_rows *r, double t, size_t *n_alike)
 {
     const size_t n = wt_table_n_rows(r->table);
@@ -144,7 +146,7 @@ static size_t nearest_rows(const shift_rows *r, double t, size_t *n_alike)
     return best;
 }
 
-/* Row of an isotherm; runs at one temperature have theirs in their order. */
+/* Finds the row of an isotherm. Runs at one temperature use the rows in their order. */
 static wt_status row_of(const shift_rows *r, const wt_sweep *sweep, size_t isotherm, size_t *row,
                         wt_error *err)
 {
@@ -171,7 +173,7 @@ static wt_status row_of(const shift_rows *r, const wt_sweep *sweep, size_t isoth
     return WT_OK;
 }
 
-/* Those that belong to no isotherm are likely to be of other files. */
+/* Counts the rows that belong to no isotherm. They probably come from other files. */
 static size_t count_unused(const shift_rows *r, const wt_sweep *sweep)
 {
     size_t n = 0;
@@ -184,7 +186,7 @@ static size_t count_unused(const shift_rows *r, const wt_sweep *sweep)
     return n;
 }
 
-/* The vertical shift of a row, if the table has one. */
+/* Sets the vertical shift of an isotherm if the table has one. */
 static wt_status give_vertical(const wt_table *table, size_t row, wt_vertical_shift vertical,
                                wt_isotherm *t, wt_error *err)
 {

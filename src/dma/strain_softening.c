@@ -1,4 +1,4 @@
-/* How the rubber softens with strain: from strain sweeps, or from a table that is given.
+/* Strain softening of the rubber from strain sweeps or from a table.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "dma/strain_softening.h"
 #include "job/random_draws.h"
@@ -27,11 +27,11 @@ void wt_strain_softening_clear(wt_strain_softening *softness)
 {
     if (softness == NULL)
         return;
-    free(softness->table.strain); /* the others stand behind it */
+    free(softness->table.strain); /* the other arrays are in the same block */
     *softness = (wt_strain_softening){0};
 }
 
-/* Room for n points, with errors or without. */
+/* Allocates n points, with or without errors. */
 static wt_status make_room(wt_strain_softening *s, size_t n, bool errors, wt_error *err)
 {
     double *numbers = calloc(5 * n, sizeof *numbers);
@@ -54,22 +54,22 @@ static bool is_usable(double x)
 
 /* ---- strain sweeps --------------------------------------------------------------------------- */
 
-/* One of them: rows of the table, without those that have no moduli. */
+/* One strain sweep: its rows that have moduli. */
 typedef struct one_sweep {
     size_t n;
     double *log_strain, *f, *g;
 } one_sweep;
 
-/* Amplitudes that are closer than this [ln] are one: 5 %, between which the fall of Kraus's law is
- * 1.5 % of its height at most. */
+/* Amplitudes closer than this [ln] are merged: 5 %, over which the law of Kraus falls by at most
+ * 1.5 % of its height. */
 static const double same_strain = 0.05;
 
-/* Kelvin within which two sweeps are of one temperature, as two runs of a chamber are, and beyond
- * which the nearest one is not what was asked for. The second is chosen: it warns, no number
- * changes. */
+/* Sweeps within 1.5 K have one temperature, as two runs of a chamber. A warning appears if the
+ * nearest temperature is more than 10 K from the requested one; that limit is chosen. */
 static const double same_temperature = 1.5, other_temperature = 10;
 
-/* Whether a row has moduli and is of the temperature and sample that count; NaN, NULL: any. */
+/* Returns true if a row has moduli and matches the selected temperature and sample (NaN, NULL:
+ * any). */
 static bool is_of(const table_view *v, size_t row, wt_strain_softening_choice choice)
 {
     const double temperature = payne_sweep_get(v, row, PAYNE_SWEEP_TEMPERATURE);
@@ -93,7 +93,7 @@ static wt_status refuse_several(const char *what, const char *one, const char *o
     return WT_E_AMBIGUOUS;
 }
 
-/* A sample that is named, if the table names any; one is enough that is named nowhere. */
+/* Selects a named sample if the table has names. A table without names is one sample. */
 static wt_status choose_sample(const table_view *v, wt_strain_softening_choice *choice,
                                wt_error *err)
 {
@@ -131,7 +131,7 @@ static wt_status without_temperature(const char *what, wt_error *err)
     return WT_E_MISSING;
 }
 
-/* The temperature of a sweep that is nearest to the one that is asked for. */
+/* Selects the sweep temperature that is nearest to the requested one. */
 static wt_status choose_temperature(const table_view *v, wt_strain_softening_choice *choice,
                                     wt_error *err)
 {
@@ -184,7 +184,7 @@ static bool begins_sweep(const table_view *v, size_t row)
                payne_sweep_get(v, row - 1, PAYNE_SWEEP_ANGULAR_FREQUENCY);
 }
 
-/* The sweeps behind one another in the arrays of `room`. */
+/* Stores the sweeps one after another in the given arrays and returns their number. */
 static size_t take_sweeps(const table_view *v, wt_strain_softening_choice choice, one_sweep room,
                           one_sweep *sweeps)
 {
@@ -209,7 +209,7 @@ static size_t take_sweeps(const table_view *v, wt_strain_softening_choice choice
     return n;
 }
 
-/* Linear in ln strain, inside the sweep. */
+/* Interpolates linearly in ln strain within the sweep. */
 static double value_at(const one_sweep *s, const double *value, double log_strain)
 {
     size_t k = 0;
@@ -221,7 +221,7 @@ static double value_at(const one_sweep *s, const double *value, double log_strai
     return value[k] + fmin(fmax(part, 0), 1) * (value[k + 1] - value[k]);
 }
 
-/* The strains that every sweep has reached, of all of them; how many. */
+/* Collects the strains within the common range of all sweeps and returns their number. */
 static size_t common_strains(const one_sweep *sweeps, size_t n, double *x, wt_error *err)
 {
     double low = -(double)INFINITY, high = (double)INFINITY;
@@ -248,8 +248,8 @@ static size_t common_strains(const one_sweep *sweeps, size_t n, double *x, wt_er
     return kept;
 }
 
-/* Mean of the sweeps, and what another one would scatter about it: so that 1.96 of it to each side
- * hold 95 % of them, for the scatter of n sweeps is known no better (Student). */
+/* Computes the mean of the sweeps and the standard deviation of a further sweep. Student's
+ * factor widens it, so that 1.96 deviations contain 95 %. */
 static void put_mean(const one_sweep *sweeps, size_t n, const double *x, bool loss, double *mean,
                      double *error, size_t points)
 {
@@ -317,7 +317,7 @@ static wt_status of_sweeps(const wt_table *table, wt_strain_softening_choice cho
     return status;
 }
 
-/* ---- a table that is given ------------------------------------------------------------------- */
+/* ---- table of ratios ------------------------------------------------------------------------- */
 
 enum { STRAIN, F, G, F_ERROR, G_ERROR, GIVEN };
 static const char *const names[GIVEN] = {"strain", "f", "g", "f_error", "g_error"};
@@ -464,7 +464,7 @@ void strain_softening_describe(const wt_strain_softening *s, char *text, size_t 
                       : "its error is not known and not in the standard errors");
 }
 
-/* All points move together: what differs between sweeps is the whole curve. */
+/* Moves all points by the same normal number, because sweeps differ as whole curves. */
 static void move_curve(double *value, const double *error, size_t n, double normal)
 {
     for (size_t k = 0; error != NULL && k < n; k++)

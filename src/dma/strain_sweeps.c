@@ -1,5 +1,6 @@
-/* The job of strain sweeps: how a filled rubber softens with strain at each frequency and
- * temperature. SPDX-License-Identifier: GPL-3.0-or-later */
+/* The job of strain sweeps: strain softening of a filled rubber at each frequency and
+ * temperature.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "dma/sweep_input.h"
 #include "job/cost.h"
 
@@ -22,7 +23,7 @@ void wt_payne_tables_clear(wt_payne_tables *tables)
     *tables = (wt_payne_tables){0};
 }
 
-/* The points that a law can be laid through. */
+/* Points with positive moduli, to which a law is fitted. */
 typedef struct usable {
     size_t n;
     double *strain, *storage, *loss;

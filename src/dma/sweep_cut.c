@@ -1,4 +1,4 @@
-/* Isotherms, temperature sweeps and points that are left out by temperature or frequency.
+/* Excludes isotherms, temperature sweeps and points by temperature, frequency or time.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "dma/sweep_input.h"
 
@@ -8,17 +8,17 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* One value stands for all that is so close: what a chamber holds [K], and a frequency as a person
- * writes it, to 1 %. */
+/* A single value excludes the data within 0.5 K (stability of a chamber) or within 1 % of a
+ * frequency. */
 static const double same_temperature = 0.5, same_frequency = 0.01;
 
 typedef struct cut {
-    bool of_frequency; /* or of time, which isotherms have as one over it */
+    bool of_frequency; /* frequency, or time, which isotherms store as its inverse */
     bool of_time;
-    double low, high; /* [K] or [rad/s] */
+    double low, high; /* limits [K] or [rad/s] */
 } cut;
 
-/* ---- words ----------------------------------------------------------------------------------- */
+/* ---- option values --------------------------------------------------------------------------- */
 
 static wt_status bad_text(const char *text, wt_error *err)
 {
@@ -78,14 +78,14 @@ static wt_status read_cut(const char *text, cut *c, wt_error *err)
     return read_range(range + 1, c, err);
 }
 
-/* ---- taking out ------------------------------------------------------------------------------ */
+/* ---- exclusion ------------------------------------------------------------------------------- */
 
 static bool is_cut(const cut *c, double x)
 {
     return x >= c->low && x <= c->high;
 }
 
-/* Moves the points that stay to the front; how many. */
+/* Moves the remaining points to the front and returns their number. */
 static size_t keep_points(const cut *c, sweep_points p)
 {
     size_t kept = 0;
@@ -100,7 +100,7 @@ static size_t keep_points(const cut *c, sweep_points p)
     return kept;
 }
 
-/* What goes: whole ones, and single points. */
+/* Excluded sweeps and the number of excluded single points. */
 typedef struct removed_data {
     wt_sweep sweep;
     size_t points;

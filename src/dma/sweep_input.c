@@ -1,4 +1,4 @@
-/* The sweeps of a job: every file is read once in a run, and each stage has a copy of its own.
+/* Reads the sweeps of a job. Each file is read once in a run, and each stage gets a copy.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "dma/sweep_input.h"
 
@@ -18,7 +18,7 @@ static unsigned arrays_of(sweep_points p)
            (p.array[SWEEP_LOSS_FACTOR] != NULL ? (unsigned)WT_WITH_LOSS_FACTOR : 0);
 }
 
-/* The name of the sample, too; false if there is no memory for it. */
+/* Copies the arrays and the sample name. Returns false if memory is exhausted. */
 static bool copy_points(sweep_points to, sweep_points from, char **sample)
 {
     for (size_t j = 0; j < SWEEP_ARRAYS; j++)
@@ -62,7 +62,7 @@ static bool copy_strain_sweep(wt_sweep *to, const wt_strain_sweep *s)
     return copy_points(points_of_strain_sweep(t), points_of_strain_sweep(s), &t->sample);
 }
 
-/* `to` is empty. */
+/* Copies all sweeps to `to`, which must be empty. */
 static wt_status copy_sweep(wt_sweep *to, const wt_sweep *from, wt_error *err)
 {
     bool good = true;

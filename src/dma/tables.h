@@ -1,4 +1,5 @@
-/* The columns and keys of the tables of the material from DMA. Included by tables.h alone.
+/* Columns and keys of the tables of the material from DMA. Only core/table/registry.h includes
+ * this file.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #ifndef WT_DMA_TABLES_H
 #define WT_DMA_TABLES_H
@@ -44,7 +45,7 @@
       "log10 a by the closed form of ISO 18437-6, of the storage modulus alone, for comparison",   \
       NUMBER, SHOWS(closed_form), DECIMALS(3), SPARSE)
 
-/* Those of the law only where there is one. */
+/* The keys of the law exist only if there is a law. */
 #define SHIFT_FACTORS_KEYS(X)                                                                      \
     X(SHIFT_FACTORS_KEY_SAMPLE, "sample", TEXT, LABEL("Sample"), OPTIONAL)                         \
     X(SHIFT_FACTORS_KEY_LAW, "law", TEXT, LABEL("Law of the shift factors"))                       \
@@ -91,7 +92,7 @@
     X(SHIFT_FACTORS_KEY_KRAMERS_KRONIG_P, "kramers_kronig_p", PLAIN, LABEL("Kramers-Kronig, p"),   \
       OPTIONAL)
 
-/* A row for each isotherm of the samples that are used, and one for each that is not. */
+/* One row for each isotherm of the used samples and one for each skipped sample. */
 #define COMMON_LAW_COLUMNS(X)                                                                      \
     X(COMMON_LAW_SAMPLE, AS(sample), "name of the sample", TEXT, LABEL("Sample"))                  \
     X(COMMON_LAW_TEMPERATURE, IN(point, temperature), "temperature of the isotherm",               \
@@ -259,7 +260,7 @@
     X(RELAXATION_SPECTRUM_KEY_REFERENCE_TEMPERATURE, "reference_temperature", SI(TEMPERATURE))     \
     X(RELAXATION_SPECTRUM_KEY_DEFORMATION, "deformation", TEXT)
 
-/* What a program for finite elements is given: few terms in place of the spectrum. */
+/* The reduced series for finite element programs. */
 #define PRONY_REDUCED_COLUMNS(X)                                                                   \
     X(PRONY_REDUCED_RELAXATION_TIME, AS(relaxation_time), "relaxation time", SI(TIME),             \
       LABEL("Relaxation time"))                                                                    \

@@ -1,15 +1,16 @@
-/* The columns and keys of the tables that set materials side by side. Included by tables.h alone.
+/* Columns and keys of the tables that compare materials. Only core/table/registry.h includes
+ * this file.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #ifndef WT_DMA_TABLES_MATERIALS_H
 #define WT_DMA_TABLES_MATERIALS_H
 
-/* A number with the ends of its interval, which are missing where its error is not known. */
+/* A number with its limits, which are missing if its error is unknown. */
 #define VALUE_AND_INTERVAL(X, ID, name, words, unit, ...)                                          \
     X(ID, name, words, unit, INTERVAL(ID##_LOW, ID##_HIGH), __VA_ARGS__)                           \
     X(ID##_LOW, name "_low", "lower end of its 95 % interval", unit, SPARSE)                       \
     X(ID##_HIGH, name "_high", "upper end of its 95 % interval", unit, SPARSE)
 
-/* A block for each material. */
+/* One block for each material. */
 #define MATERIALS_COLUMNS(X)                                                                       \
     X(MATERIALS_MATERIAL, AS(material), "name of the material", TEXT)                              \
     X(MATERIALS_ANGULAR_FREQUENCY, AS(angular_frequency), "angular frequency",                     \
@@ -21,7 +22,7 @@
     VALUE_AND_INTERVAL(X, MATERIALS_FACTOR, "loss_factor", "tan delta", NUMBER, SHOWS(factor))
 #define MATERIALS_KEYS(X) X(MATERIALS_KEY_TEMPERATURE, "temperature", SI(TEMPERATURE))
 
-/* A block for each material but the first, over frequency, and one over temperature. */
+/* One block over frequency and one over temperature for each material except the first. */
 #define MATERIAL_RATIO_COLUMNS(X)                                                                  \
     X(MATERIAL_RATIO_MATERIAL, AS(material), "material whose moduli are divided by the first's",   \
       TEXT)                                                                                        \

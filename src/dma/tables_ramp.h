@@ -1,4 +1,5 @@
-/* The columns and keys of the tables of DMA temperature sweeps. Included by tables.h alone.
+/* Columns and keys of the tables of DMA temperature sweeps. Only core/table/registry.h includes
+ * this file.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #ifndef WT_DMA_TABLES_RAMP_H
 #define WT_DMA_TABLES_RAMP_H
@@ -43,7 +44,8 @@
     X(GLASS_TRANSITION_OTHER, AS(other),                                                           \
       "1: a lower peak beside the largest one, in a row of its own", YES_NO, LABEL("Lower peak"))  \
     X(GLASS_TRANSITION_SOURCE, AS(source), "file and step", TEXT)
-/* Of the frequency nearest to 1 Hz at which there is a peak; the energies of all frequencies. */
+/* The keys describe the frequency nearest to 1 Hz that has a peak. The energies use all
+ * frequencies. */
 #define GLASS_TRANSITION_KEYS(X)                                                                   \
     X(GLASS_TRANSITION_KEY_FACTOR_PEAK, "loss_factor_peak_temperature", SI(TEMPERATURE),           \
       SHOWS(factor_peak), HEADLINE("Glass transition (peak of tan δ)"), OPTIONAL)                  \

@@ -1,9 +1,11 @@
-/* The columns and keys of the tables of DMA strain sweeps. Included by tables.h alone.
+/* Columns and keys of the tables of DMA strain sweeps. Only core/table/registry.h includes this
+ * file.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #ifndef WT_DMA_TABLES_STRAIN_H
 #define WT_DMA_TABLES_STRAIN_H
 
-/* The ratios are what friction takes for f and g: moduli by those of the smallest amplitudes. */
+/* The ratios are f and g of the friction job: moduli divided by those at the smallest
+ * amplitudes. */
 #define PAYNE_SWEEP_COLUMNS(X)                                                                     \
     X(PAYNE_SWEEP_STRAIN, AS(strain), "strain amplitude", SI(STRAIN))                              \
     X(PAYNE_SWEEP_ANGULAR_FREQUENCY, AS(angular_frequency), "angular frequency",                   \
@@ -25,7 +27,7 @@
     X(PAYNE_SWEEP_SOURCE, AS(source), "file and step", TEXT)
 #define PAYNE_SWEEP_KEYS(X) X(PAYNE_SWEEP_KEY_DEFORMATION, "deformation", TEXT)
 
-/* As measured, then the law of Kraus. */
+/* The measured values come first, then the law of Kraus. */
 #define PAYNE_COLUMNS(X)                                                                           \
     X(PAYNE_ANGULAR_FREQUENCY, IN(sweep, angular_frequency), "angular frequency",                  \
       SI(ANGULAR_FREQUENCY), LABEL("Angular frequency"))                                           \

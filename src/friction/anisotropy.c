@@ -1,6 +1,6 @@
-/* What the direction of sliding over anisotropic roughness does: friction, contact area and the
- * force to the side with it, and the first two without. SPDX-License-Identifier: GPL-3.0-or-later
- */
+/* Effect of the sliding direction on anisotropic roughness: hysteresis friction, contact area and
+ * lateral force with the anisotropy, and the first two without it.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "friction/anisotropy.h"
 #include "friction/friction_difference.h"
 #include "friction/numerics/angular_weight.h"
@@ -11,7 +11,7 @@
 #include <math.h>
 #include <string.h>
 
-/* At one velocity. */
+/* Row of the table: both results at one velocity. */
 TABLE_ROW(anisotropy, ANISOTROPY, wt_friction_point with, without;)
 
 TABLE_KEYS(anisotropy, ANISOTROPY, char texture[192], effect[320]; wt_estimate side;)
@@ -47,7 +47,7 @@ static wt_status make_table(const friction_difference *c, wt_table **table, wt_e
     for (size_t i = 0; i < n; i++)
         TABLE_ADD(anisotropy, &t, c->with[i], c->without[i]);
     anisotropy_keys keys = {.side = c->with[n].side};
-    keys.side.standard_error = (double)NAN; /* no replicates are drawn here */
+    keys.side.standard_error = (double)NAN; /* this table draws no replicates */
     anisotropy_describe(&c->sliding->anisotropy, keys.texture, sizeof keys.texture);
     say_effect(&c->with[n], &c->without[n], keys.effect, sizeof keys.effect);
     anisotropy_set_keys(&t, &keys);

@@ -95,7 +95,8 @@ static double positive_key(const wt_table *table, size_t key)
                : 0;
 }
 
-/* The errors in a column, 0 where it has none; a table without it has none. */
+/* Returns the errors of a column as an array [n] that the caller frees. Missing errors are 0, also
+ * if the table has no such column. NULL if out of memory. */
 static double *column_errors(const wt_table *table, power_spectrum_column which, size_t n)
 {
     const long column = wt_table_find(table, power_spectrum_schema.columns[which].name);
@@ -109,7 +110,8 @@ static double *column_errors(const wt_table *table, power_spectrum_column which,
     return errors;
 }
 
-/* The size or the row in a row of the table of places, from 0. */
+/* Reads an index from the table of position errors, where it counts from 1, and converts it to
+ * count from 0. */
 static bool counted(const table_view *places, size_t row, place_errors_column column, size_t most,
                     size_t *to)
 {
@@ -120,8 +122,8 @@ static bool counted(const table_view *places, size_t row, place_errors_column co
     return true;
 }
 
-/* What the places of scans of several sizes give the rows of the spectrum; of one size there is no
- * such table. */
+/* Copies the errors that the positions of scans of several sizes give to the rows of the spectrum.
+ * Scans of one size have no such table. */
 static wt_status take_places(const wt_table *table, wt_surface *surface, wt_error *err)
 {
     table_view view = {.n_rows = 0};
@@ -151,8 +153,9 @@ static wt_status take_places(const wt_table *table, wt_surface *surface, wt_erro
     return status;
 }
 
-/* The errors of the table power_spectrum and the ends of it, and those of its places, if there is
- * such a table. *taken: its rows are the points that were read. */
+/* Copies the errors and the limits of the table power_spectrum and, if the second table exists, the
+ * errors of the positions. The flag is true if the rows of the table are the points that were read.
+ */
 static wt_status take_errors(const wt_table *table, const wt_table *places, wt_surface *surface,
                              bool *taken, wt_error *err)
 {
@@ -180,8 +183,8 @@ static wt_status take_errors(const wt_table *table, const wt_table *places, wt_s
     return surface->c0.standard_error > 0 ? take_places(places, surface, err) : WT_OK;
 }
 
-/* Of a file that this program wrote. One from a pipe is read once, and then friction has no error
- * of the surface, which is said. */
+/* Reads the errors from a file that this program wrote. A pipe can be read only once, so that its
+ * errors are not available; the log then has a warning. */
 static wt_status read_errors(const flow_file *file, const wt_job *work, wt_surface *surface,
                              wt_error *err)
 {
@@ -210,7 +213,7 @@ static wt_status read_errors(const flow_file *file, const wt_job *work, wt_surfa
     return status;
 }
 
-/* C of the surface of the spectrum of a profile. */
+/* Converts the spectrum of a profile to the spectrum C of the surface. */
 static wt_status take_profile(const char *name, const wt_job *work, wt_power_spectrum *spectrum,
                               wt_error *err)
 {
@@ -286,7 +289,7 @@ wt_status flow_surface_measure(const wt_topography_job *job, const wt_job *work,
     return status;
 }
 
-/* Several files, or one that may be heights and is no spectrum. */
+/* True for several files, or for one file that can be a height map and cannot be a spectrum. */
 static wt_status is_measured(const flow_files *files, const wt_job *work, bool *heights,
                              wt_error *err)
 {
@@ -308,7 +311,7 @@ static wt_status is_measured(const flow_files *files, const wt_job *work, bool *
     return status;
 }
 
-/* A spectrum, or the heights of a file, of a folder or of a pattern. */
+/* Reads a spectrum, or the height maps of a file, a folder or a file pattern. */
 static wt_status read_surface(const char *path, const wt_read_options *read, const wt_job *work,
                               wt_surface *surface, wt_error *err)
 {
@@ -360,7 +363,7 @@ wt_status wt_surface_open(const char *text, const wt_read_options *read, const w
 
 /* ---- the law --------------------------------------------------------------------------------- */
 
-/* The measured densities from q0 to q1, the ends interpolated in log-log. */
+/* Measured densities from q0 to q1. The densities at the limits are interpolated in log-log. */
 static wt_status spectrum_roughness(const wt_surface *surface, double factor,
                                     wt_roughness **roughness, wt_error *err)
 {
@@ -412,10 +415,11 @@ wt_status wt_surface_roughness(const wt_surface *surface, double factor, wt_roug
     return spectrum_roughness(surface, factor, roughness, err);
 }
 
-/* Normal deviates of which each is correlated with the one before and the next alone: from
- * independent ones by the Cholesky factor of their correlations. */
+/* Normal deviates of which only neighbours are correlated. They are computed from independent
+ * deviates by the Cholesky factor of the correlation matrix. */
 typedef struct chain {
-    double tie, own, before; /* correlation with the next; part of, and the last independent one */
+    double tie, own, before; /* correlation with the next deviate; factor of the own independent
+                                deviate; last independent deviate */
 } chain;
 
 static double chain_next(chain *c, double tie, double independent)
@@ -436,9 +440,9 @@ wt_status flow_surface_draw(const wt_surface *surface, double factor, uint64_t s
     drawn.spectrum.density = malloc((s->n + 1) * sizeof *s->density);
     if (drawn.spectrum.density == NULL)
         return wt_fail(err, WT_E_MEMORY, "out of memory");
-    /* each point has a draw of its own, behind all others, of which it shares a part with the next;
-     * the law that of one more point, and the places of each size but the first, which are drawn
-     * with the factor, that of another */
+    /* Each point has its own deviate, numbered after all other draws and correlated with that of
+     * the next point. The fitted law takes the deviate of one more point. The positions of the
+     * first scan size are drawn with the factor; each further size takes its own deviate. */
     const double law = flow_draw_normal(seed, replicate, (flow_draw)(FLOW_DRAW_MODES + s->n));
     const bool sizes = surface->place_parts != NULL;
     const double places = surface->c0.standard_error / surface->c0.value;
@@ -464,7 +468,7 @@ wt_status flow_surface_draw(const wt_surface *surface, double factor, uint64_t s
 
 /* ---- the table ------------------------------------------------------------------------------- */
 
-/* As a figure shows well. */
+/* Resolution of a figure. */
 #define POINTS_PER_DECADE 20
 
 TABLE_ROW(roughness, ROUGHNESS, double wavenumber, density;)
@@ -485,7 +489,8 @@ wt_status wt_surface_table(const wt_surface *surface, wt_table **table, wt_error
         roughness->law->density(roughness, &q, 1, &density);
         TABLE_ADD(roughness, &t, q, density);
     }
-    /* rms height goes with the square root of C, so its relative error is half */
+    /* The rms height is proportional to the square root of C, so that its relative error is half
+     * that of C. */
     const wt_estimate c0 = flow_as_stated(surface->c0);
     double share = c0.standard_error / c0.value / 2;
     double height = wt_roughness_rms_height(roughness), slope = wt_roughness_rms_slope(roughness);

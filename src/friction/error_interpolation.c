@@ -1,4 +1,5 @@
-/* Standard errors at many velocities. SPDX-License-Identifier: GPL-3.0-or-later */
+/* Interpolation of standard errors over the velocity.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "friction/error_interpolation.h"
 
 #include <math.h>
@@ -28,7 +29,7 @@ wt_status error_nodes_make(const double *v, size_t n, double **nodes, size_t *m,
 void error_nodes_spread(const double *nodes, size_t m, const double *at_nodes, const double *v,
                         size_t n, double *error)
 {
-    size_t k = 0; /* v lies between the nodes k and k + 1 */
+    size_t k = 0; /* v[i] lies between the nodes k and k + 1 */
     for (size_t i = 0; i + 1 < n; i++) {
         while (k + 3 < m && v[i] > nodes[k + 1])
             k++;

@@ -25,10 +25,10 @@ static void prepare_friction(figure_drawing *d)
     if (span_empty(&total))
         d->y_label = "Hysteresis friction coefficient";
     span_add(&d->y[0], 0, false);
-    span_add(&d->y[0], 1.1 * d->y[0].high, false); // room for the bands
+    span_add(&d->y[0], 1.1 * d->y[0].high, false); // margin for the bands
 }
 
-/* The largest numerical error relative to its value; NaN if none is known. */
+/* Returns the largest numerical error relative to its value; NaN if no error is available. */
 static double largest_error(const table_view *friction)
 {
     double largest = (double)NAN;
@@ -62,7 +62,7 @@ static void caption_friction(figure_drawing *d)
                                  friction_value(d->table, FRICTION_KEY_PRESSURE).value),
                            VALUE(d->language, WT_Q_TEMPERATURE, NULL,
                                  friction_value(d->table, FRICTION_KEY_TEMPERATURE).value));
-    const double least = 1e-3; /* of a share: less is said so */
+    const double least = 1e-3; /* a smaller share is reported as "less than" */
     double shear = friction_value(d->table, FRICTION_KEY_SHEAR_STRESS).value;
     if (isfinite(shear))
         text_append_translated(&d->caption, ", shear stress of the real contact %s",

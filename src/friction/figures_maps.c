@@ -1,5 +1,5 @@
-/* Figures of what friction is seen against: temperature and its collapse, maps over temperature and
- * pressure, decades of the wavenumber, the direction of sliding.
+/* Figures of friction maps: temperature collapse, maps over temperature and pressure, contribution
+ * by decade of the wavenumber, sliding direction.
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
@@ -11,12 +11,13 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Room for the scale of colour beside the picture, as described figures have it. */
+/* Relative width of a figure with a colour bar, as in the figure engine. */
 static const double with_scale = 1.15;
 
 /* ---- several temperatures -------------------------------------------------------------------- */
 
-/* The total friction where it is known. */
+/* Returns the column of the total friction if it has values, else the column of the hysteresis
+ * friction. */
 static unsigned shown_friction(const table_view *table)
 {
     value_span total = SPAN_EMPTY;
@@ -30,14 +31,15 @@ static const char *label_of(unsigned column)
                                         : "Hysteresis friction coefficient";
 }
 
-/* Rows of the temperatures or of the pressures. */
+/* Adds the rows of the temperatures or of the pressures as a section. */
 static int map_section(figure_drawing *d, const char *against, const unsigned *columns, size_t n)
 {
     const row_filter rows = {{FRICTION_MAP_AGAINST, 0}, {against, NULL}, false};
     return drawing_section(d, d->table, against, &rows, columns, n, n);
 }
 
-/* In the columns of a section: velocity, reduced velocity, friction, what colours a line. */
+/* Columns of a section: velocity, reduced velocity, friction, and the value that sets the line
+ * colour. */
 enum { AT_VELOCITY = 1, AT_REDUCED, AT_FRICTION, AT_COLOUR };
 
 static void draw_lines(figure_drawing *d, int section, int x, const char *label,
@@ -91,7 +93,7 @@ static void caption_collapse(figure_drawing *d)
 
 /* ---- maps ------------------------------------------------------------------------------------ */
 
-/* A place of a map is a box from half-way to the one before it to half-way to the next. */
+/* A cell of the map is a box whose edges lie midway between its position and the neighbours. */
 enum { BOX_FROM_X, BOX_TO_X, BOX_FROM_Y, BOX_TO_Y, BOX_VALUE, BOX_COLUMNS };
 static const char *const box_names[] = {"velocity_from", "velocity_to", "from", "to",
                                         "value",         NULL};
@@ -107,7 +109,8 @@ static double half_way(double a, double b, bool is_log)
     return is_log ? sqrt(a * b) : 0.5 * (a + b);
 }
 
-/* The end of a box towards a neighbour; beside the last one it is as wide as on its other side. */
+/* Edge of a box towards a neighbour. A box at the border of the map is symmetric about its
+ * position. */
 static double box_end(double here, double neighbour, double other, bool is_log)
 {
     if (isfinite(neighbour))
@@ -116,8 +119,8 @@ static double box_end(double here, double neighbour, double other, bool is_log)
     return is_log ? here * here / end : 2 * here - end;
 }
 
-/* Value of the same column `step` rows away, if that is a row of the same map; the velocity is that
- * of the same block. */
+/* Value of the same column `step` rows away; NaN if that row belongs to another map. With
+ * `in_block` it must also belong to the same block of velocities. */
 static double value_near(const table_view *t, size_t row, long step, unsigned column, bool in_block)
 {
     const long there = (long)row + step;
@@ -129,7 +132,7 @@ static double value_near(const table_view *t, size_t row, long step, unsigned co
     return view_number(t, t->schema, (size_t)there, column);
 }
 
-/* Rows of a block: the velocities. */
+/* Returns the number of rows of a block, which is the number of velocities. */
 static size_t rows_of_block(const table_view *t)
 {
     size_t n = 1;
@@ -155,7 +158,8 @@ static void fill_box(const table_view *t, size_t row, const map_side *up, unsign
     box[BOX_VALUE] = view_number(t, t->schema, row, friction);
 }
 
-/* No section where a side has one place only: that is no map. */
+/* Adds the boxes as a section. There is no section if an axis has one position only, for that is no
+ * map. */
 static int box_section(figure_drawing *d, const char *against, const map_side *up,
                        unsigned friction)
 {
@@ -230,7 +234,7 @@ static void caption_pressure_map(figure_drawing *d)
 
 /* ---- decades --------------------------------------------------------------------------------- */
 
-/* Three velocities at most, one block each. */
+/* The table has at most three velocities, one block each. */
 enum { MOST_VELOCITIES = 3 };
 
 static size_t find_velocities(const table_view *table, double velocity[MOST_VELOCITIES])
@@ -267,7 +271,7 @@ static void draw_decades(figure_drawing *d)
         char title[48];
         wt_format_si(velocity[k], "m/s", 2, title, sizeof title);
         language_decimals(d->language, title);
-        /* side by side within the decade, from the first velocity to the last */
+        /* bars within a decade: from the first velocity on the left to the last on the right */
         plot_item(
             d, section,
             "(column(-1) == %zu ? sqrt($1*$2)*x_unit : NaN):($3/2):"

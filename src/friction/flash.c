@@ -1,5 +1,5 @@
-/* What a flash temperature does: temperature, friction and contact area with it and without it, and
- * of a contact that stays hot where there are two solutions.
+/* Effect of the flash temperature: temperature, friction and contact area with and without it, and
+ * the hot solution where two solutions exist.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "friction/flash.h"
 #include "friction/friction_difference.h"
@@ -15,9 +15,9 @@ TABLE_KEYS(flash, FLASH, wt_estimate surroundings;
            double contact_size, heat_capacity, diffusivity, macroscopic;
            char effect[192], branches[192], unsettled[192], law_range[192];)
 
-/* ---- words ----------------------------------------------------------------------------------- */
+/* ---- text ------------------------------------------------------------------------------------ */
 
-/* How many points, and their slowest and fastest. */
+/* Number of points in a subset, with their slowest and fastest velocity. */
 typedef struct extent {
     size_t n;
     double slowest, fastest;
@@ -88,8 +88,8 @@ static void say_change(const friction_difference *e, char text[192])
                       100 * (with->area_ratio.value / without->area_ratio.value - 1));
 }
 
-/* WLF constants hold up to 100 K above the glass transition: Ferry, Viscoelastic Properties of
- * Polymers. What is hotter than the isotherms is beyond what the law was fitted to. */
+/* WLF constants are valid up to 100 K above the glass transition (Ferry, Viscoelastic Properties of
+ * Polymers). A temperature above the isotherms is outside the range to which the law was fitted. */
 static void say_law_range(const friction_difference *e, char text[192])
 {
     const double most = e->sliding->rubber->temperature_max;

@@ -19,26 +19,29 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* What one replicate gives at the velocities. */
+/* Quantities that a replicate returns for each velocity. */
 enum { HYSTERESIS, AREA, TOTAL, LAYERED, CHANGE, RELATIVE, N_KINDS };
 
 typedef struct friction_task {
     const wt_sliding *sliding;
     const wt_layer_observation *layer; /* NULL = none */
     const wt_job *work;
-    size_t n;                  /* velocities, and the reference if it is not the only one */
-    double *velocity;          /* [n] the reference is the last */
-    double *centre;            /* [N_KINDS * n] */
-    double worst;              /* relative numerical error where the tolerance is not reached */
-    double strain;             /* the largest, of a softening */
-    double numerical[2];       /* of the total friction at the reference: without, with the layer */
-    wt_friction_point *points; /* [n] at the values themselves, without a layer */
-    wt_friction_sensitivity by; /* likewise; NaN: not asked for */
+    size_t n;                   /* number of velocities; the reference counts if it is not the
+                                   only one */
+    double *velocity;           /* [n] the reference is the last */
+    double *centre;             /* [N_KINDS * n] */
+    double worst;               /* relative numerical error at points that miss the tolerance */
+    double strain;              /* largest strain, with softening */
+    double numerical[2];        /* numerical error of the total friction at the reference: without
+                                   and with the layer */
+    wt_friction_point *points;  /* [n] results for the stated values, without a layer */
+    wt_friction_sensitivity by; /* sensitivities for the stated values; NaN if not requested */
     replicates replicates;
-    size_t drawn; /* velocities of all replicates */
-    double
-        layer_outside; /* of the hysteresis on a layer with moduli of its own, at the reference */
-    double layer_gain[2]; /* where their loss modulus is taken as 0 [rad/s]; NaN: nowhere */
+    size_t drawn;         /* number of velocities in all replicates */
+    double layer_outside; /* share of the hysteresis on a layer with its own moduli from
+                             extrapolated frequencies, at the reference */
+    double layer_gain[2]; /* range in which the loss modulus of the layer is set to 0 [rad/s];
+                             NaN if none */
 } friction_task;
 
 static double *numbers_of_kind(double *values, size_t n, int kind)
@@ -115,7 +118,8 @@ static wt_status one_replicate(const void *user, size_t i, double *out, wt_error
     return status;
 }
 
-/* Not known where the measured range is not. */
+/* Share of the hysteresis from extrapolated frequencies; NaN if the measured range is not stated.
+ */
 static double extrapolated_share(const wt_rubber *rubber, const wt_friction_point *p)
 {
     const wt_prony *prony = &rubber->prony;
@@ -138,7 +142,7 @@ TABLE_KEYS(friction, FRICTION, double gamma, reference_velocity;
            char material[512], softening[512], anisotropy[192], numerical[512], flash[256];
            char area_law[128], shear_law[256], layer_shear[256];)
 
-/* Of the values themselves, with what the replicates scatter. */
+/* Result for the stated values with the standard error from the replicates. */
 static wt_estimate with_error(friction_task *task, int kind, size_t i, double numerical_error)
 {
     return (wt_estimate){numbers_of_kind(task->centre, task->n, kind)[i],
@@ -199,7 +203,7 @@ static void find_layer_keys(friction_task *task, friction_keys *keys)
                                        both / numbers_of_kind(task->centre, task->n, TOTAL)[last]);
 }
 
-/* What is not of the plain theory, in words. */
+/* Writes the options that differ from the default theory as text. */
 static void describe_options(const friction_task *task, const sliding_contact *c,
                              friction_keys *keys)
 {
@@ -225,7 +229,7 @@ static void describe_options(const friction_task *task, const sliding_contact *c
     keys->shear_at_reference.value = sliding_shear(s, c, &task->points[task->n - 1]);
 }
 
-/* The reference velocity is the last one. */
+/* Sets the keys of the table. The reference velocity is the last one. */
 static void set_keys(friction_task *task, const sliding_contact *c, table_writer *t)
 {
     const wt_sliding *s = task->sliding;
@@ -330,7 +334,7 @@ static wt_status check_layer(const wt_layer_observation *layer, wt_error *err)
     return sliding_layer_check(layer, err);
 }
 
-/* Numerical error of hysteresis + shear x area. */
+/* Numerical error of hysteresis friction plus shear factor times contact area. */
 static double total_error(const wt_friction_point *point, double shear)
 {
     return point->hysteresis.numerical_error + shear * point->area_ratio.numerical_error;
@@ -373,7 +377,7 @@ static void note_not_reached(friction_task *task, const wt_friction_point *point
     }
 }
 
-/* The values themselves; `c` is their contact without a layer. */
+/* Computes the results for the stated values. `c` receives the contact without a layer. */
 static wt_status compute_centre(friction_task *task, sliding_contact *c, wt_error *err)
 {
     const size_t last = task->n - 1;
@@ -410,7 +414,8 @@ static wt_status compute_centre(friction_task *task, sliding_contact *c, wt_erro
     return status;
 }
 
-/* The replicates, whose errors then stand for all velocities. */
+/* Draws the replicates at the nodes of the velocity and interpolates the standard errors to all
+ * velocities. */
 static wt_status draw_at_nodes(friction_task *task, wt_error *err)
 {
     replicates *r = &task->replicates;
@@ -441,7 +446,8 @@ static wt_status draw_at_nodes(friction_task *task, wt_error *err)
     return status;
 }
 
-/* What varies with the layer alone leaves no error of what is without it. */
+/* Draws the replicates. If only inputs of the layer vary, results without the layer have no
+ * standard error. */
 static wt_status draw_replicates(friction_task *task, wt_error *err)
 {
     replicates *r = &task->replicates;

@@ -1,4 +1,4 @@
-/* What the roughness of each decade of the wavenumber makes of the hysteresis friction.
+/* Contribution of each decade of the wavenumber to the hysteresis friction.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "friction/sliding_contact.h"
 #include "job/cost.h"
@@ -15,10 +15,10 @@ TABLE_ROW(friction_decades, FRICTION_DECADES, double velocity, from, to, share;
 
 TABLE_KEYS(friction_decades, FRICTION_DECADES, char strongest[160];)
 
-/* The edges of the decades: q0, the powers of ten between, q1. */
+/* Limits of the decades: q0, the powers of ten in between, q1. */
 typedef struct decades {
     const wt_sliding *sliding;
-    const wt_layer_observation *known; /* with the cracks; NULL: none */
+    const wt_layer_observation *known; /* layer with its crack energy; NULL if none */
     size_t n;
     double *q;               /* [n] */
     wt_friction_node *nodes; /* [n] */
@@ -27,7 +27,7 @@ typedef struct decades {
 
 static wt_status find_edges(const wt_roughness *road, decades *d, wt_error *err)
 {
-    /* an edge at an end, but for rounding, is that end */
+    /* a power of ten that differs from a limit by rounding only is that limit */
     const double slack = 1e-9;
     const int first = (int)floor(log10(road->q0) + slack) + 1,
               last = (int)ceil(log10(road->q1) - slack) - 1;
@@ -55,8 +55,8 @@ static void say_strongest(decades *d, double velocity, size_t i, double share)
                   100 * share);
 }
 
-/* What shearing costs if the roughness ends at a node, and what of it the cracks: on bare rubber.
- */
+/* Adds the friction of shearing the contact area if the roughness ends at a node, and the part of
+ * crack opening. The rubber has no layer. */
 static void add_shearing(const sliding_contact *c, const decades *d, double velocity,
                          const wt_friction_node *node, friction_decades_row *row)
 {
@@ -82,7 +82,8 @@ static void add_decades(const sliding_contact *c, decades *d, double velocity, b
         const wt_friction_node *a = &d->nodes[i - 1], *b = &d->nodes[i];
         const double all = d->nodes[d->n - 1].hysteresis;
         const double part = b->hysteresis - a->hysteresis;
-        const double share = all > 0 ? part / all : (double)NAN; /* of nothing there is none */
+        const double share = all > 0 ? part / all : (double)NAN; /* the share is undefined without
+                                                                    hysteresis friction */
         friction_decades_row row = {
             .velocity = velocity,
             .from = d->q[i - 1],

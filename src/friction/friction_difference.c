@@ -1,4 +1,5 @@
-/* Two contacts of one list of velocities. SPDX-License-Identifier: GPL-3.0-or-later */
+/* Friction of two variants of a contact at one list of velocities.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "friction/friction_difference.h"
 
 #include "job/cost.h"

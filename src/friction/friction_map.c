@@ -1,8 +1,9 @@
 /* Friction against velocity and temperature, and against velocity and pressure. The moduli at a
- * temperature are E(w) = E_reference(w a_T) / b_T, and friction knows moduli over pressure at q v
- * alone: so mu(v, T, p) is that of the reference temperature at v a_T and p b_T, and one
- * preparation of the kernel serves all. Not so with a flash temperature, which is counted from that
- * of the surroundings. SPDX-License-Identifier: GPL-3.0-or-later */
+ * temperature are E(w) = E_reference(w a_T) / b_T, and friction depends on the moduli over the
+ * pressure at q v alone. mu(v, T, p) therefore equals the friction at the reference temperature at
+ * v a_T and p b_T, so that one workspace serves the whole map. A flash temperature needs a
+ * workspace for each temperature, because it is measured from the surroundings.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "dma/rubber.h"
 #include "friction/sliding_contact.h"
 #include "job/cost.h"
@@ -23,7 +24,7 @@ TABLE_KEYS(friction_map, FRICTION_MAP, wt_estimate pressure, temperature, refere
            shear_stress;
            char material[512], statement[920], numerical[160];)
 
-/* One temperature and pressure. */
+/* Velocities at one temperature and pressure. */
 typedef struct map_line {
     const char *against;
     double temperature, pressure;
@@ -32,17 +33,18 @@ typedef struct map_line {
 
 typedef struct friction_map {
     const wt_sliding *sliding;
-    const wt_layer_observation *known; /* NULL: none */
+    const wt_layer_observation *known; /* NULL if none */
     const wt_job *work;
     size_t n_lines;
     map_line *lines;           /* [n_lines] */
-    double *velocity;          /* [n_velocity] of a line, reduced */
+    double *velocity;          /* [n_velocity] reduced velocities of one line */
     wt_friction_point *points; /* [n_velocity] */
-    double lowest, highest;    /* reduced velocities of all */
-    double worst;              /* relative numerical error where the tolerance is not reached */
-    size_t n_unsettled;        /* points without a flash temperature, which are NaN */
-    size_t n_extrapolated;     /* temperatures beyond what was measured, */
-    char statement[320];       /* and what is to be said of them */
+    double lowest, highest;    /* range of all reduced velocities */
+    double worst;              /* relative numerical error at points that miss the tolerance */
+    size_t n_unsettled;        /* points without a solution for the flash temperature; they are
+                                  NaN */
+    size_t n_extrapolated;     /* temperatures outside the isotherms */
+    char statement[320];       /* text about them */
 } friction_map;
 
 static wt_status add_line(friction_map *m, const char *against, double temperature, double pressure,
@@ -79,7 +81,7 @@ static wt_status find_lines(friction_map *m, wt_error *err)
     return status;
 }
 
-/* Of the surroundings of a line. */
+/* Creates the contact at the temperature of a line. */
 static wt_status open_line(const friction_map *m, const map_line *line, sliding_contact *c,
                            wt_error *err)
 {
@@ -87,11 +89,11 @@ static wt_status open_line(const friction_map *m, const map_line *line, sliding_
     wt_sliding sliding = *m->sliding;
     wt_job work = *m->work;
     sliding.temperature.value = line->temperature;
-    work.drawn = NULL; /* of another temperature */
+    work.drawn = NULL; /* the cache is for another temperature */
     return sliding_contact_make(&sliding, &work, WT_NO_REPLICATE, NULL, none, c, err);
 }
 
-/* At the reference temperature, at all reduced velocities. */
+/* Creates the contact at the reference temperature for the range of all reduced velocities. */
 static wt_status open_contact(const friction_map *m, double range[2], sliding_contact *c,
                               wt_error *err)
 {
@@ -104,7 +106,7 @@ static wt_status open_contact(const friction_map *m, double range[2], sliding_co
     sliding.velocity = range;
     sliding.n_velocity = m->highest > m->lowest ? 2 : 1;
     sliding.reference_velocity = m->lowest;
-    work.drawn = NULL; /* of another temperature */
+    work.drawn = NULL; /* the cache is for another temperature */
     return sliding_contact_make(&sliding, &work, WT_NO_REPLICATE, NULL, none, c, err);
 }
 

@@ -1,4 +1,5 @@
-/* What is known of a layer. SPDX-License-Identifier: GPL-3.0-or-later */
+/* Layer properties that are stated or measured.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "friction/layer_observation.h"
 #include "core/base/shared_params.h"
 #include "dma/rubber.h"
@@ -30,7 +31,7 @@ static const wt_param rows[] = {
      .value = "N",
      .help = "degrees of freedom of the error of the modulus ratio, as weartrack compare gives "
              "them; 0: a normal error"},
-    /* Beyond 1 the phase alone turns a storage modulus negative. */
+    /* Beyond 1 the phase alone makes a storage modulus negative. */
     {PARAM("ratio-slope", wt_layer_observation, ratio_slope, WT_Q_NONE, FROM_TO(-1, 1)),
      .value = "S",
      .help =
@@ -61,7 +62,7 @@ static const wt_param rows[] = {
 PARAM_TABLE(wt_layer_observation_params, wt_layer_observation, rows, wt_layer_observation_defaults,
             NO_PARTS)
 
-/* What a slope needs beside itself. */
+/* Checks the frequencies that the slope of a modulus ratio requires. */
 static wt_status check_slope(const wt_layer_observation *k, wt_error *err)
 {
     if (k->ratio_slope.value == 0 && !(k->ratio_slope.standard_error > 0))
@@ -103,7 +104,8 @@ wt_ratio_slope sliding_layer_slope(const wt_layer_observation *known, uint64_t s
     return slope;
 }
 
-/* Draws of two materials may come from the same numbers: not those at the same place. */
+/* Index into the draws of the layer material. The offset avoids equal indices, because the draws of
+ * two materials may come from the same random numbers. */
 static size_t own_replicate(const wt_rubber *rubber, size_t replicate)
 {
     return replicate != WT_NO_REPLICATE ? replicate + rubber->n_draws / 2 : replicate;
@@ -126,8 +128,9 @@ wt_shift_law sliding_layer_law(const wt_sliding *sliding, uint64_t seed, size_t 
     return flow_rubber_law(rubber, seed, own_replicate(rubber, replicate));
 }
 
-/* The slowest wave of a contact, across the sliding, is as slow as any: from what was measured on,
- * or from the longest wave along it. */
+/* Widens the range by the frequencies of the waves of a contact. Waves across the sliding direction
+ * have any low frequency. The search begins at the lowest measured frequency or at that of the
+ * longest wave along the sliding. */
 static void widen_by_gain(const wt_sliding *sliding, const wt_roughness *roughness,
                           const layer_moduli *moduli, double range[2])
 {
@@ -172,7 +175,8 @@ wt_status sliding_layer_gain(const wt_sliding *sliding, const wt_layer_observati
     return status;
 }
 
-/* How its ratio goes with the frequency, and what is to be said of that. */
+/* Writes the frequency dependence of the modulus ratio, and warns if its loss modulus is set to 0.
+ */
 static void describe_slope(const wt_layer_observation *known, const double range[2], wt_log *log,
                            char *text, size_t size)
 {
@@ -193,7 +197,8 @@ static void describe_slope(const wt_layer_observation *known, const double range
         wt_log_add(log, WT_WARNING, NULL, NULL, "layer: %s", says);
 }
 
-/* A material without a law is shifted by that of the bulk. */
+/* Writes the text for a layer with its own material. A material without a shift law is shifted by
+ * the law of the bulk. */
 static void describe_material(const wt_sliding *sliding, char *text, size_t size)
 {
     const bool has_law = sliding->layer_rubber->law.kind != WT_LAW_NONE;

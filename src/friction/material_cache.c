@@ -1,4 +1,5 @@
-/* The materials of the replicates. SPDX-License-Identifier: GPL-3.0-or-later */
+/* Cache of the materials of the replicates.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "friction/material_cache.h"
 #include "job/random_draws.h"
 
@@ -6,16 +7,17 @@
 #include <math.h>
 #include <stdlib.h>
 
-/* The first so many are kept: a series of moduli takes a kilobyte, a table some hundred. */
+/* Only this number of replicates is stored: the series of a Prony material takes 1 kB, that of a
+ * table some 100 kB. */
 enum { MOST_KEPT = 1024 };
 
 typedef struct drawn_item {
     drawn_material of;
-    arena memory; /* of the series */
+    arena memory; /* memory of the series */
 } drawn_item;
 
 typedef struct own_material {
-    const wt_rubber *rubber; /* NULL: none yet */
+    const wt_rubber *rubber; /* NULL if not yet created */
     double temperature, tolerance;
     drawn_item item;
     char statement[512];
@@ -23,14 +25,15 @@ typedef struct own_material {
 } own_material;
 
 struct wt_material_cache {
-    own_material own;        /* of the values themselves; all else is of the replicates */
-    const wt_rubber *rubber; /* whose materials they are; NULL: none yet */
+    own_material own;        /* material for the stated values; all other members belong to the
+                                replicates */
+    const wt_rubber *rubber; /* rubber of the cached materials; NULL if none yet */
     wt_estimate temperature;
     uint64_t seed;
-    bool one; /* nothing of the material is drawn: the first is that of all */
+    bool one; /* no property of the material is drawn: all replicates share the first */
     size_t n;
     drawn_item *items;      /* [n] */
-    double lowest, highest; /* angular frequencies */
+    double lowest, highest; /* range of the angular frequencies [rad/s] */
 };
 
 static void drop_item(drawn_item *item)
@@ -108,7 +111,7 @@ wt_status material_cache_begin(wt_material_cache *d, const wt_sliding *sliding, 
     d->lowest = slowest * road->q0;
     d->highest = fastest * road->q1;
     wt_roughness_free(road);
-    /* from now on the threads only read it */
+    /* from here on, the threads only read it */
     drawn_material all;
     return d->one ? material_cache_get(d, 0, &all, err) : WT_OK;
 }
@@ -122,7 +125,7 @@ static wt_status make_material(const wt_material_cache *d, size_t replicate, dra
         d->seed, replicate, &of->material, NULL, err);
     if (status == WT_OK)
         status = angular_new(of->material, REPLICATE_TOLERANCE, &item->memory, &of->series, err);
-    if (status != WT_OK) { /* the next contact says so again */
+    if (status != WT_OK) { /* the next contact reports the error again */
         wt_material_free(of->material);
         arena_free(&item->memory);
         *item = (drawn_item){0};
@@ -145,7 +148,7 @@ wt_status material_cache_get(wt_material_cache *d, size_t replicate, drawn_mater
     return status;
 }
 
-/* ---- the values themselves ------------------------------------------------------------------- */
+/* ---- stated values --------------------------------------------------------------------------- */
 
 static wt_status make_own(own_material *own, const wt_sliding *sliding, double tolerance,
                           wt_error *err)
@@ -164,7 +167,8 @@ static wt_status make_own(own_material *own, const wt_sliding *sliding, double t
     return status;
 }
 
-/* By the wavenumbers of the surface. What cannot be is left to the contact, which says so. */
+/* Extends the series to the wavenumbers of the surface. A range that the material cannot have is
+ * left to the contact, which reports it. */
 static wt_status cover_own(own_material *own, const wt_sliding *sliding, double slowest,
                            double fastest, wt_error *err)
 {

@@ -1,4 +1,4 @@
-/* What one contact is inside: its area against magnification.
+/* Contact area against magnification for one contact.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "friction/sliding_contact.h"
 #include "job/cost.h"
@@ -8,7 +8,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-/* The values themselves, without a layer; what is asked for has no extrapolated share. */
+/* Creates the contact for the stated values, without a layer and without the extrapolated share. */
 static wt_status make_contact(const wt_sliding *sliding, const wt_job *work, sliding_contact *c,
                               wt_error *err)
 {
@@ -20,7 +20,7 @@ static wt_status make_contact(const wt_sliding *sliding, const wt_job *work, sli
 
 /* ---- contact area ---------------------------------------------------------------------------- */
 
-/* As a figure shows well. */
+/* Resolution of a figure. */
 #define POINTS_PER_DECADE 20
 
 TABLE_ROW(contact_area, CONTACT_AREA, double velocity, magnification, wavenumber;

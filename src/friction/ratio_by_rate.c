@@ -1,5 +1,5 @@
-/* The modulus ratio of track and bulk at several indentation rates as a power of the frequency. The
- * frequency of a rate is that of equal loading of its curves, as the comparison with DMA has it.
+/* Modulus ratio of track and bulk at several indentation rates as a power of the frequency. The
+ * frequency of a rate is the equivalent frequency of its curves, as in the comparison with DMA.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "weartrack/flow.h"
 
@@ -9,11 +9,12 @@
 
 #include <math.h>
 
-/* More rates than anybody indents at. */
+/* Upper limit of the number of indentation rates. */
 enum { MOST_RATES = 64 };
 
 typedef struct rate_ratio {
-    double log_frequency, log_ratio, error, df; /* of ln ratio */
+    double log_frequency, log_ratio, error, df; /* standard error and degrees of freedom of ln
+                                                   ratio */
 } rate_ratio;
 
 typedef struct rate_ratios {
@@ -21,7 +22,7 @@ typedef struct rate_ratios {
     rate_ratio of[MOST_RATES];
 } rate_ratios;
 
-/* ln of the mean frequency of the curves of a row, of both groups; NaN: none is known. */
+/* Mean ln frequency of the curves of a row, over both groups; NaN if no frequency is available. */
 static double frequency_of(const table_view *rates, double low, double high)
 {
     const double rounding = 1e-9;
@@ -64,9 +65,10 @@ static wt_status read_rates(const table_view *comparison, const table_view *rate
     return WT_OK;
 }
 
-/* The line through the rates with its slope's error, which has the freedom of the errors that it is
- * made of, and is wider where the rates scatter more about it than they should. What they have in
- * common, spots and levers, moves no slope: so the error is rather too wide. */
+/* Weighted linear fit through the rates. The error of the slope has the effective degrees of
+ * freedom of the errors of the points. It is enlarged if the points scatter more than their errors.
+ * Systematic errors that all rates share (spots, cantilevers) do not change the slope, so that the
+ * error is conservative. */
 static void fit_slope(const rate_ratios *r, double *slope, double *error)
 {
     double w = 0, wx = 0, wy = 0, wxx = 0, wxy = 0, chi = 0;
@@ -145,7 +147,7 @@ wt_status wt_layer_observation_by_rate(const wt_table *comparison, const wt_tabl
     if (!(ratio.value > 0))
         return wt_fail(err, WT_E_MISSING, "the comparison tells no modulus ratio of all rates");
     known->modulus_ratio = ratio;
-    known->modulus_ratio.unit = "1"; /* not that of the table */
+    known->modulus_ratio.unit = "1"; /* the table uses another unit text */
     known->modulus_ratio_df = isnan(df) ? 0 : df;
     return WT_OK;
 }

@@ -1,4 +1,5 @@
-/* Standard errors from replicates. SPDX-License-Identifier: GPL-3.0-or-later */
+/* Standard errors from Monte Carlo replicates.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "friction/replicates.h"
 #include "dma/strain_softening.h"
 #include "friction/numerics/angular_weight.h"
@@ -10,7 +11,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Cut where there is no room. */
+/* Appends an item to a list of text; the text is truncated at the size. */
 static void add_words(char *list, size_t size, const char *words)
 {
     const size_t used = strlen(list);
@@ -28,7 +29,8 @@ static void add_drawn(replicates *r, const char *words)
     add_words(r->includes, sizeof r->includes, words);
 }
 
-/* One more would be part of what is not a line, as the material is. */
+/* Adds a draw with a linear effect. Beyond the capacity, its effect is part of the nonlinear rest,
+ * as that of the material. */
 static void add_line(replicates *r, flow_draw draw)
 {
     if (r->n_draws < REPLICATES_MOST)
@@ -60,7 +62,8 @@ replicates replicates_of(const wt_sliding *sliding, const wt_job *work, const ch
     replicates_add(&r, sliding->temperature.standard_error, FLOW_DRAW_TEMPERATURE, "temperature");
     const bool measured = sliding->surface->modes_error != NULL;
     const double places = sliding->surface->c0.standard_error;
-    if (places > 0 || !sliding->surface->places_known) /* else they differ by no more than modes */
+    if (places > 0 || !sliding->surface->places_known) /* otherwise the positions differ by no
+                                                          more than the scatter of the modes */
         replicates_add(&r, places, FLOW_DRAW_DENSITY,
                        measured ? "places of the surface" : "roughness");
     if (measured)
@@ -119,8 +122,8 @@ static wt_status draw_one(void *user, size_t i, unsigned worker)
     return status == WT_E_MEMORY ? status : WT_OK;
 }
 
-/* For its velocities; where jobs share the material, for all of the contact, so that it does not
- * matter which comes first. */
+/* Prepares the materials for the velocities of this job. A shared cache covers all velocities of
+ * the contact, so that the result does not depend on the order of the jobs. */
 static wt_status begin_materials(replicates *r, wt_error *err)
 {
     const wt_sliding *s = r->sliding;
@@ -144,11 +147,15 @@ static void end_materials(replicates *r)
     r->drawn = NULL;
 }
 
-/* ---- their scatter --------------------------------------------------------------------------- */
+/* ---- standard deviations --------------------------------------------------------------------- */
 
-enum { LINE_MOST = REPLICATES_MOST + 1 }; /* numbers of a line: a constant and slopes */
+enum {
+    LINE_MOST = REPLICATES_MOST + 1
+}; /* number of coefficients of the linear fit: a constant
+      and the slopes */
 
-/* The equations of a line through the finite values of number k; how many there are. */
+/* Accumulates the normal equations of the linear fit to the finite values of quantity k; returns
+ * their number. */
 static size_t collect(const replicates *r, const double *z, size_t k, double *a, double *b)
 {
     const size_t p = r->n_draws + 1;
@@ -167,11 +174,12 @@ static size_t collect(const replicates *r, const double *z, size_t k, double *a,
     return n;
 }
 
-/* The line of number k, a constant and a slope for each draw, to b; false with too few replicates
- * for it. */
+/* Fits quantity k as a linear function of the draws; b receives the constant and the slopes. False
+ * if there are too few replicates. */
 static bool find_line(const replicates *r, const double *z, size_t k, double *b, size_t *n)
 {
-    /* As many draws for each slope that what they scatter by is small against the rest. */
+    /* Required replicates for each coefficient, so that the scatter of a slope is small against the
+     * rest. */
     enum { FOR_EACH = 5 };
     double a[LINE_MOST * LINE_MOST] = {0};
     const size_t p = r->n_draws + 1;
@@ -180,9 +188,9 @@ static bool find_line(const replicates *r, const double *z, size_t k, double *b,
     return *n >= FOR_EACH * p && cholesky_solve(a, p, p, 0, b);
 }
 
-/* Standard deviation of number k where the draws z [n * p] make lines: the squares of the slopes
- * and that of the rest. The squares of slopes that the rest scatters are too large by it, for
- * each its variance over n. */
+/* Standard deviation of quantity k with linear effects of the draws z [n * p]: the squares of the
+ * slopes plus the residual variance. The residuals scatter the slopes, which makes each square too
+ * large by the residual variance over n; this bias is subtracted. */
 static double spread_about_lines(const replicates *r, const double *z, size_t k)
 {
     double b[LINE_MOST], rest = 0, lines = 0;
@@ -202,7 +210,8 @@ static double spread_about_lines(const replicates *r, const double *z, size_t k)
     return sqrt(lines + rest * (1 - (double)(p - 1) / (double)n));
 }
 
-/* [n * p]: 1 and the draws of each replicate; NULL without memory. */
+/* Returns [n * p]: 1 and the draws of each replicate, or NULL if out of memory. The caller frees
+ * it. */
 static double *make_draws(const replicates *r)
 {
     const size_t p = r->n_draws + 1;

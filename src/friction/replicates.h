@@ -1,51 +1,55 @@
-/* Standard errors from replicates: which errors are drawn, drawing them, the scatter. Internal to
- * flow. SPDX-License-Identifier: GPL-3.0-or-later */
+/* Standard errors from Monte Carlo replicates: choice of the errors, drawing, standard deviation.
+ * Internal to friction.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #ifndef WT_FRICTION_REPLICATES_H
 #define WT_FRICTION_REPLICATES_H
 
 #include "friction/material_cache.h"
 #include "job/random_draws.h"
 
-/* More than the stated errors of a contact and its layer, which are eleven. */
+/* Capacity above the eleven stated errors of a contact and its layer. */
 enum { REPLICATES_MOST = 12 };
 
 typedef struct replicates {
     const wt_sliding *sliding;
     const wt_job *work;
-    double velocity;          /* the only one [m/s]; 0: those of the list and the reference */
-    wt_material_cache *drawn; /* while they are drawn */
-    const char *what;         /* "friction", for messages */
-    flow_draw draw[REPLICATES_MOST]; /* [n_draws] the normal numbers that are drawn */
+    double velocity;                 /* the only velocity [m/s]; 0 for those of the list and the
+                                        reference */
+    wt_material_cache *drawn;        /* cache; set while replicates are drawn */
+    const char *what;                /* "friction", for messages */
+    flow_draw draw[REPLICATES_MOST]; /* [n_draws] identifiers of the normal deviates */
     size_t n_draws;
-    bool varies;                    /* an error is stated or measured: there are replicates */
-    char includes[256], lacks[256]; /* in words: what is drawn, what has no stated error */
-    double *error;                  /* [stride] standard errors, NaN without replicates */
+    bool varies;                    /* at least one error is stated or measured */
+    char includes[256], lacks[256]; /* text: error sources that are drawn, and inputs without a
+                                       stated error */
+    double *error;                  /* [stride] standard errors; NaN without replicates */
     double *value;                  /* [n * stride] */
     size_t n, stride;
 } replicates;
 
-/* With the errors of a sliding contact but for that of the shear stress, which only the total
- * friction knows. */
+/* Collects the errors of a sliding contact. The error of the shear stress is not included, because
+ * only the total friction depends on it. */
 replicates replicates_of(const wt_sliding *sliding, const wt_job *work, const char *what);
-/* Something else that is drawn by `draw` (standard_error > 0), or would be if its error were
- * stated. */
+/* Adds an error source. It is drawn by `draw` if its standard error is > 0, and listed as missing
+ * otherwise. */
 void replicates_add(replicates *r, double standard_error, flow_draw draw, const char *words);
-/* What the modulus of a layer has errors of. `ratio`: in words. */
+/* Adds the errors of the modulus of a layer. `ratio` is the text for the modulus ratio. */
 void replicates_add_layer(replicates *r, const wt_sliding *sliding,
                           const wt_layer_observation *known, const char *ratio);
-/* What is drawn, as said in a table. */
+/* Returns the text of the error sources that are drawn, for a table. */
 const char *replicates_include(const replicates *r);
 
-/* One replicate: `stride` numbers, the first of them not NaN. */
+/* Computes one replicate: `stride` numbers, the first of which is not NaN. */
 typedef wt_status (*replicate_fn)(const void *user, size_t replicate, double *out, wt_error *err);
-/* Draws all and finds `error`: what each number that is drawn does is a line, whose share is known
- * without scatter, for the number is standard normal; the draws give its slope and the rest, the
- * material and what is not straight. A replicate that has no solution is left out and counted. */
+/* Draws all replicates and computes `error`. The effect of each draw is approximated as linear. A
+ * draw is standard normal, so that its variance is exact; the replicates give its slope and the
+ * residual, which holds the material and nonlinear effects. Replicates without a solution are
+ * excluded and counted. */
 wt_status replicates_draw(replicates *r, size_t stride, replicate_fn one, const void *user,
                           wt_error *err) WT_NODISCARD;
-/* Where each replicate lies along the line of number k, in standard deviations of the line: a
- * standard normal number, of which the replicates have but a sample. at [n]; not known: too few for
- * a line, or nothing that is drawn does anything. */
+/* Position of each replicate along the linear fit of quantity k, in standard deviations: a sample
+ * of a standard normal variable. at [n] belongs to the caller. The flag is false if there are too
+ * few replicates for a fit, or if no draw has an effect. */
 wt_status replicates_along_line(const replicates *r, size_t k, double *at,
                                 bool *known) WT_NODISCARD;
 void replicates_clear(replicates *r);

@@ -66,8 +66,8 @@ static const wt_param rows[] = {
 };
 PARAM_TABLE(wt_sliding_params, wt_sliding, rows, wt_sliding_defaults, NO_PARTS)
 
-/* Tyres press by less than 1 MPa, seals and bearings by less than 100 MPa: above it rubber fails.
- */
+/* Upper limit for a plausible pressure: tyres have less than 1 MPa, seals and bearings less than
+ * 100 MPa; rubber fails above. */
 static const double most_borne = 100e6; /* [Pa] */
 
 wt_status flow_sliding_check(const wt_sliding *sliding, const wt_job *work, wt_error *err)
@@ -98,7 +98,7 @@ double flow_layer_velocity(const wt_sliding *sliding, const wt_layer_job *layer)
     return isnan(layer->velocity) ? flow_reference_velocity(sliding) : layer->velocity;
 }
 
-/* The workspace, softened by a replicate. */
+/* Creates the workspace with the strain softening of the replicate. */
 static wt_status make_workspace(const wt_sliding *sliding, wt_friction_options options,
                                 uint64_t seed, size_t replicate, sliding_contact *c, wt_error *err)
 {
@@ -115,8 +115,8 @@ static wt_status make_workspace(const wt_sliding *sliding, wt_friction_options o
     return status;
 }
 
-/* Whether there can be such a material at the frequencies of the velocities, and what to say of it.
- */
+/* Checks the validity of the material at the frequencies of the velocities, and appends a statement
+ * about it. */
 static wt_status check_material(const wt_sliding *sliding, sliding_contact *c, wt_error *err)
 {
     const wt_material_law *law = c->material->law;
@@ -132,7 +132,7 @@ static wt_status check_material(const wt_sliding *sliding, sliding_contact *c, w
     return status;
 }
 
-/* The material of the values themselves, if the jobs share it. */
+/* Uses the cached material for the stated values, if the jobs share it. */
 static wt_status share_values(const wt_sliding *sliding, const wt_job *work, drawn_material *kept,
                               sliding_contact *c, wt_error *err)
 {

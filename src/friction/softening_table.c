@@ -1,6 +1,6 @@
-/* What softening with strain does: friction and contact area with it and without it, and how much
- * of the friction comes from strains that its table does not know. SPDX-License-Identifier:
- * GPL-3.0-or-later */
+/* Effect of strain softening: friction and contact area with and without it, and the share of the
+ * friction from strains outside the softening table.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "dma/strain_softening.h"
 #include "friction/friction_difference.h"
 
@@ -9,21 +9,21 @@
 #include <math.h>
 #include <stdlib.h>
 
-/* At one velocity. */
+/* Row of the table: both results at one velocity. */
 TABLE_ROW(softening, SOFTENING, wt_friction_point with, without; double below, above;
-          /* shares of the hysteresis */)
+          /* shares of the hysteresis from strains below and above the table */)
 
 TABLE_KEYS(softening, SOFTENING, char source[256], effect[192]; double strain_factor;
            wt_estimate strain, share_above;)
 
-/* Of the contact that softens. */
+/* Results of the contact with softening. */
 typedef struct effect {
-    softening_row *rows; /* [n] of the velocities, the reference last */
-    double strain;       /* the largest */
+    softening_row *rows; /* [n] one for each velocity; the last is the reference */
+    double strain;       /* largest strain */
     double range[2];
 } effect;
 
-/* How much of the friction is there where the first strain of the table is met, and the last. */
+/* Computes the share of the friction up to the first and beyond the last strain of the table. */
 static wt_status find_shares(void *user, const friction_difference *of, const sliding_contact *c,
                              wt_error *err)
 {
@@ -37,11 +37,11 @@ static wt_status find_shares(void *user, const friction_difference *of, const sl
         status = wt_friction_profile(c->workspace, c->pressure, of->velocity[i], e->range, 2, nodes,
                                      err);
         const double all = of->with[i].hysteresis.value;
-        const double none = (double)NAN; /* of no friction there is no share */
+        const double none = (double)NAN; /* the share is undefined without friction */
         r->below = all > 0 ? fmin(fmax(nodes[0].hysteresis / all, 0), 1) : none;
         r->above = all > 0 ? fmin(fmax(1 - nodes[1].hysteresis / all, 0), 1) : none;
         if (all > 0 && !(e->range[1] < c->roughness->q1))
-            r->above = 0; /* not met */
+            r->above = 0; /* the last strain is not reached */
     }
     return status;
 }

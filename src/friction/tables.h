@@ -1,5 +1,6 @@
-/* The columns and keys of the tables of the sliding contact: counter surface, friction, layer.
- * Included by tables.h alone. SPDX-License-Identifier: GPL-3.0-or-later */
+/* Columns and keys of the tables of the sliding contact: counter surface, friction, layer. Included
+ * by core/table/registry.h only.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #ifndef WT_FRICTION_TABLES_H
 #define WT_FRICTION_TABLES_H
 
@@ -7,7 +8,7 @@
     X(ROUGHNESS_WAVENUMBER, AS(wavenumber), "wavenumber", SI(WAVENUMBER))                          \
     X(ROUGHNESS_DENSITY, AS(density), "two-dimensional power spectrum C(q)", SI(POWER_SPECTRUM_2D))
 
-/* The last three of a self-affine law only. */
+/* The last three exist for a self-affine law only. */
 #define ROUGHNESS_KEYS(X)                                                                          \
     X(ROUGHNESS_KEY_RMS_HEIGHT, "rms_height", SI(LENGTH), LABEL("Root-mean-square height"))        \
     X(ROUGHNESS_KEY_RMS_SLOPE, "rms_slope", NUMBER, LABEL("Root-mean-square slope"))               \
@@ -33,7 +34,7 @@
       "share of the hysteresis from frequencies not measured", NUMBER,                             \
       LABEL("Outside measured frequencies, share"))
 
-/* The last seven with a layer only. */
+/* The last keys exist with a layer only. */
 #define FRICTION_KEYS(X)                                                                           \
     X(FRICTION_KEY_PRESSURE, AS(pressure), SI(PRESSURE), LABEL("Pressure"))                        \
     X(FRICTION_KEY_TEMPERATURE, AS(temperature), SI(TEMPERATURE), LABEL("Temperature"))            \

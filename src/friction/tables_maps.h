@@ -1,5 +1,5 @@
-/* The columns and keys of what friction is seen against: temperature, pressure, decades of the
- * wavenumber, the direction of sliding. Included by tables.h alone.
+/* Columns and keys of the friction maps: temperature, pressure, decades of the wavenumber, sliding
+ * direction. Included by core/table/registry.h only.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #ifndef WT_FRICTION_TABLES_MAPS_H
 #define WT_FRICTION_TABLES_MAPS_H

@@ -1,5 +1,6 @@
-/* What the directions of a transversely isotropic rubber do: friction and contact area with its
- * factors on the moduli and without them. SPDX-License-Identifier: GPL-3.0-or-later */
+/* Effect of transverse isotropy: friction and contact area with and without the directional factors
+ * of the moduli.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "friction/sliding_contact.h"
 #include "job/cost.h"
 
@@ -24,7 +25,7 @@ static const struct {
 typedef struct directions {
     const wt_sliding *sliding;
     wt_job work;
-    wt_friction_point *points; /* [N_KEPT * n], the reference velocity last */
+    wt_friction_point *points; /* [N_KEPT * n] the last of each n is the reference velocity */
     size_t n;
     bool known[N_KEPT];
     char left_out[256];
@@ -62,7 +63,8 @@ static wt_status compute_with_factors(directions *d, size_t k, wt_error *err)
     return status;
 }
 
-/* What is given must be possible; a part of it need not be. */
+/* Computes all sets of factors. The full set must be a valid material; a partial set may be
+ * invalid. */
 static wt_status compute_all(directions *d, wt_error *err)
 {
     for (size_t k = N_KEPT; k-- > 0;) {
@@ -146,7 +148,7 @@ wt_status wt_directions_make(const wt_sliding *sliding, const wt_job *work, wt_t
         return status;
     directions d = {.sliding = sliding, .work = *work, .n = sliding->n_velocity + 1};
     d.work.left_out = WT_EXTRAS;
-    d.work.drawn = NULL; /* of another material */
+    d.work.drawn = NULL; /* the cache is for another material */
     d.points = malloc(N_KEPT * d.n * sizeof *d.points);
     if (d.points == NULL)
         return wt_fail(err, WT_E_MEMORY, "out of memory");

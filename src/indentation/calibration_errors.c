@@ -1,6 +1,7 @@
-/* What the errors that all curves of a group share do to their moduli: a few curves are fitted anew
- * with spring constant, sensitivity, half-angle or radius moved by a standard error down and up, so
- * no exponent of a contact law is taken for granted. SPDX-License-Identifier: GPL-3.0-or-later */
+/* Propagation of shared calibration errors to the moduli of a group. A few curves are fitted again
+ * with spring constant, sensitivity, half-angle or radius shifted down and up by one standard
+ * error. The method assumes no exponent of a contact law.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "indentation/calibration_errors.h"
 #include "indentation/indent.h"
 
@@ -12,8 +13,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* What a source without a stated error is moved by, and the most that any is: beyond it a curve may
- * no longer be one that is accepted. */
+/* Relative shift of a source without a stated error, and upper limit of each shift. A curve may no
+ * longer be accepted after a larger shift. */
 static const double small_step = 0.01, most_step = 0.3;
 
 const char *calibration_source_text(wt_shared_law_source source)
@@ -39,13 +40,14 @@ static double first_known(double a, double b)
 static wt_tip moved_tip(const wt_tip *tip, wt_shared_law_source source, double factor)
 {
     wt_tip moved = *tip;
-    /* a cap that was tangent to the faces stays so */
+    /* A cap that was tangent to the faces stays tangent. */
     const bool tangent =
         tip->transition_radius > 0 &&
         tip->transition_radius == wt_tip_tangent_transition(tip->radius, tip->half_angle);
     *(source == WT_COMMON_RADIUS ? &moved.radius : &moved.half_angle) *= factor;
     const double smooth =
-        moved.radius * tip_facet_factor(tip->sides) / tan(moved.half_angle); /* else concave */
+        moved.radius * tip_facet_factor(tip->sides) /
+        tan(moved.half_angle); /* a larger transition radius makes the tip concave */
     if (tangent)
         moved.transition_radius = wt_tip_tangent_transition(moved.radius, moved.half_angle);
     else if (tip->transition_radius > 0)
@@ -54,7 +56,7 @@ static wt_tip moved_tip(const wt_tip *tip, wt_shared_law_source source, double f
     return moved;
 }
 
-/* Tables of the moved tips. A step beyond 90 degrees is halved. */
+/* Creates the contact tables of the shifted tips. A step beyond 90 degrees is halved. */
 static wt_status move_tip(const wt_tip *tip, wt_shared_law_source source, calibration_errors *to,
                           wt_error *err)
 {
@@ -90,7 +92,7 @@ wt_status calibration_errors_begin(const wt_indent_job *job, calibration_errors 
     if (!(tip->radius > 0))
         to->step[WT_COMMON_RADIUS] = 0;
     const bool tells_misfit =
-        job->options.least_chance > 0; /* what an unstated radius does to it */
+        job->options.least_chance > 0; /* the misfit test needs the effect of an unstated radius */
     wt_status status = WT_OK;
     for (int i = WT_COMMON_HALF_ANGLE; i <= WT_COMMON_RADIUS; i++)
         if (status == WT_OK && to->step[i] > 0 &&
@@ -170,7 +172,7 @@ static wt_status copy_branch(const wt_force_curve *curve, wt_segment_kind kind, 
     return WT_OK;
 }
 
-/* Keeps every second of them: those that remain are as if there had been half as many from the
+/* Keeps every second curve. The remaining curves are those that twice the stride selects from the
  * start. */
 static void thin_out(calibration_errors *to)
 {
@@ -208,9 +210,9 @@ typedef struct refit {
     calibration_errors *to;
     const wt_indent_options *options;
     wt_indent_workspace *const *workspaces;
-    double *scratch; /* [room] for each thread: forces that are scaled */
+    double *scratch; /* scaled forces, [capacity] for each thread */
     size_t room;
-    wt_error *errors; /* of each item */
+    wt_error *errors; /* one error for each item */
 } refit;
 
 static curve_branch scale_branch(const common_branch *b, double factor, double *scaled)
@@ -220,8 +222,8 @@ static curve_branch scale_branch(const common_branch *b, double factor, double *
     return (curve_branch){b->height, scaled, b->time, b->n};
 }
 
-/* Logarithm of the modulus of a curve whose source is moved: scaled forces, or another tip. That of
- * a fit that no longer passes its tests is told all the same. */
+/* Computes the logarithm of the modulus of a curve with a shifted source. The source scales the
+ * forces or changes the tip. A fit that no longer passes its tests counts as well. */
 static wt_status fit_moved(const refit *f, size_t item, int way, unsigned worker,
                            double *log_modulus)
 {
@@ -250,8 +252,8 @@ static wt_status fit_moved(const refit *f, size_t item, int way, unsigned worker
     return status;
 }
 
-/* d ln E of a step of one source each way. Of a tip that was chosen for a file no error is stated,
- * so that there is nothing to move. */
+/* Computes d ln E / d ln source from one step in each direction. The tip of a single file has no
+ * stated error, so its sources are not shifted. */
 static wt_status move_source(void *user, size_t item, unsigned worker)
 {
     const refit *f = user;

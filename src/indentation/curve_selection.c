@@ -1,4 +1,5 @@
-/* Curves to look at: which, and their samples, thinned so that the eye sees no difference.
+/* Selection of curves for the table "curves". Their samples are thinned without a visible
+ * difference.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "indentation/curve_selection.h"
 
@@ -11,19 +12,19 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Bins of which the smallest and the largest force are kept: as many as a curve on a screen has
- * pixels for in a picture of some 600 pixels. The contact is the smaller part of the travel and has
- * the larger part of what is to be seen. */
+/* Number of bins; the table stores the smallest and the largest force of each. The numbers suit a
+ * plot of about 600 pixels. The contact is the smaller part of the travel and shows most detail, so
+ * it has more bins. */
 enum { BINS_BEFORE = 32, BINS_CONTACT = 56, BINS_RETRACT = 24 };
 
 TABLE_ROW(curves, CURVES, const char *group, *file; size_t curve; const char *segment;
           double displacement, force, indentation, fitted_force, residual;)
 
-/* ---- which ----------------------------------------------------------------------------------- */
+/* ---- selection terms ------------------------------------------------------------------------- */
 
 static const char worst[] = "worst:";
 
-/* Where the number of FILE:N begins; NULL: the word names no curve. */
+/* Returns the start of the number in FILE:N, or NULL if the term does not name a curve. */
 static const char *number_in(const char *word)
 {
     const char *colon = strrchr(word, ':');
@@ -84,7 +85,8 @@ static bool is_named(curve_selection *shown, const flow_file *file, size_t curve
     return named;
 }
 
-/* Makes room among the worst for one with this error; false if it is none of them. */
+/* Removes the curve with the smallest error if the list of the worst curves is full. Returns false
+ * if this error does not belong to the list. */
 static bool is_worst(curve_selection *shown, double error)
 {
     size_t best = shown->n;
@@ -108,8 +110,8 @@ static bool is_worst(curve_selection *shown, double error)
 
 /* ---- samples --------------------------------------------------------------------------------- */
 
-/* A segment whose forces and positions begin at contact, or where it has none at its first sample.
- */
+/* Origin of positions and forces: the contact point, or the first sample if there is no contact
+ * point. */
 typedef struct origin {
     double direction, position, force, tilt, spring_constant;
 } origin;
@@ -141,7 +143,7 @@ static selected_sample sample_at(const origin *from, const wt_segment *segment, 
                              tip_position(z, f, from->spring_constant), (double)NAN};
 }
 
-/* Appends samples of which no more than 2 for each of the bins are left, in their order. */
+/* Appends at most 2 samples of each bin, in their order. */
 static void thin(const selected_sample *from, size_t n, size_t bins, selected_curve *to)
 {
     if (n <= 2 * bins) {
@@ -169,7 +171,7 @@ typedef struct selection_scratch {
     double *force, *delta, *out, *time, *model; /* [longest], of one allocation */
 } selection_scratch;
 
-/* The finite samples of a segment; returns how many. */
+/* Collects the finite samples of a segment and returns their number. */
 static size_t take_samples(const origin *from, const wt_segment *segment, const double *force,
                            selected_sample *to)
 {
@@ -181,7 +183,8 @@ static size_t take_samples(const origin *from, const wt_segment *segment, const 
     return n;
 }
 
-/* Fitted forces: 0 on the baseline, the law in contact. Returns the first sample in contact. */
+/* Sets the fitted forces: 0 on the baseline, the contact law in contact. `first` receives the first
+ * sample in contact. */
 static wt_status add_fit(const wt_indent_fit *fit, const wt_indent_options *options,
                          const wt_contact_table *contact, const wt_segment *approach,
                          const double *force, const origin *from, selection_scratch *s, size_t n,
@@ -219,7 +222,7 @@ static wt_status add_samples(selected_curve *to, const wt_force_curve *curve,
         add_fit(fit, options, contact, approach, force, &from, s, n, &first, err);
     if (status != WT_OK)
         return status;
-    if (first == n) /* no contact: all of it alike */
+    if (first == n) /* without contact, all samples have equal density */
         first = n * BINS_BEFORE / (BINS_BEFORE + BINS_CONTACT);
     thin(s->sample, first, BINS_BEFORE, to);
     thin(s->sample + first, n - first, BINS_CONTACT, to);
@@ -246,7 +249,7 @@ static wt_status keep_samples(selected_curve *to, const wt_force_curve *curve,
     const wt_segment *approach = wt_force_curve_segment(curve, WT_SEGMENT_APPROACH);
     const wt_segment *retract = wt_force_curve_segment(curve, WT_SEGMENT_RETRACT);
     if (approach == NULL || approach->n_points == 0 || segment_height(approach) == NULL)
-        return WT_OK; /* the verdict says it */
+        return WT_OK; /* the verdict states the reason */
     const size_t longest = retract != NULL && retract->n_points > approach->n_points
                                ? retract->n_points
                                : approach->n_points;

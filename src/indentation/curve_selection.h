@@ -1,4 +1,4 @@
-/* Curves to look at: the samples of those that were asked for. Internal to indentation.
+/* Selection of curves and their samples for the table "curves". Internal to indentation.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #ifndef WT_INDENTATION_CURVE_SELECTION_H
 #define WT_INDENTATION_CURVE_SELECTION_H
@@ -7,40 +7,41 @@
 #include "job/inputs.h"
 
 typedef struct selected_sample {
-    const char *segment; /* static */
+    const char *segment; /* static string */
     double displacement, force, indentation, fitted_force;
 } selected_sample;
 
 typedef struct selected_curve {
     const char *file; /* borrowed from the list of files */
     size_t curve;
-    double error;  /* relative, of the modulus */
-    bool by_error; /* kept only as long as it is among the worst */
+    double error;  /* relative error of the modulus */
+    bool by_error; /* stored only while it is among the worst curves */
     selected_sample *sample;
     size_t n;
 } selected_curve;
 
-/* What `--curves` asks for. */
+/* Curves that the option `--curves` requests. */
 typedef struct curve_selection {
     bool median, rejected, all;
     size_t most_worst, n_worst;
-    const char *const *words; /* [n_words] borrowed from the job; those that are FILE:N name one */
-    bool *met;                /* [n_words] */
+    const char *const *words; /* [n_words] borrowed from the job; a term FILE:N names one curve */
+    bool *met;                /* [n_words] true if a curve matched the term */
     size_t n_words;
     selected_curve *curve; /* [n] in the order of the rows */
     size_t n;
 } curve_selection;
 
-/* Reads the words of the job. curve_selection_clear also after a failure. */
+/* Reads the selection terms of the job. The caller must call curve_selection_clear after a failure
+ * too. */
 wt_status curve_selection_begin(const wt_indent_job *job, curve_selection *shown,
                                 wt_error *err) WT_NODISCARD;
-/* Keeps the samples of the curve of the next row, if it is asked for. */
+/* Stores the samples of the curve of the next row if a term selects it. */
 wt_status curve_selection_add(curve_selection *shown, const flow_file *file,
                               const wt_force_curve *curve, const wt_indent_fit *fit,
                               const wt_contact_table *contact, const wt_indent_options *options,
                               wt_error *err) WT_NODISCARD;
-/* Appends them to the table "curves", which is made if it is NULL. A curve that was named and not
- * met is WT_E_NOT_FOUND. */
+/* Appends the curves to the table "curves" and creates the table if it is NULL. A named curve that
+ * was not found is WT_E_NOT_FOUND. */
 wt_status curve_selection_table(const curve_selection *shown, const char *group, wt_table **table,
                                 wt_error *err) WT_NODISCARD;
 void curve_selection_clear(curve_selection *shown);

@@ -1,5 +1,6 @@
-/* Force curves drawn anew from their own fit. What they are made with, a tip that goes into rubber
- * with memory and out again (indentation/law/hereditary.h), is not what the fit follows them with.
+/* Simulation of force curves from their own fits (parametric bootstrap). The simulation uses a tip
+ * that enters and leaves a viscoelastic half-space (indentation/law/hereditary.h). The fit uses a
+ * simpler model.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "indentation/curve_set.h"
 #include "job/random_draws.h"
@@ -13,10 +14,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Range of indentations that the table of the contact function covers; outside it the function is
- * computed directly, so this is only about speed. */
-
-/* As many as a trial fits in about a second. */
+/* Upper limit of the samples that one replicate fits in about a second. */
 #define MOST_SAMPLES ((size_t)1 << 20)
 
 enum { IN, OUT, WAYS };
@@ -25,8 +23,9 @@ typedef struct stored_curve {
     wt_indent_fit fit;
     double spring_constant;
     size_t n[WAYS];
-    double *position[WAYS]; /* rising on the way in, falling on the way out [m] */
-    double *time[WAYS];     /* [s]; those of the way out go on; NULL: not known */
+    double *position[WAYS]; /* [m]; rises on approach, falls on retract */
+    double *time[WAYS]; /* [s]; the times of the retract continue those of the approach; NULL if not
+                           known */
     double *block;
 } stored_curve;
 
@@ -104,7 +103,7 @@ double curve_set_variance(const wt_curve_set *set)
     return sum / (double)set->n;
 }
 
-/* ---- keeping --------------------------------------------------------------------------------- */
+/* ---- storing --------------------------------------------------------------------------------- */
 
 void curve_set_begin(wt_curve_set *set, const wt_indent_job *job)
 {
@@ -114,8 +113,8 @@ void curve_set_begin(wt_curve_set *set, const wt_indent_job *job)
     set->options.spectrum = NULL;
 }
 
-/* Positions in their order, for the noise of a height is none of the piezo, and times. Returns how
- * many; 0 if the way tells no height. */
+/* Stores sorted positions, because the noise of the height is not noise of the piezo, and times.
+ * Returns the number of samples, or 0 if the branch has no height. */
 static size_t keep_way(const wt_segment *segment, double direction, double *position, double *time,
                        bool *timed)
 {
@@ -137,7 +136,7 @@ static size_t keep_way(const wt_segment *segment, double direction, double *posi
     return n;
 }
 
-/* The way out begins a step after the way in ends. */
+/* Shifts the times of the retract so that it begins one step after the approach ends. */
 static void join_times(stored_curve *k)
 {
     const size_t n = k->n[IN];
@@ -199,8 +198,8 @@ wt_status curve_set_add(wt_curve_set *set, const wt_force_curve *curve, const wt
 struct curve_scratch {
     wt_indent_workspace *workspace;
     hereditary law;
-    double *force[WAYS];        /* of the samples */
-    double *base, *time, *push; /* of those in contact, both ways */
+    double *force[WAYS];        /* forces of the samples */
+    double *base, *time, *push; /* samples in contact, both branches */
     double *block;
 };
 
@@ -238,7 +237,8 @@ void curve_scratch_free(curve_scratch *s)
     free(s);
 }
 
-/* The samples in contact, behind the moment of contact itself. `first`: of each way. */
+/* Collects the samples in contact after the moment of contact. `first` receives the first sample of
+ * each branch. */
 static size_t in_contact(const stored_curve *k, curve_scratch *s, size_t first[WAYS])
 {
     const double contact = k->fit.contact_point.value, *x = k->position[IN];
@@ -261,7 +261,7 @@ static size_t in_contact(const stored_curve *k, curve_scratch *s, size_t first[W
     return n;
 }
 
-/* The series with the moduli that the curve is made with. */
+/* Prepares the relaxation series with the moduli of the simulated curve. */
 static wt_status begin_law(const wt_curve_set *set, const stored_curve *k, double level,
                            const wt_prony *made, size_t n, curve_scratch *s, wt_error *err)
 {
@@ -285,8 +285,8 @@ static wt_status begin_law(const wt_curve_set *set, const stored_curve *k, doubl
     return status;
 }
 
-/* The line of the baseline with what the contact adds, and noise whose long waves are as much
- * stronger as those of the curve. */
+/* Computes the simulated forces: baseline, contact force and noise. The ratio of slow to fast noise
+ * is that of the measured curve. */
 static void add_noise(const stored_curve *k, const size_t first[WAYS], size_t n, uint64_t seed,
                       size_t place, curve_scratch *s)
 {

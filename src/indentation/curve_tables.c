@@ -1,5 +1,5 @@
-/* Curves as rows of tables: what was found of each; of the representative one the whole curve for
- * force against displacement, the contact part with its fit for force against indentation.
+/* Rows and tables of force curves: results of each curve, the whole representative curve, and its
+ * contact part with the fit.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "indentation/curve_tables.h"
 
@@ -16,7 +16,7 @@ TABLE_ROW(force_displacement, FORCE_DISPLACEMENT, const char *group, *segment;
 TABLE_ROW(force_indentation, FORCE_INDENTATION, const char *group;
           double indentation, force, fitted_force;)
 
-/* A new block of a table that is made with the first one; a failure stays in the writer. */
+/* Starts a new block and creates the table with its first block. A failure stays in the writer. */
 static table_writer next_block(wt_table **table, const table_schema *schema, const char *group,
                                wt_error *err)
 {
@@ -104,8 +104,9 @@ wt_status flow_curve_tables_add(wt_indent_tables *tables, const char *group, con
 
 /* ---- rows of indentation -------------------------------------------------------------------- */
 
-/* What an elastic fit of rubber with loss returns is |E*| at 1/(loading time) where the contact
- * point is fitted, too. Where it is given: local exponent p of F ~ delta^p at the deepest point. */
+/* Angular frequency of the modulus. An elastic fit of rubber with loss returns |E*| at 1/(loading
+ * time) if the contact point is fitted too. If the contact point is fixed, the local exponent p of
+ * F ~ delta^p at the deepest point determines the frequency. */
 static double equivalent_frequency(const wt_indent_job *job, const wt_indent_fit *fit)
 {
     const wt_tip *tip = &job->tip;

@@ -1,4 +1,4 @@
-/* Curves as rows of tables. Internal to indentation.
+/* Force curves as rows of tables. Internal to indentation.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #ifndef WT_INDENTATION_CURVE_TABLES_H
 #define WT_INDENTATION_CURVE_TABLES_H
@@ -6,19 +6,19 @@
 #include "core/table/registry.h"
 #include "weartrack/flow.h"
 
-/* What was found of one curve, as a row of a table of indentation; deep: what it tells of depth. */
+/* Adds the results of one curve as a row. `deep` has its data on the modulus against depth. */
 void flow_indentation_row(table_writer *t, const wt_indent_job *job, const char *file,
                           const char *spot, const wt_force_curve *curve, const wt_indent_fit *fit,
                           const wt_depth_curve *deep);
 
-/* Appends the whole curve (approach and retract) and its indentation branch with the fit to the
- * curve tables of `tables`, which are made if they are NULL. options: those of the fit. */
+/* Appends the whole curve (approach and retract) and its contact part with the fit to the curve
+ * tables of `tables`. The function creates tables that are NULL. `options` are those of the fit. */
 wt_status flow_curve_tables_add(wt_indent_tables *tables, const char *group, const char *file,
                                 const wt_force_curve *curve, const wt_indent_fit *fit,
                                 const wt_contact_table *contact, const wt_indent_options *options,
                                 wt_error *err) WT_NODISCARD;
 
-/* Appends what depth does to the modulus of a group. */
+/* Appends the modulus against depth of a group. */
 wt_status flow_depth_table_add(wt_indent_tables *tables, const char *group,
                                const wt_curve_depth *depth, wt_error *err) WT_NODISCARD;
 

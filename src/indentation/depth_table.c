@@ -1,4 +1,4 @@
-/* The modulus against depth, and in words whether it changes and what that may mean.
+/* Table of the modulus against depth, with text on the change and on its possible causes.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "core/base/clocale.h"
 #include "core/base/number.h"
@@ -24,7 +24,7 @@ static depth_words format_si_value(double value, const char *unit)
     return w;
 }
 
-/* What would settle it; other: a residual that is no change with depth. */
+/* Returns advice on how to decide. The flag states that the residual is not a change with depth. */
 static const char *depth_advice(const wt_curve_depth *d, bool other)
 {
     if (d->loss_share > 0.5 || (other && d->loss_share > 0))
@@ -80,7 +80,7 @@ static void say_change(const wt_curve_depth *d, char text[320])
                       shallow.text, deep.text, margin, range, depth_advice(d, false));
 }
 
-/* What a change would mean if a layer made it, and what else may. */
+/* Describes the layer that would cause such a change, and other possible causes. */
 static void say_reading(const wt_curve_depth *d, char text[640])
 {
     char numbers[256] = "";

@@ -1,5 +1,5 @@
-/* The job of dwells: relaxation at constant height and creep at constant force behind the approach
- * of every curve.
+/* Job for dwells: relaxation at constant height and creep at constant force after the approach of
+ * each curve.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "indentation/dwell.h"
 #include "core/base/array.h"
@@ -15,7 +15,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Below it noise does not make such a misfit: customary, and wt_dwell tells no errors there. */
+/* Customary significance level of the misfit. Below it wt_dwell states no standard errors. */
 static const double least_chance = 0.01;
 
 void wt_dwell_tables_clear(wt_dwell_tables *tables)
@@ -35,10 +35,10 @@ typedef struct dwell_task {
     wt_indent_workspace *workspace;
     table_writer rows, points, moduli;
     size_t n_dwells;
-    dwell_curve curve; /* the latest */
+    dwell_curve curve; /* latest curve */
 } dwell_task;
 
-/* A force that pulls has no modulus, nor has a depth at which the law does not hold. */
+/* Returns NaN for a tensile force and for a depth outside the range of the contact law. */
 static double point_modulus(const dwell_task *task, const wt_dwell_point *p, double modulus)
 {
     const bool tells = p->force > 0 && modulus > 0 && p->indentation > 0 &&
@@ -65,7 +65,7 @@ static void put_points(dwell_task *task, const flow_file *file, const wt_force_c
 TABLE_ROW(dwell_moduli, DWELL_MODULI, const char *file; size_t curve, segment; const char *kind;
           wt_dwell_moduli moduli;)
 
-/* Into the row of the dwell. */
+/* Writes the moduli to the row of the dwell. */
 static void put_row_moduli(table_writer *t, const wt_dwell_moduli *m)
 {
     dwell_put(t, DWELL_ANGULAR_FREQUENCY, m->angular_frequency);
@@ -87,7 +87,7 @@ static void begin_row(dwell_task *task, const flow_file *file, const wt_force_cu
     dwell_put_text(t, DWELL_NOTE, note);
 }
 
-/* What is odd of a dwell, or why it has no moduli. */
+/* Writes the remarks on a dwell, or the reason why it has no moduli. */
 static void note_of(const wt_dwell *d, char note[256])
 {
     const char *misfit =
@@ -157,7 +157,7 @@ static void put_modulated(dwell_task *task, const flow_file *file, const wt_forc
               "modulation", m->moduli);
 }
 
-/* What is held behind the approach, up to the retract or another motion. */
+/* Fits the held segments after the approach, up to the retract or another motion. */
 static wt_status read_curve(dwell_task *task, const flow_file *file, const wt_force_curve *curve,
                             wt_error *err)
 {
@@ -227,7 +227,8 @@ static wt_status read_files(dwell_task *task, const flow_files *files, wt_error 
     return status;
 }
 
-/* At the frequency that most dwells tell, of such the one in the middle. */
+/* Writes the keys for the frequency that most dwells cover. If several frequencies qualify, the
+ * middle one is used. */
 static wt_status set_keys(table_writer *t, const wt_table *moduli, wt_error *err)
 {
     dwell_mean *means;

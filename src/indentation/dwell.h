@@ -1,51 +1,54 @@
-/* What the held segments of a curve tell, and means over several curves. Internal to indentation.
+/* Moduli from the held segments of a curve, and their means over several curves. Internal to
+ * indentation.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #ifndef WT_INDENTATION_DWELL_H
 #define WT_INDENTATION_DWELL_H
 
 #include "weartrack/flow.h"
 
-/* At one frequency: of curves, or of files where there are three or more. The interval holds the
- * scatter and what all of them have in common, that of one curve its own error; NaN where no curve
- * is described. */
+/* Mean at one frequency over curves, or over files if there are three or more. The interval
+ * includes the scatter and the systematic error. The interval of a single curve includes its own
+ * error. It is NaN if no curve is described. */
 typedef struct dwell_mean {
     double angular_frequency;
     size_t n, n_units;
     wt_interval storage, loss;
 } dwell_mean;
 
-/* Of a table dwell_moduli, with rising frequency; *means to be freed. */
+/* Computes means of a table dwell_moduli by rising frequency. The caller frees *means. */
 wt_status dwell_means(const wt_table *moduli, dwell_mean **means, size_t *n,
                       wt_error *err) WT_NODISCARD;
 
-/* A modulation: of a held segment, or of one before the approach or behind the retract. */
+/* Modulation of a held segment, or of a segment before the approach or after the retract. */
 typedef struct dwell_modulated {
     const wt_segment *segment;
     wt_modulation sine;
     wt_dwell_moduli moduli;
     bool found;
-    double indentation, above, amplitude; /* mean, force above the baseline, of the indentation */
-    const char *note;                     /* static */
+    double indentation, above, amplitude; /* mean indentation [m], force above the baseline [N],
+                                             amplitude of the indentation [m] */
+    const char *note;                     /* static string */
 } dwell_modulated;
 
-/* Modulations of one curve that there is room for; JPK has as many segments as a person sets. */
+/* Largest number of modulations of one curve. The user of a JPK instrument sets the number of
+ * segments. */
 enum { DWELL_MOST_MODULATED = 32 };
 typedef struct dwell_curve {
-    wt_dwell dwell; /* of all held segments together, sines taken out */
+    wt_dwell dwell; /* all held segments combined, without the sines */
     dwell_modulated modulated[DWELL_MOST_MODULATED], air[DWELL_MOST_MODULATED];
     size_t n, n_air;
 } dwell_curve;
 
-/* The segments from `first` on up to the retract behind an approach that was fitted. */
+/* Fits the segments from `first` to the retract, after an approach that was fitted. */
 wt_status dwell_curve_fit(const wt_contact_table *contact, double poisson,
                           const wt_force_curve *curve, const wt_segment *approach,
                           const wt_segment *first, const wt_indent_fit *fit, dwell_curve *to,
                           wt_error *err) WT_NODISCARD;
-/* E' is positive, and E'' positive or around 0 by its error: no rubber has others, and what gives
- * them is another thing than was fitted. An E'' around 0 is left in, for the means of many curves
- * would be too large without it. */
+/* True if E' is positive and E'' is positive or compatible with 0. Other values indicate a wrong
+ * model. Values of E'' near 0 are valid, because their exclusion would bias the means of many
+ * curves. */
 bool dwell_is_modulus(const wt_dwell_moduli *moduli);
-/* A dwell or a modulation with samples. */
+/* True for a dwell or a modulation with samples. */
 bool dwell_is_held(const wt_segment *segment);
 
 #endif

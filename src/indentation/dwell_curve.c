@@ -1,4 +1,4 @@
-/* The held segments of one force curve as one history, and the modulations in it.
+/* History of the held segments of one force curve, and their modulations.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "indentation/dwell.h"
 
@@ -10,9 +10,9 @@
 #include <math.h>
 #include <stdlib.h>
 
-static const double pi = 3.14159265358979323846; /* to the digits of a double */
-/* Frequencies of one drive in contact and in air, relative; and an amplitude that is small beside
- * the indentation: of a force as depth^(3/2) a fifth changes the sine by 0.1 %. */
+static const double pi = 3.14159265358979323846; /* double precision */
+/* Relative difference of two frequencies of one drive in contact and in air. Largest amplitude over
+ * indentation: at a fifth, a force ~ depth^(3/2) changes the sine by 0.1 %. */
 static const double same_drive = 0.01, small = 0.2;
 
 typedef struct history {
@@ -25,7 +25,7 @@ bool dwell_is_held(const wt_segment *s)
     return (s->kind == WT_SEGMENT_DWELL || s->kind == WT_SEGMENT_MODULATION) && s->n_points > 1;
 }
 
-/* Samples of a segment behind those of a history, with times that go on; false where it lacks time,
+/* Appends the samples of a segment with continuous times. Returns false if the segment lacks time,
  * height or force. */
 static bool add_samples(const wt_segment *s, const wt_cantilever *lever, double direction,
                         history *to)
@@ -34,8 +34,8 @@ static bool add_samples(const wt_segment *s, const wt_cantilever *lever, double 
                  *force = segment_force(s, lever, to->scratch + s->n_points);
     if (time == NULL || height == NULL || force == NULL || s->n_points < 2)
         return false;
-    /* Times of a curve go on by themselves; those of a segment begin a step of the one before after
-     * its last sample. */
+    /* Times of a curve are continuous already. Times of a segment continue one time step after the
+     * last sample of the previous segment. */
     double shift = 0;
     if (to->n > 1) {
         const double last = to->time[to->n - 1], step = last - to->time[to->n - 2];
@@ -64,7 +64,8 @@ static wt_status reserve_history(history *h, const wt_force_curve *curve, wt_err
     return WT_OK;
 }
 
-/* The sine in the samples from `from` on: that of the file, else the strongest. */
+/* Fits the sine in the samples from `from` on, at the frequency of the file or else at the
+ * strongest one. */
 static wt_status find_sine(const wt_segment *s, const history *h, size_t from, dwell_modulated *to,
                            wt_error *err)
 {
@@ -81,7 +82,7 @@ static wt_status find_sine(const wt_segment *s, const history *h, size_t from, d
     return WT_OK;
 }
 
-/* Modulations out of contact: before the approach, or behind the retract. */
+/* Finds modulations out of contact, before the approach or after the retract. */
 static wt_status find_air(const wt_force_curve *curve, const wt_segment *approach, double direction,
                           history *h, dwell_curve *to, wt_error *err)
 {
@@ -103,7 +104,7 @@ static wt_status find_air(const wt_force_curve *curve, const wt_segment *approac
     return status;
 }
 
-/* Slope of the contact at a mean depth, over the modulus. */
+/* Slope of the contact function at a mean depth, over 1 - nu^2. */
 static double slope_at(const wt_contact_table *contact, double depth, double poisson)
 {
     double g, slope;
@@ -166,7 +167,7 @@ static wt_status tell_moduli(const wt_contact_table *contact, double poisson,
     return status;
 }
 
-/* Approach and held segments, without their sines. */
+/* Collects the approach and the held segments, without their sines. */
 static wt_status collect_history(const wt_force_curve *curve, const wt_segment *approach,
                                  const wt_segment *first, double direction, history *h,
                                  wt_dwell_history *of, dwell_curve *to, wt_error *err)

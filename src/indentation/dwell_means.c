@@ -1,4 +1,5 @@
-/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Means of the dwell moduli of several curves by frequency.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "indentation/dwell.h"
 
 #include "core/table/registry.h"
@@ -9,7 +10,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Frequencies that differ by less are one: they are set. */
+/* Frequencies with a smaller relative difference count as equal, because the user sets them. */
 static const double same_frequency = 1e-3;
 
 typedef struct place {
@@ -31,7 +32,7 @@ static int by_row(const void *a, const void *b)
     return (x->row > y->row) - (x->row < y->row);
 }
 
-/* Of n rows of one frequency, whose files stand one behind another. values: scratch. */
+/* Mean of n rows of one frequency. The rows are sorted by file. values: scratch. */
 static wt_interval mean_of(const table_view *v, const place *at, size_t n, bool loss,
                            double *values, long *units, size_t *n_units)
 {
@@ -45,7 +46,7 @@ static wt_interval mean_of(const table_view *v, const place *at, size_t n, bool 
         common += isfinite(own) ? own * own : 0;
         known += isfinite(own) ? 1 : 0;
     }
-    /* what most curves are off by alike their scatter does not show */
+    /* the scatter does not include a systematic error that most curves share */
     common = known > 0 && 2 * known >= (double)n ? common / known : (double)NAN;
     wt_interval m = wt_student_mean(values, units, n, n_units);
     double half = hypot(m.high - m.value, NORMAL_95 * sqrt(common));
@@ -92,7 +93,8 @@ wt_status dwell_means(const wt_table *moduli, dwell_mean **means, size_t *n, wt_
             to++;
         dwell_mean *m = &made[(*n)++];
         m->angular_frequency = at[from].frequency;
-        /* by frequency, what is nearly one, files interleave, and each curve would be a unit */
+        /* Sorting by nearly equal frequencies interleaves the files, and each curve would become a
+         * unit. Sort by row again. */
         qsort(at + from, to - from, sizeof *at, by_row);
         m->n = to - from;
         m->storage = mean_of(&v, at + from, m->n, false, values, units, &m->n_units);

@@ -7,12 +7,12 @@
 #include <math.h>
 #include <string.h>
 
-/* More points than that cannot be told apart in one panel. */
+/* Largest number of points in one panel; more are not distinguishable. */
 enum { LINE_POINTS = 1200, MARKER_POINTS = 220, CROWD_POINTS = 3000 };
 
 /* ---- force against displacement, a panel for each group -------------------------------------- */
 
-/* The table with the keys of group i. */
+/* Returns the table with the keys of group i. */
 static table_view keys_of_group(const figure_drawing *d, size_t i)
 {
     table_view keys = *d->table;
@@ -128,7 +128,7 @@ static void caption_force_indentation(figure_drawing *d)
 
 /* ---- modulus by group ------------------------------------------------------------------------ */
 
-/* The accepted curves of each group beside its mean. */
+/* Draws the accepted curves of each group next to its mean. */
 static void draw_modulus_groups(figure_drawing *d)
 {
     static const unsigned of_curve[] = {INDENTATION_MODULUS, INDENTATION_MODULUS_STANDARD_ERROR};

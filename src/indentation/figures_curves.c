@@ -1,13 +1,13 @@
-/* The sheet of force curves to look at, refused ones first.
+/* Sheet of selected force curves, rejected ones first.
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
 #include "report/curve_panel.h"
 
-/* More are for a sheet of their own or the page to go through them. */
+/* Largest number of curves on one sheet; separate sheets and the page show the rest. */
 enum { SHEET_CURVES = 12, SHEET_COLUMNS = 3 };
 
-/* Above the panels of one row. */
+/* Returns the largest number of title lines in one row of panels. */
 static size_t most_lines(const figure_drawing *d, const curve_list *list, size_t first, size_t n)
 {
     size_t most = 0;

@@ -1,4 +1,4 @@
-/* Figure of the modulus over the sample, where the curves were taken on a grid.
+/* Figure of the modulus over the sample for curves on a grid.
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
@@ -10,10 +10,10 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { MAP_POINTS = 9, MAP_LIMIT = 70000 }; /* fewer are no map, more no picture for a page */
+enum { MAP_POINTS = 9, MAP_LIMIT = 70000 }; /* smallest and largest number of curves of a map */
 
-/* Smallest distance of two positions that differ, 0 if there are none. What is closer than a
- * thousandth of the whole is the same position. */
+/* Returns the smallest distance between two different positions, or 0 if there are none. Positions
+ * closer than a thousandth of the range are equal. */
 static double grid_step(const table_view *table, indentation_column column)
 {
     size_t n = table->n_rows;
@@ -39,7 +39,8 @@ typedef struct map_panel {
     double step_x, step_y;
 } map_panel;
 
-/* Positions that are known, from one file: places of several files need not share an origin. */
+/* True if all positions are known and come from one file. Several files need not share an origin.
+ */
 static bool is_map(map_panel *panel)
 {
     const table_view *table = panel->table;

@@ -1,4 +1,4 @@
-/* Figure of a spot: its heights before and after an indentation, and what changed.
+/* Figure of a spot: heights before and after an indentation, and their change.
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
@@ -6,7 +6,7 @@
 
 #include <math.h>
 
-/* Smallest distance of neighbours in a column of a grid; 0 if there is none. */
+/* Returns the smallest distance of neighbours in a column of a grid, or 0 if there is none. */
 static double grid_pitch(const table_view *table, spot_map_column column)
 {
     double step = 0;
@@ -19,7 +19,7 @@ static double grid_pitch(const table_view *table, spot_map_column column)
     return step;
 }
 
-/* Cells of one column on a scale of colour, with the circle of the contact. */
+/* Draws the cells of one column in colour, with the circle of the contact. */
 static void draw_panel(figure_drawing *d, int section, const char *title)
 {
     plot_heading(d, title);
@@ -44,7 +44,7 @@ static void draw_spot_map(figure_drawing *d)
     for (size_t i = 0; i < PANELS; i++) {
         const unsigned columns[] = {SPOT_MAP_X, SPOT_MAP_Y, shown[i]};
         sections[i] = drawing_section(d, d->table, titles[i], NULL, columns, 3, 3);
-        /* Before and after share a scale. */
+        /* Both heights share one colour scale. */
         span_add_section(&colours[i < 2 ? 0 : i], d, sections[i], 2, false);
         n += sections[i] >= 0;
     }

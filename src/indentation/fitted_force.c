@@ -1,4 +1,5 @@
-/* The force of a fit along a curve, for tables and figures: elastic, with memory or with adhesion.
+/* Force of a fit along a curve for tables and figures, with viscoelasticity or adhesion where
+ * fitted.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "indentation/fitted_force.h"
 
@@ -10,7 +11,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-/* Turns elastic forces over modulus into those of rubber with memory. */
+/* Replaces elastic forces over modulus by viscoelastic forces. */
 static wt_status apply_memory(const wt_prony *spectrum, const double *time, size_t n, double *force,
                               wt_error *err)
 {
@@ -33,7 +34,8 @@ static wt_status apply_memory(const wt_prony *spectrum, const double *time, size
     return status;
 }
 
-/* With adhesion, at the indentation as it was measured, which a lever of no compliance holds. */
+/* Computes forces with adhesion at the measured indentation. Infinite stiffness keeps the depth
+ * fixed. */
 static wt_status apply_adhesion(const wt_indent_fit *fit, double reduced,
                                 const wt_contact_table *contact, const double *delta, size_t n,
                                 double *force, wt_error *err)
@@ -70,7 +72,7 @@ wt_status fitted_forces(const wt_indent_fit *fit, const wt_indent_options *optio
         return apply_adhesion(fit, modulus / reduced, contact, delta, n, model, err);
     wt_contact_table_eval(contact, delta, n, model, NULL);
     if (all != NULL && (known || fit->loss_power > 0)) {
-        size_t m = 0; /* those that wt_indent_curve takes */
+        size_t m = 0; /* the samples that wt_indent_curve returns */
         for (size_t i = 0; i < approach->n_points && m < n; i++)
             if (fit->direction * height[i] >= fit->contact_point.value)
                 time[m++] = all[i];

@@ -1,12 +1,12 @@
-/* The force of a fit along a curve. Internal to indentation.
+/* Force of a fit along a curve. Internal to indentation.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #ifndef WT_INDENTATION_FITTED_FORCE_H
 #define WT_INDENTATION_FITTED_FORCE_H
 
 #include "weartrack/flow.h"
 
-/* Fitted forces of the n samples of the approach in contact, in the order of wt_indent_curve, which
- * gave their indentations. time, model: [n_points of the approach], the former as scratch. */
+/* Computes the fitted forces of the n samples of the approach in contact. `delta` and the order are
+ * those of wt_indent_curve. time (scratch), model: [n_points of the approach]. */
 wt_status fitted_forces(const wt_indent_fit *fit, const wt_indent_options *options,
                         const wt_contact_table *contact, const wt_segment *approach,
                         const double *delta, size_t n, double *time, double *model,

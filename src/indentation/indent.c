@@ -1,4 +1,4 @@
-/* The indentation job: the curves of a group, what all of them say together, and its tables.
+/* Job of the indentation: the curves of a group, their combined results and tables.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "core/base/param.h"
 #include "dma/rubber.h"
@@ -18,7 +18,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Curves at once for each thread: those that are done wait for one before them that takes long. */
+/* Number of queued curves for each thread. Finished curves wait until all earlier curves are
+ * written. */
 #define CURVES_EACH 8
 #define MOST_WORKERS 64
 
@@ -32,8 +33,8 @@ static int by_modulus(const void *a, const void *b)
     return x->order < y->order ? -1 : x->order > y->order;
 }
 
-/* Reads the curve with the (lower) median modulus, the first one of equal moduli, again, now with
- * its retract segment. */
+/* Reads the representative curve again, with its retract. It has the (lower) median modulus; the
+ * first curve counts among equal moduli. */
 static wt_status add_representative(indent_task *task, wt_indent_tables *tables, wt_error *err)
 {
     qsort(task->moduli, task->n_moduli, sizeof *task->moduli, by_modulus);
@@ -75,10 +76,10 @@ static wt_status add_representative(indent_task *task, wt_indent_tables *tables,
 
 /* ---- the group ------------------------------------------------------------------------------- */
 
-/* Names few of several tips, so that a line of the result stays one. */
+/* Describes the tips of the group. The text names only a few tips, so that it fits in one line. */
 static void describe_tips(const indent_task *task, char *text, size_t size)
 {
-    enum { NAMED = 3 }; /* each fills a line of a terminal */
+    enum { NAMED = 3 }; /* each name fills a line of a terminal */
     char tip[256];
     size_t used = 0;
     if (task->n_tips < 2) {
@@ -94,8 +95,8 @@ static void describe_tips(const indent_task *task, char *text, size_t size)
         (void)snprintf(text + used, size - used, "; and %zu more", task->n_tips - NAMED);
 }
 
-/* What was given, or what all curves had in its place, which is as well known; else what their
- * files say, whose error they do not. */
+/* Returns the given value. If all curves had another value, returns this value with the relative
+ * error of the given one. The files state no error. */
 static wt_estimate value_used(wt_estimate given, double low, double high)
 {
     const double relative = given.standard_error / given.value;
@@ -151,7 +152,7 @@ static void set_keys(const indent_task *task, const flow_files *files, table_wri
     indentation_set_print(t, INDENTATION_KEY_N_REJECTED, "%zu", task->n_curves - task->n_accepted);
 }
 
-/* The spectrum of the rubber at the temperature of the curves, if it is known by one. */
+/* Finds the relaxation spectrum of the rubber at the temperature of the curves, if it has one. */
 static wt_status find_spectrum(indent_task *task, wt_error *err)
 {
     const wt_indent_job *job = task->job;
@@ -240,7 +241,8 @@ static void release_task(indent_task *task)
     (void)pthread_mutex_destroy(&task->lock);
 }
 
-/* The main number is the modulus of a curve, with the root mean square of its errors. */
+/* Reports the cost. The main number is the modulus of a curve, with the root mean square of its
+ * relative errors. */
 static void say_cost(const indent_task *task)
 {
     cost_summary cost = {.items = (double)task->n_curves,
@@ -281,7 +283,7 @@ wt_status wt_indent_group(const wt_indent_job *job, const wt_job *work, wt_inden
         status = wt_fail(err, WT_E_EMPTY, "no force curve could be read for \"%s\"", job->group);
         flow_error_add_files(&files, task.n_failed, err);
     }
-    task.rows.err = err; /* that of the last row was the error of its file */
+    task.rows.err = err; /* the last row used the error of its file */
     if (status == WT_OK)
         status =
             calibration_errors_fit(&task.common, &task.options, task.n_workers, task.scratch, err);

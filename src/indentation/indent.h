@@ -1,4 +1,4 @@
-/* Inside the indentation job: what is said of all curves together, and of the job itself.
+/* Combined results of all curves of a group, and checks of the job. Internal to indentation.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #ifndef WT_INDENTATION_INDENT_H
 #define WT_INDENTATION_INDENT_H
@@ -6,66 +6,68 @@
 #include "core/table/registry.h"
 #include "job/inputs.h"
 
-/* The contact function of a tip over all depths that curves have, of 10 pm to 0.1 mm. */
+/* Creates the contact table of a tip for depths from 10 pm to 0.1 mm. */
 wt_status indent_contact_table(const wt_tip *tip, wt_contact_table **table,
                                wt_error *err) WT_NODISCARD;
 
-/* What moduli are shifted by, where they are. */
+/* Sum over the shifts of the moduli that are not zero. */
 typedef struct indent_shifts {
     double sum;
     size_t n;
 } indent_shifts;
 
-/* The curves with a modulus. */
+/* Sums over the curves with a modulus. */
 typedef struct indent_summary {
     size_t n;
     indent_shifts bend, loss, loss_error, misfit; /* relative to the modulus */
-    size_t n_misfit;                              /* that show one */
-    size_t n_unknown;                  /* that lose what their moduli are not known to hold */
+    size_t n_misfit;                              /* curves with a significant misfit */
+    size_t n_unknown;                  /* curves with a loss of unknown effect on the modulus */
     double deepest;                    /* largest indentation [m] */
-    double (*misfits)[WT_CURVE_WAVES]; /* [n_misfits] of those that have one */
+    double (*misfits)[WT_CURVE_WAVES]; /* [n_misfits] cosines of curves that have them */
     size_t n_misfits;
-    double (*contacts)[WT_CONTACT_ESTIMATORS]; /* [n] by other estimators; NULL: not asked for */
+    double (*contacts)[WT_CONTACT_ESTIMATORS]; /* [n] contact points of other estimators; NULL if
+                                                  not requested */
 } indent_summary;
 wt_status indent_summary_add(indent_summary *to, const wt_indent_fit *fit,
                              const wt_indent_options *options, wt_error *err);
 void indent_summary_clear(indent_summary *together);
-/* What curves of such a depth cannot show, with what would, in words. */
+/* Writes the systematic errors that curves of this depth cannot show, and how to detect them. */
 void indent_systematic_errors(const wt_indent_job *job, double depth, char *text, size_t size);
-/* Says what moves all moduli alike, so that their scatter does not show it, tests the mean residual
- * and says where other estimators see contact. */
+/* Reports the shifts that all moduli share, tests the mean residual and reports the contact points
+ * of other estimators. */
 wt_status indent_summary_report(const indent_summary *together, const wt_indent_job *job,
                                 const wt_job *work, table_writer *rows, wt_error *err);
 
-/* Whether it loses work, and nothing says what that does to its modulus. */
+/* True if the curve loses work and the effect on its modulus is not known. */
 bool indent_loss_is_unknown(const wt_indent_fit *fit);
 
-/* The curves for the modulus against depth, also those that one modulus does not describe. */
+/* Curves for the modulus against depth, including curves that one modulus does not describe. */
 typedef struct indent_depths {
     wt_depth_curve *curve; /* [n] */
     size_t n;
     long n_spots;
     const char *last_spot; /* borrowed */
 } indent_depths;
-/* What a curve tells of depth, if it is asked; false, and all of it NaN: nothing. */
+/* Collects the data of a curve on the modulus against depth. Returns false and sets all members to
+ * NaN if there are none or `asked` is false. */
 bool indent_depth_curve(const wt_indent_fit *fit, const wt_force_curve *curve, bool asked,
                         wt_depth_curve *to);
 wt_status indent_depths_add(indent_depths *to, const wt_depth_curve *curve, const char *spot,
                             wt_error *err);
-/* Table "modulus_depth", if there are such curves. */
+/* Adds the table "modulus_depth" if there are such curves. */
 wt_status indent_depths_table(const indent_depths *depths, const wt_indent_job *job,
                               const wt_contact_table *contact, wt_indent_tables *tables,
                               wt_error *err);
 void indent_depths_clear(indent_depths *depths);
 
-/* Of a wt_estimate, for records: its error is below it. */
+/* Parameter check of a wt_estimate: the standard error must be below the value. */
 wt_status indent_error_check(const void *estimate, wt_error *err);
-/* A tip in words, for records; what is known of the sample stays. */
+/* Parses a tip for the parameter table. The thickness and the bond of the sample do not change. */
 wt_status indent_read_tip(const char *text, void *tip, wt_error *err);
 wt_status indent_check_tip(const void *tip, wt_error *err);
-/* The parameters, and what they say together. */
+/* Checks the parameters and their combinations. */
 wt_status indent_job_check(const wt_indent_job *job, wt_error *err);
-/* The limits of the fit in words; false if there are none. */
+/* Describes the limits of the fit. Returns false if there are none. */
 bool indent_range_text(const wt_indent_options *options, char *text, size_t size);
 
 #endif

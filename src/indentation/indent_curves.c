@@ -1,4 +1,4 @@
-/* The curves of a group: streamed from their files, fitted in parallel, written in order.
+/* Curves of a group: reads them from their files, fits them in parallel and writes them in order.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "indentation/curve_set.h"
 #include "indentation/curve_tables.h"
@@ -11,7 +11,7 @@
 #include <math.h>
 #include <string.h>
 
-/* Of curves at once, if every thread has one: it bounds memory. */
+/* Largest number of samples in the queue once each thread has a curve. It bounds the memory. */
 #define MOST_SAMPLES ((size_t)1 << 18)
 
 wt_read_options indent_read_options(indent_task *task, const flow_file *file, bool time)
@@ -78,7 +78,7 @@ static bool has_room(const indent_task *task)
            (task->n_taken < task->n_workers || task->n_samples < MOST_SAMPLES);
 }
 
-/* Reads the next curve; NULL if there is none. */
+/* Reads the next curve. Returns NULL if there is none. */
 static item *take_curve(indent_task *task)
 {
     while (task->status == WT_OK && task->source != NULL && !has_room(task))
@@ -136,7 +136,7 @@ static bool is_described_alike(const wt_tip *a, const wt_tip *b)
     return strcmp(words[0], words[1]) == 0;
 }
 
-/* What the curve was measured with, for what is said of all. */
+/* Records the calibration of the curve for the keys of the group. */
 static wt_status note_calibration(indent_task *task, const wt_cantilever *used, wt_error *err)
 {
     task->k_low = fmin(task->k_low, used->spring_constant);
@@ -155,7 +155,8 @@ static wt_status note_calibration(indent_task *task, const wt_cantilever *used, 
     return WT_OK;
 }
 
-/* What was found of a curve, and what it tells of depth if it was fitted as all are. */
+/* Writes the row of a curve. The row has data on depth only if the fit used the settings of the
+ * job. */
 static wt_status write_row(indent_task *task, const item *it, const wt_indent_options *options,
                            bool alike, wt_error *err)
 {
@@ -204,7 +205,7 @@ static wt_status write_item(indent_task *task, item *it, wt_error *err)
     status = note_calibration(task, &it->curve.cantilever, err);
     const double error = it->fit.modulus.standard_error / it->fit.modulus.value;
     task->squares += error * error;
-    if (status == WT_OK && as_fitted) /* a contact point by hand is not that of moved sources */
+    if (status == WT_OK && as_fitted) /* shifted sources do not apply to a fixed contact point */
         status =
             calibration_errors_store(&task->common, &it->curve, task->file_contact, own_tip, err);
     if (status == WT_OK && task->job->keep != NULL)
@@ -225,7 +226,7 @@ static bool is_cancelled(const indent_task *task)
     return !progress->report(progress->user, what, task->n_written + 1, task->n_of_file);
 }
 
-/* Those that are next in order. */
+/* Writes the finished curves that are next in order. */
 static void write_done(indent_task *task)
 {
     for (size_t i = 0; task->status == WT_OK && i < task->n_items; i++) {
@@ -239,12 +240,12 @@ static void write_done(indent_task *task)
         task->n_written++;
         task->n_taken--;
         task->n_samples -= it->samples;
-        i = (size_t)-1; /* the next may stand before it */
+        i = (size_t)-1; /* the next curve may have a lower index */
     }
     (void)pthread_cond_broadcast(&task->written);
 }
 
-/* With a tip of its own, whose errors are not those that the job states. */
+/* Fits one curve. The stated errors of the job do not apply to the tip of a single file. */
 static void fit_item(const indent_task *task, item *it, wt_indent_workspace *workspace)
 {
     const wt_indent_options options = indent_curve_options(task, &it->choice);
@@ -277,7 +278,7 @@ static wt_status fit_curves(void *user, size_t i, unsigned worker)
         write_done(task);
     }
     (void)pthread_mutex_unlock(&task->lock);
-    return WT_OK; /* that of the task says more */
+    return WT_OK; /* task->status has the result */
 }
 
 /* ---- one file -------------------------------------------------------------------------------- */
@@ -295,7 +296,8 @@ static wt_status read_file(indent_task *task, wt_error *err)
                                err);
     if (status == WT_OK) {
         const size_t count = wt_force_count(task->source), n = count > 0 ? count : 1;
-        for (size_t i = 0; i < task->n_items; i++) /* a file before may have failed half-way */
+        for (size_t i = 0; i < task->n_items;
+             i++) /* an earlier file may have failed in the middle */
             task->items[i].state = ITEM_FREE;
         task->n_of_file = count;
         task->n_read = task->n_written = task->n_taken = task->n_samples = 0;
@@ -331,7 +333,7 @@ static wt_status take_file(void *user, flow_file *file, size_t i, wt_error *err)
 
 wt_status indent_read_files(indent_task *task, const flow_files *files, wt_error *err)
 {
-    size_t n_failed; /* beside the curves that did */
+    size_t n_failed; /* in addition to the failed curves */
     task->n_files = files->n;
     const wt_status status = flow_files_process(files, task->work, take_file, task, &n_failed, err);
     task->n_failed += n_failed;

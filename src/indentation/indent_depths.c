@@ -1,4 +1,4 @@
-/* What the curves of a group say of the modulus against depth.
+/* Curves of a group for the modulus against depth.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "core/base/array.h"
 #include "indentation/curve_tables.h"
@@ -11,13 +11,14 @@
 
 bool indent_loss_is_unknown(const wt_indent_fit *fit)
 {
-    const bool pull = fit->adhesion_force > 0 || fit->pull_off_force > 0; /* loses work, too */
+    const bool pull =
+        fit->adhesion_force > 0 || fit->pull_off_force > 0; /* a pull loses work too */
     return fit->loss > CURVE_LEAST_LOSS && isnan(fit->loss_bias) &&
            isnan(fit->spectrum_factor.value) && !pull;
 }
 
-/* Whether the curve tells of depth. What a law misses at small depths is not in a fit from a depth
- * on. */
+/* True if the curve has data on the modulus against depth. A fit that begins at a depth lacks the
+ * misfit at small depths. */
 static bool tells_depth(const wt_indent_fit *fit)
 {
     const bool pull = fit->adhesion_force > 0 || fit->pull_off_force > 0;

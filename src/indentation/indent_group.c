@@ -1,5 +1,5 @@
-/* What is said of all curves of a group together: what moves them alike, their mean residual, and
- * where other estimators see contact.
+/* Combined results of the curves of a group: shared shifts, mean residual and contact points of
+ * other estimators.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "core/base/array.h"
 #include "core/base/number.h"
@@ -51,14 +51,14 @@ void indent_summary_clear(indent_summary *together)
     free(together->contacts);
 }
 
-/* Mean of what most moduli of the group are shifted by; 0 if not most are. */
+/* Mean of the shifts if most moduli of the group have one; else 0. */
 static double mean_shift(const indent_summary *together, const indent_shifts *all)
 {
     return 2 * all->n > together->n ? all->sum / (double)all->n : 0;
 }
 
-/* Of those of most curves, as above; NaN where most lose work, and by how much that may put the
- * moduli off is known of too few. */
+/* Mean error due to loss. It is NaN if most curves lose work and the effect is known for too few of
+ * them. */
 static double loss_error(const indent_summary *together)
 {
     const size_t known = together->loss_error.n, unknown = together->n_unknown;
@@ -67,8 +67,8 @@ static double loss_error(const indent_summary *together)
                                              : mean_shift(together, &together->loss_error);
 }
 
-/* What moves all moduli alike, so that their scatter does not show it: a bend of most baselines,
- * which is that of the piezo, and loss whose spectrum is not known. */
+/* Reports the shifts that all moduli share and that their scatter does not show: slope changes of
+ * most baselines due to the piezo, and loss of unknown spectrum. */
 static void say_shifts(const indent_summary *together, const wt_indent_job *job, const wt_job *work,
                        table_writer *rows)
 {
@@ -108,8 +108,8 @@ static void pool_curves(const indent_summary *together, const wt_indent_job *job
     const wt_curve_pool pool =
         wt_curve_pool_make((const double(*)[WT_CURVE_WAVES])together->misfits, n);
     const bool seen = pool.chance < job->options.least_chance;
-    /* What all curves miss alike does not average away; what each of them misses may be alike. Of
-     * curves of which none tells it is not known. */
+    /* A misfit that all curves share does not average out. The misfit of each curve may be shared.
+     * It is unknown if no curve determines it. */
     const bool untold = job->options.least_chance > 0 && together->misfit.n == 0 &&
                         together->n > 0 && !job->options.plain_least_squares;
     const bool alike = seen || untold || 2 * together->n_misfit > together->n;
@@ -127,7 +127,8 @@ static void pool_curves(const indent_summary *together, const wt_indent_job *job
                    job->group, n, 100 * pool.misfit, number_chance(pool.chance).text);
 }
 
-/* Of one estimator, where it found something; NaN nowhere. scratch: [n]. */
+/* Median of the contact points of one estimator where it found one; NaN if nowhere. scratch: [n].
+ */
 static double median_of(const indent_summary *together, int estimator, double *scratch)
 {
     size_t found = 0;
@@ -166,8 +167,8 @@ static wt_status say_contacts(const indent_summary *together, const wt_indent_jo
     return WT_OK;
 }
 
-/* Of a sphere pressed in by less than this share of its radius little but its roughness touches,
- * and the force of an AFM is not enough: the unit of the radius is most likely another one. */
+/* Smallest plausible indentation over the radius of a sphere. Below it only asperities touch and an
+ * AFM cannot apply the force, so the unit of the radius is probably wrong. */
 static const double least_depth_of_radius = 1.0 / 5000;
 
 static void say_radius(const indent_summary *together, const wt_indent_job *job, const wt_job *work)

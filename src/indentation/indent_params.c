@@ -10,7 +10,8 @@
 #include <stdio.h>
 #include <string.h>
 
-/* The law of a bonded layer is that of 0.5: what can be compressed gives way under the tip. */
+/* Smallest Poisson's ratio for the law of a bonded layer. The law holds for 0.5, because a
+ * compressible layer yields under the tip. */
 static const double least_bonded_poisson = 0.499;
 
 wt_indent_job wt_indent_job_defaults(void)
@@ -110,8 +111,7 @@ static const wt_param rows[] = {
 PARAM_TABLE(wt_indent_job_params, wt_indent_job, rows, wt_indent_job_defaults,
             PARAM_PART(wt_indent_params, wt_indent_job, options))
 
-/* ---- several of them together -----------------------------------------------------------------
- */
+/* ---- combinations of parameters -------------------------------------------------------------- */
 
 static wt_status check_sample(const wt_indent_job *job, wt_error *err)
 {

@@ -1,5 +1,5 @@
-/* Choices by hand: a table of them as a file, the files and curves that they are for, and the table
- * of what was applied, which is such a file again.
+/* Manual overrides: reads their table, assigns them to files and curves, and writes the applied
+ * overrides. The written table is valid input.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "indentation/manual_overrides.h"
 
@@ -21,7 +21,7 @@ static choice_values no_values(void)
     return (choice_values){(double)NAN, (double)NAN, (double)NAN, {0}};
 }
 
-/* The words of the kinds that have a value, and its limits. */
+/* Names and limits of the overrides that have a value. */
 static const wt_param rows[] = {
     {PARAM("contact-point", choice_values, contact_point, WT_Q_LENGTH, ANY_NUMBER), .unset = ""},
     {PARAM("spring-constant", choice_values, spring_constant, WT_Q_SPRING_CONSTANT, ABOVE(0)),
@@ -33,14 +33,14 @@ PARAM_LOCAL_TABLE(value_params, choice_values, rows, no_values, NO_PARTS)
 
 static const struct {
     const char *word;
-    bool of_curve, of_file; /* what it may be for */
+    bool of_curve, of_file; /* valid targets */
 } kinds[CHOICE_KINDS] = {[CHOICE_EXCLUDE] = {"exclude", true, true},
                          [CHOICE_CONTACT_POINT] = {"contact-point", true, false},
                          [CHOICE_SPRING_CONSTANT] = {"spring-constant", false, true},
                          [CHOICE_SENSITIVITY] = {"sensitivity", false, true},
                          [CHOICE_TIP] = {"tip", false, true}};
 
-/* Whose choice it is, as the place of an error. */
+/* Adds the file and the row of the override to an error. */
 static wt_status at_choice(const manual_overrides *choices, const manual_override *c, wt_error *err)
 {
     wt_error_file(err, choices->path);
@@ -78,7 +78,7 @@ static wt_status read_value(manual_override *c, const wt_indent_job *job, const 
 {
     uint64_t given = 0;
     c->values = no_values();
-    c->values.tip = job->tip; /* what is known of the sample stays */
+    c->values.tip = job->tip; /* the thickness and the bond of the sample do not change */
     if (c->kind == CHOICE_EXCLUDE)
         return c->value[0] == '\0'
                    ? WT_OK
@@ -134,7 +134,7 @@ static wt_status read_choice(const table_view *view, size_t row, const wt_indent
     return status == WT_OK ? WT_OK : at_choice(to, c, err);
 }
 
-/* A file is read by each group of a case, and is one input. */
+/* True if the file is an input already. Each group of a case reads it, but it is one input. */
 static bool is_recorded(const wt_job *work, const char *path)
 {
     for (size_t i = 0; work->provenance != NULL && i < wt_provenance_n_inputs(work->provenance);
@@ -160,7 +160,7 @@ wt_status manual_overrides_read(const wt_indent_job *job, const wt_job *work,
                        role, &choices->tables, err);
     if (status != WT_OK)
         return status;
-    /* a table by hand need not say its name */
+    /* a table written by hand need not state its name */
     const wt_table *table = wt_result_find(choices->tables, choices_schema.name);
     status = table_bind(table != NULL ? table : wt_result_table(choices->tables, 0),
                         &choices_schema, "", &view, err);
@@ -177,7 +177,7 @@ wt_status manual_overrides_read(const wt_indent_job *job, const wt_job *work,
     return status;
 }
 
-/* The file of a choice; one that has that very name before others whose paths end alike. */
+/* Finds the file of an override. An exact name takes precedence over paths with the same end. */
 static wt_status find_file(const manual_overrides *choices, manual_override *c,
                            const flow_files *files, wt_error *err)
 {
@@ -214,7 +214,7 @@ wt_status manual_overrides_bind(manual_overrides *choices, const flow_files *fil
     return status;
 }
 
-/* ---- using ----------------------------------------------------------------------------------- */
+/* ---- applying -------------------------------------------------------------------------------- */
 
 void manual_overrides_of_file(const manual_overrides *choices, const flow_file *file,
                               wt_read_options *read, const wt_contact_table **contact,
@@ -254,7 +254,7 @@ curve_choice manual_overrides_of_curve(manual_overrides *choices, const flow_fil
 
 void manual_overrides_check(const curve_choice *choice, wt_indent_fit *fit)
 {
-    enum { NOTE = 60 }; /* of it, so that the verdict of the fit has room */
+    enum { NOTE = 60 }; /* characters of the note, so that the verdict of the fit has space */
     char said[2 * sizeof fit->reason], text[4 * sizeof fit->reason];
     const char *verdict = wt_curve_verdict_id(fit->verdict);
     const bool by_hand = !isnan(choice->contact_point), some = fit->reason[0] != '\0';
@@ -275,7 +275,7 @@ void manual_overrides_check(const curve_choice *choice, wt_indent_fit *fit)
 
 /* ---- the table ------------------------------------------------------------------------------- */
 
-/* What a reader of the result should know: what was done by hand. */
+/* Reports the applied overrides to the reader of the result. */
 static void note_choices(const manual_overrides *choices, const wt_job *work)
 {
     size_t n_curves[CHOICE_KINDS] = {0}, used = 0;

@@ -1,5 +1,5 @@
-/* What the standard error of the modulus of a group consists of: the scatter of its spots, and what
- * all its curves share, which no scatter shows.
+/* Error budget of the modulus of a group: scatter of its spots and systematic errors that all
+ * curves share.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "indentation/calibration_errors.h"
 
@@ -10,12 +10,12 @@
 #include <math.h>
 #include <string.h>
 
-/* The shared ones first, then those that the curves themselves show, then the scatter. */
+/* Order: systematic errors from the calibration, systematic errors from the curves, scatter. */
 enum { LOSS = WT_COMMON_SOURCES, BEND, MISFIT, SCATTER, PARTS };
 
 typedef struct part {
     const char *words;
-    double source_error, error; /* relative, of the source and of the modulus; NaN: not known */
+    double source_error, error; /* relative errors of source and modulus; NaN if not known */
     wt_estimate gain;
     bool applies;
 } part;
@@ -28,8 +28,8 @@ TABLE_KEYS(modulus_budget, MODULUS_BUDGET, wt_estimate modulus; double df, low, 
 typedef struct budget {
     part part[PARTS];
     wt_group_summary group;
-    t_error scatter, all; /* of ln E; NaN with one spot */
-    double curves, spots; /* how one of them scatters */
+    t_error scatter, all; /* errors of ln E; NaN with one spot */
+    double curves, spots; /* standard deviations of ln E */
 } budget;
 
 static double standard_deviation(const wt_group *group)
@@ -68,7 +68,7 @@ static wt_status add_up(const wt_group_data *d, budget *b, wt_error *err)
                              d->misfit_error,
                              {1, 0, 0, "1"},
                              d->misfit_error > 0};
-    for (int i = 0; i < SCATTER; i++) /* an error whose effect is not known makes all of it so */
+    for (int i = 0; i < SCATTER; i++) /* an error of unknown effect makes the total unknown */
         if (b->part[i].applies && (b->part[i].source_error > 0 || i >= WT_COMMON_SOURCES))
             variance += b->part[i].error * b->part[i].error;
     b->scatter = (t_error){b->group.log_standard_error, b->group.df};
@@ -108,13 +108,13 @@ static void put_rows(table_writer *t, const char *group, const budget *b)
     TABLE_ADD(modulus_budget, t, group, "beside", (double)NAN, curve);
 }
 
-/* ---- in words -------------------------------------------------------------------------------- */
+/* ---- text ------------------------------------------------------------------------------------ */
 
 static void say_parts(const budget *b, char *text, size_t size)
 {
     bool said[PARTS] = {false};
     const char *before = ", of its square ";
-    for (int n = 0; n < PARTS; n++) { /* the largest first */
+    for (int n = 0; n < PARTS; n++) { /* in descending order */
         int largest = -1;
         for (int i = 0; i < PARTS; i++)
             if (!said[i] && b->part[i].applies && b->part[i].error > 0 &&

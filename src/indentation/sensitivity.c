@@ -1,5 +1,6 @@
-/* The job of deflection sensitivity: curves on a hard surface, both ways of each, their scatter,
- * and whether the surface is as hard and the detector as straight as that takes.
+/* Job of the deflection sensitivity from curves on a hard surface. It uses approach and retract,
+ * computes their scatter, and tests the stiffness of the surface and the linearity of the
+ * detector.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "core/base/param.h"
 #include "core/math/normal_quantile.h"
@@ -15,17 +16,17 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Approach and retract; those and both. */
+/* Number of directions (approach, retract) and of table rows (these and their mean). */
 enum { WAYS = 2, ROWS = 3 };
-/* Of so many curves of a file the far ones are left out. A heuristic: of fewer the usual values are
- * not known well enough to call one far. */
+/* Smallest number of curves of a file for the exclusion of outliers. This is a heuristic: fewer
+ * curves do not determine the typical values well enough. */
 enum { OUTLIER_LEAST = 8 };
 static const wt_segment_kind kinds[WAYS] = {WT_SEGMENT_APPROACH, WT_SEGMENT_RETRACT};
 
 wt_sensitivity_job wt_sensitivity_job_defaults(void)
 {
-    /* 5 %: the mean slope of such a part is off by less than half of that, which is what deflection
-     * sensitivities are repeated to (a heuristic). */
+    /* Changes of 5 % bias the mean slope by less than half of that, which is the repeatability of
+     * deflection sensitivities (a heuristic). */
     return (wt_sensitivity_job){.options = wt_slope_defaults(), .most_bend = 0.05};
 }
 
@@ -52,15 +53,15 @@ void wt_sensitivity_tables_clear(wt_sensitivity_tables *tables)
 
 /* ---- reading --------------------------------------------------------------------------------- */
 
-/* A curve and the slopes of its two ways; of a force, by the spring constant, those of the
+/* Slopes of the two branches of a curve. A force is divided by the spring constant to obtain the
  * deflection. */
 typedef struct item {
     const flow_file *file;
     long unit;
     size_t curve;
     bool there[WAYS], outlier;
-    bool volts;     /* else the signal is a deflection in metres */
-    double of_file; /* sensitivity [m/V], NaN: not said */
+    bool volts;     /* if false, the signal is a deflection in metres */
+    double of_file; /* sensitivity [m/V]; NaN if not stated */
     wt_contact_slope way[WAYS];
 } item;
 
@@ -103,8 +104,8 @@ static wt_status measure_ways(const sensitivity_task *task, const wt_force_curve
     return status;
 }
 
-/* All curves of a file by one signal. *no_signal: its first curve does not have it, none was
- * taken. */
+/* Reads all curves of a file with one signal. *no_signal is true if the first curve lacks it; then
+ * no curve is read. */
 static wt_status read_curves(sensitivity_task *task, const flow_file *file, long unit,
                              wt_input *input, wt_quantity signal, bool *no_signal, wt_error *err)
 {
@@ -143,7 +144,7 @@ static wt_status read_curves(sensitivity_task *task, const flow_file *file, long
     return status == WT_END ? WT_OK : status;
 }
 
-/* Volts of the detector, or metres where the file does not lead to them. */
+/* Reads the detector signal in volts, or the deflection in metres if the file has no volts. */
 static wt_status read_file(void *user, flow_file *file, size_t unit, wt_error *err)
 {
     sensitivity_task *task = user;
@@ -195,7 +196,7 @@ static double factor_of(const item *it, size_t way)
     return it->volts ? travel_per_signal(it, way) / it->of_file : travel_per_signal(it, way);
 }
 
-/* Curves of one file whose slope is far from that of the others, by one way. */
+/* Marks curves of one file whose slope in one direction is an outlier. */
 static void mark_outliers_of(item *items, size_t n, size_t way, double *values)
 {
     size_t m = 0;
@@ -226,8 +227,8 @@ static wt_status mark_outliers(sensitivity_task *task, wt_error *err)
     return WT_OK;
 }
 
-/* Volts tell the sensitivity, metres only what theirs is off by: a mean of both would be of curves
- * that are not those of the other numbers. */
+/* Checks that all curves use the same unit. Volts yield the sensitivity and metres its correction
+ * factor, so a common mean has no meaning. */
 static wt_status check_signals(const sensitivity_task *task, wt_error *err)
 {
     const item *volts = NULL, *metres = NULL;
@@ -283,20 +284,20 @@ static wt_status put_curves(const sensitivity_task *task, wt_table **table, wt_e
     return table_end(&t, table);
 }
 
-/* ---- all curves together --------------------------------------------------------------------- */
+/* ---- all curves combined --------------------------------------------------------------------- */
 
-/* Of the curves that have the ways of a row. */
+/* Results of the curves that have the directions of a row. */
 typedef struct group {
     size_t n, n_units;
-    wt_interval sensitivity, factor, change, difference; /* difference: retract over approach */
-    double tilt, own_error; /* of one curve alone, of the sensitivity */
-    double scatter;         /* of a unit, of the sensitivity */
-    double ways_error;      /* by the difference of the ways, of the sensitivity; NaN: not known */
+    wt_interval sensitivity, factor, change, difference; /* `difference` is retract over approach */
+    double tilt, own_error; /* error of one curve alone, relative to the sensitivity */
+    double scatter;         /* standard deviation of a unit, relative to the sensitivity */
+    double ways_error; /* relative error from the difference of the directions; NaN if not known */
     const char *verdict;
     bool refused;
 } group;
 
-/* Rows of the table; the first two are the ways themselves. */
+/* Names of the table rows; the first two are the directions. */
 static const char *const row_names[ROWS] = {"approach", "retract", "both"};
 
 typedef struct collected {
@@ -311,7 +312,7 @@ static bool is_usable(const item *it, size_t row)
     return !it->outlier && (row < WAYS ? has_way(it, row) : has_way(it, 0) && has_way(it, 1));
 }
 
-/* The change of the slope of one curve, with the error of the scatter within it. */
+/* Interval of the slope change of one curve, with the error of the scatter within it. */
 static wt_interval own_change(const item *it, size_t row, double value)
 {
     const bool both = row == WAYS;
@@ -333,7 +334,7 @@ static void decide_straight(group *g, double most)
                      : "cannot say whether the surface is hard: the slope scatters too much";
 }
 
-/* Mean over the ways of a row of what `of` takes from a curve. */
+/* Returns the mean of `of` over the directions of a row. */
 static double over_ways(const item *it, size_t row, double (*of)(const item *it, size_t way))
 {
     return row < WAYS ? of(it, row) : 0.5 * (of(it, 0) + of(it, 1));
@@ -371,10 +372,10 @@ static wt_interval mean_of(const sensitivity_task *task, size_t row, collected *
     return wt_student_mean(c->values, c->units, c->n, n_units);
 }
 
-/* What parts the ways (friction of the tip, hysteresis and creep of the piezo) is in both, and no
- * curve tells how much in each: the sensitivity lies anywhere between them. The standard deviation
- * of that about their mean is the difference over sqrt(12), about one of them over sqrt(3); an
- * interval of 95 % about the mean then holds both ways. */
+/* Standard error due to the difference of approach and retract. Friction of the tip, and hysteresis
+ * and creep of the piezo, affect both directions to an unknown extent. The sensitivity therefore
+ * lies anywhere between them. The standard deviation about their mean is the difference over
+ * sqrt(12), about one of them over sqrt(3). A 95 % interval about the mean then includes both. */
 static double ways_error(size_t row, double retract_over_approach)
 {
     const double of[ROWS] = {1, retract_over_approach, (1 + retract_over_approach) / 2};
@@ -390,7 +391,7 @@ static void widen_interval(wt_interval *i, double relative)
     i->high = i->value + high;
 }
 
-/* Without curves that have both ways the difference is not known and not held. */
+/* Adds the error of the directions. It is unknown and omitted if no curve has both directions. */
 static void add_ways_error(group groups[ROWS])
 {
     const double difference = groups[WAYS].n > 0 ? groups[WAYS].difference.value : (double)NAN;
@@ -440,12 +441,12 @@ static wt_status make_groups(const sensitivity_task *task, group groups[ROWS], w
     return status;
 }
 
-/* On an elastic surface a sphere adds a travel like deflection^(2/3) to that of the lever. What
- * this adds to the sensitivity by the change of the slope that it makes: both from a line and a
- * parabola through the part. */
+/* Relative bias of the sensitivity per slope change. On an elastic surface a sphere adds a travel ~
+ * deflection^(2/3) to that of the cantilever. The function compares a linear and a quadratic fit to
+ * the part. */
 static double sphere_share(const wt_slope_options *o)
 {
-    enum { NODES = 200 }; /* of Chebyshev; the integrand is smooth in them */
+    enum { NODES = 200 }; /* Chebyshev nodes of the smooth integrand */
     double line = 0, parabola = 0;
     for (int i = 0; i < NODES; i++) {
         const double x = (2.0 * i + 1) / NODES - 1;
@@ -456,7 +457,7 @@ static double sphere_share(const wt_slope_options *o)
     return line / (-6 * parabola);
 }
 
-/* The columns of a number, its error and the ends of its interval stand behind one another. */
+/* Sets a number, its error and the limits of its interval. Their columns must be consecutive. */
 static void put_interval(table_writer *t, sensitivity_column first, wt_interval i)
 {
     sensitivity_put(t, first, i.value);
@@ -490,7 +491,7 @@ static void put_group(table_writer *t, size_t row, const group *g, double share)
     sensitivity_put(t, SENSITIVITY_WAYS_ERROR, g->ways_error);
 }
 
-/* What other subcommands are given. */
+/* Writes options for other subcommands. */
 static void set_options(table_writer *t, const group *g)
 {
     const double share = g->sensitivity.standard_error / g->sensitivity.value;
@@ -530,7 +531,8 @@ static void set_keys(table_writer *t, const sensitivity_task *task, size_t row, 
     set_options(t, g);
 }
 
-/* The row that answers: both ways if curves have both, else what there is. */
+/* Returns the row of the result: the requested direction. If no curve has both directions, an
+ * available one is used. */
 static size_t answer_row(const sensitivity_task *task, const group groups[ROWS])
 {
     static const size_t asked[] = {

@@ -1,5 +1,6 @@
-/* The job of a spot: how rough a height image is under the tip at the depth it reached, and what
- * the indentation left there by an image taken after it. SPDX-License-Identifier: GPL-3.0-or-later
+/* Job of a spot: roughness of a height image under the tip at its depth, and the residual imprint
+ * in an image after the indentation.
+ * SPDX-License-Identifier: GPL-3.0-or-later
  */
 #include "core/base/param.h"
 #include "job/cost.h"
@@ -15,8 +16,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Steps of the position within its error to each side: 81 places, of which the largest and the
- * least are told. */
+/* Steps of the position within its error to each side. The function reports the range over 81
+ * positions. */
 enum { WITHIN = 4 };
 
 wt_spot_job wt_spot_job_defaults(void)
@@ -66,7 +67,8 @@ static double contact_radius(const wt_tip *tip, double depth)
     return slope / 2;
 }
 
-/* False where it is not measured about one of the places. */
+/* Finds the range of the roughness. Returns false if a position is not covered by measured pixels.
+ */
 static bool find_range(const wt_height_map *f, spot *s)
 {
     s->low = s->high = s->plane.rms;
@@ -109,7 +111,7 @@ static double limit_of(const wt_spot_job *job, const spot *s)
     return s->power > 0 ? job->largest_effect / (2 * s->power) : (double)NAN;
 }
 
-/* "cannot say" goes on with what would tell. */
+/* Tests the roughness against its limit. The text "cannot say" also states how to decide. */
 static void judge_roughness(const wt_spot_job *job, const wt_height_map *f, bool covered, spot *s)
 {
     const double limit = limit_of(job, s), low = s->low / job->depth, high = s->high / job->depth;

@@ -1,4 +1,5 @@
-/* What an indentation left at a spot: the image after it, laid on the one before.
+/* Residual imprint at a spot from an image after the indentation that is aligned with the image
+ * before.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "indentation/spot.h"
 
@@ -8,16 +9,16 @@
 #include <math.h>
 #include <stdlib.h>
 
-/* Fewest untouched places that tell an error; largest ratio of pixels and of sides of the images;
- * steps of the place where the change is deepest, in a contact radius, and how many of those it is
- * looked for at most. */
+/* Smallest number of reference positions. Largest ratio of pixel sizes and of image sides. Steps
+ * per contact radius of the search for the deepest change, and search distance in contact radii. */
 enum { LEAST_PLACES = 8, MOST_RATIO = 4, STEPS = 4, SEARCHED = 2 };
 
-/* The largest of 50 normal deviates, more than the discs within SEARCHED radii that have nothing in
- * common, is above one more by 4.43 in 2.5 % of all draws; one alone is by 1.96. */
+/* Factor of the 97.5 % quantile for the largest of several deviates. The largest of 50 normal
+ * deviates exceeds a further one by 4.43 in 2.5 % of cases, a single one by 1.96. At most 50
+ * independent discs fit in the search distance of two radii. */
 static const double more_of_many = 4.43 / 1.96;
 
-/* What a place has, less what untouched ones have in the mean, whose scatter is its error. */
+/* Value at the spot minus the mean of the reference positions. Their scatter is its error. */
 static wt_interval less_untouched(double value, const double *others, size_t n)
 {
     const moments m = moments_of(others, n);
@@ -26,7 +27,7 @@ static wt_interval less_untouched(double value, const double *others, size_t n)
     return (wt_interval){value - m.mean, error, value - m.mean - reach, value - m.mean + reach};
 }
 
-/* The dents of untouched places; depth and volume have room for all of them. */
+/* Measures the depressions at reference positions. depth, volume: space for all positions. */
 static wt_status measure_others(const wt_height_map *difference, const spot *s,
                                 const spot_positions *p, double *depth, double *volume, size_t *n,
                                 wt_error *err)
@@ -47,11 +48,11 @@ static wt_status measure_others(const wt_height_map *difference, const spot *s,
     return status;
 }
 
-/* Where within the error of the position the change is deepest. */
+/* Finds the deepest change within the error of the position. */
 static wt_status find_deepest(const wt_height_map *difference, const spot *s, imprint *to,
                               wt_error *err)
 {
-    enum { MOST = 24 }; /* steps to each side, a bound of time */
+    enum { MOST = 24 }; /* steps to each side; limits the run time */
     const double within = fmin(s->error, SEARCHED * s->contact);
     const int steps = (int)fmin(MOST, ceil(STEPS * within / s->contact));
     wt_status status = WT_OK;
@@ -75,7 +76,7 @@ static wt_status measure_dent(const wt_height_map *difference, const spot *s, im
                               wt_error *err)
 {
     if (s->plane.n + s->plane.missing < SPOT_LEAST_PIXELS)
-        return WT_OK; /* far more places than pixels */
+        return WT_OK; /* there are far more positions than pixels */
     const spot_positions p = spot_positions_make(difference, 2 * s->contact);
     spot_depression here;
     double *depth = malloc(2 * (p.nx * p.ny + 1) * sizeof *depth);
@@ -112,7 +113,8 @@ static void judge_shift(const imprint *to, char *verdict, size_t size)
             100 * to->shift.overlap);
 }
 
-/* Than here and than nothing: places on the lines of a dent look higher than they are. */
+/* True if the change is significantly deeper than at the spot and than 0. Positions on the lines of
+ * a depression look higher than they are. */
 static bool is_deeper_elsewhere(const imprint *to)
 {
     return to->deepest - fmax(to->depth.value, 0) >
@@ -172,7 +174,8 @@ static void judge_imprint(const wt_image *before, const spot *s, imprint *to)
                       s->error > SEARCHED * s->contact ? " within two contact radii" : "", high);
 }
 
-/* Pixels of other sizes are mended; images that have little in common are not. */
+/* Checks the image sizes. Different pixel sizes are resampled; very different images are rejected.
+ */
 static wt_status check_sizes(const wt_image *a, const wt_image *b, const char *path, wt_error *err)
 {
     const wt_height_map f = wt_height_map_of(a), g = wt_height_map_of(b);
@@ -198,13 +201,13 @@ static wt_status check_sizes(const wt_image *a, const wt_image *b, const char *p
 
 static double strain_of(const double g[2][2])
 {
-    /* The largest singular value. */
+    /* Largest singular value of the gradient. */
     const double sum = hypot(g[0][0] + g[1][1], g[1][0] - g[0][1]),
                  difference = hypot(g[0][0] - g[1][1], g[1][0] + g[0][1]);
     return 0.5 * (sum + difference);
 }
 
-/* `after` has the pixels of `before`. */
+/* Compares two images with equal pixels. */
 static wt_status compare_images(const wt_height_map *before, const wt_height_map *after,
                                 const spot *s, imprint *to, wt_error *err)
 {

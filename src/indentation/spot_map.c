@@ -1,16 +1,16 @@
-/* The heights about a spot before and after, for a figure. SPDX-License-Identifier:
- * GPL-3.0-or-later */
+/* Heights around a spot before and after an indentation, for a figure.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "indentation/spot.h"
 
 #include "core/table/table_rows.h"
 
 #include <math.h>
 
-/* Contact radii on each side of the place, so that a dent and what lies untouched are both seen;
- * most pixels along an axis, as many as a small figure shows. */
+/* Half width of the map in contact radii, so that imprint and undisturbed surface are visible. The
+ * largest number of pixels suits a small figure. */
 enum { AROUND = 5, MOST = 81 };
 
-/* The pixels that are shown of an axis. */
+/* Range of the pixels of an axis in the map. */
 typedef struct shown {
     size_t first, last, step;
 } shown;

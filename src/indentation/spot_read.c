@@ -1,4 +1,4 @@
-/* The images of a spot: which of a file, and places side by side on it.
+/* Selection of the height image in a file, and adjacent positions on it.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "indentation/spot.h"
 #include "job/height_input.h"

@@ -1,5 +1,5 @@
-/* What the curves of a group cannot show, for it leaves no residual: sizes of the tip, lever and
- * piezo as stated, and a base below the sample. With what it would do, and what would tell.
+/* Text on systematic errors that leave no residual: sizes of the tip, cantilever and piezo as
+ * stated, and a base below the sample. The text states the effect and how to detect it.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "core/base/clocale.h"
 #include "core/math/root.h"
@@ -9,11 +9,11 @@
 #include <math.h>
 #include <string.h>
 
-/* Of a modulus: what a base makes of it that is worth a word; less is in most stated errors. */
+/* Smallest relative effect of a base that is reported; most stated errors exceed a smaller one. */
 static const double base_share = 0.05;
 static const double one_degree = M_PI / 180;
-static const double tenth = 0.1; /* of a radius */
-/* Of the depth: samples of which it is a thousandth are thick for any tip. */
+static const double tenth = 0.1; /* relative step of a radius */
+/* Range of the thickness over the depth. A sample of a thousand depths is thick for any tip. */
 static const double thinnest = 0.1, thickest = 1e3;
 
 typedef struct base_search {
@@ -21,7 +21,7 @@ typedef struct base_search {
     double depth;
 } base_search;
 
-/* Rises with the logarithm of the thickness. */
+/* Returns a value that rises with the logarithm of the thickness and is 0 at the limit. */
 static double base_is_weak(double log_thickness, void *user)
 {
     base_search *s = user;
@@ -31,7 +31,7 @@ static double base_is_weak(double log_thickness, void *user)
     return base_share - (thin_sample_values(&thin, thick).g / thick.g - 1);
 }
 
-/* The thickness below which a rigid base makes the modulus larger by base_share; NaN: not known. */
+/* Thickness at which a rigid base increases the modulus by base_share; NaN if not known. */
 static double thickness_needed(const wt_tip *tip, double depth)
 {
     base_search search = {*tip, depth};
@@ -44,7 +44,7 @@ static double thickness_needed(const wt_tip *tip, double depth)
     return exp(found);
 }
 
-/* A degree more of the half-angle gives a smaller modulus. */
+/* Appends the effect of a half-angle that is larger by one degree. */
 static void say_half_angle(const wt_tip *tip, double depth, char *text, size_t size)
 {
     wt_tip wider = *tip;
@@ -59,7 +59,8 @@ static void say_half_angle(const wt_tip *tip, double depth, char *text, size_t s
         100 * (1 - g / of_wider));
 }
 
-/* Of a cap alone a radius is all but a factor of the force. */
+/* Appends the effect of a larger radius if the tip is a cap alone. There the radius is nearly a
+ * factor of the force. */
 static void say_radius(const wt_tip *tip, double depth, char *text, size_t size)
 {
     wt_tip larger = *tip;

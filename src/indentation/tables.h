@@ -1,16 +1,17 @@
-/* The columns and keys of the tables of indentation. Included by tables.h alone.
+/* Columns and keys of the tables of the indentation. Only core/table/registry.h includes this
+ * file.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #ifndef WT_INDENTATION_TABLES_H
 #define WT_INDENTATION_TABLES_H
 
-/* Those that a curve has: WT_CURVE_WAVES. */
+/* The number of cosines is WT_CURVE_WAVES. */
 #define MISFIT_WAVE(X, n)                                                                          \
     X(INDENTATION_MISFIT_WAVE_##n, "misfit_wave_" #n,                                              \
       "cosine " #n " of the residual over the contact, of the largest force; of curves that tell " \
       "of depth",                                                                                  \
       NUMBER, SHOWS(deep.misfit[n - 1]), OPTIONAL)
 
-/* A table written by hand needs the verdicts and the moduli only. */
+/* A table written by hand needs verdicts and moduli only. */
 #define INDENTATION_COLUMNS(X)                                                                     \
     X(INDENTATION_FILE, AS(file), "file of the curve", TEXT, LABEL("File"), OPTIONAL)              \
     X(INDENTATION_CURVE, AS(curve), "number of the curve in its file", NUMBER, LABEL("Curve"),     \
@@ -142,8 +143,9 @@
       "does is not known",                                                                         \
       NUMBER, SHOWS(deep.loss_error), OPTIONAL)
 
-/* Where an error of theirs is stated: relative standard error of what all curves share, and what 1
- * of it does to ln E, with the standard error of that. In the order of wt_shared_law_source. */
+/* Keys of the systematic errors if one is stated. They have the relative standard error of each
+ * source, d ln E / d ln source and its standard error. The order is that of wt_shared_law_source.
+ */
 #define INDENTATION_COMMON_KEYS(X)                                                                 \
     X(INDENTATION_KEY_LEVER_ERROR, "spring_constant_error", NUMBER, OPTIONAL)                      \
     X(INDENTATION_KEY_SENSITIVITY_ERROR, "sensitivity_error", NUMBER, OPTIONAL)                    \
@@ -157,7 +159,7 @@
     X(INDENTATION_KEY_BEND_ERROR, "bend_error", NUMBER, OPTIONAL)                                  \
     X(INDENTATION_KEY_MISFIT_ERROR, "misfit_error", NUMBER, OPTIONAL)
 
-/* What the key tip begins with where curves of the group had different tips. */
+/* Start of the key tip if the curves of a group had different tips. */
 #define INDENTATION_SEVERAL "several: "
 
 #define INDENTATION_KEYS(X)                                                                        \
@@ -188,7 +190,7 @@
       "piezo displacement towards the sample, from the contact point", SI(LENGTH))                 \
     X(FORCE_DISPLACEMENT_FORCE, AS(force), "force above the baseline at contact", SI(FORCE))
 
-/* One of each for every group. */
+/* Each group has one of each key. */
 #define FORCE_DISPLACEMENT_KEYS(X)                                                                 \
     X(FORCE_DISPLACEMENT_KEY_CURVE, "curve_", TEXT, OPTIONAL)                                      \
     X(FORCE_DISPLACEMENT_KEY_CONTACT_POINT, "contact_point_", SI(LENGTH), OPTIONAL)                \
@@ -202,7 +204,7 @@
       SI(FORCE))
 #define FORCE_INDENTATION_KEYS(X)
 
-/* One block for each curve. */
+/* Each curve is a block. */
 #define CURVES_COLUMNS(X)                                                                          \
     X(CURVES_GROUP, AS(group), "bulk or track", TEXT)                                              \
     X(CURVES_FILE, AS(file), "file of the curve", TEXT)                                            \
@@ -220,7 +222,7 @@
     X(CURVES_RESIDUAL, AS(residual), "force less the fit", SI(FORCE))
 #define CURVES_KEYS(X)
 
-/* As a file: what was chosen by hand. As a result: of it what was applied. */
+/* As input the table lists manual overrides; as a result it lists the applied ones. */
 #define CHOICES_COLUMNS(X)                                                                         \
     X(CHOICES_GROUP, AS(group), "group that it is for", TEXT, LABEL("Group"), OPTIONAL)            \
     X(CHOICES_FILE, AS(file), "file, or the end of its path", TEXT, LABEL("File"))                 \
@@ -234,7 +236,7 @@
       OPTIONAL)
 #define CHOICES_KEYS(X)
 
-/* The rows of a group have the same numbers of curves and units. */
+/* The rows of a group have equal numbers of curves and units. */
 #define MODULUS_DEPTH_COLUMNS(X)                                                                   \
     X(MODULUS_DEPTH_GROUP, AS(group), "bulk or track", TEXT, LABEL("Group"))                       \
     X(MODULUS_DEPTH_DEPTH, AS(depth), "indentation depth", SI(INDENTATION), LABEL("Depth"))        \
@@ -245,7 +247,7 @@
     X(MODULUS_DEPTH_N, AS(n), "number of curves", NUMBER, LABEL("Curves"))                         \
     X(MODULUS_DEPTH_UNITS, AS(n_units), "spots, or curves where fewer than three spots are",       \
       NUMBER, LABEL("Units"))
-/* One of each for every group. */
+/* Each group has one of each key. */
 #define MODULUS_DEPTH_KEYS(X)                                                                      \
     X(MODULUS_DEPTH_KEY_CHANGES, "changes_", TEXT, SHOWS(changes), OPTIONAL)                       \
     X(MODULUS_DEPTH_KEY_READING, "reading_", TEXT, SHOWS(reading), OPTIONAL)                       \

@@ -1,9 +1,10 @@
-/* The columns and keys of the tables that calibrate the lever. Included by tables.h alone.
+/* Columns and keys of the tables for the calibration of the cantilever. Only core/table/registry.h
+ * includes this file.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #ifndef WT_INDENTATION_TABLES_CALIBRATION_H
 #define WT_INDENTATION_TABLES_CALIBRATION_H
 
-/* One way of a curve in each row. */
+/* Each row is one branch of a curve. */
 #define SENSITIVITY_CURVES_COLUMNS(X)                                                              \
     X(SENSITIVITY_CURVES_FILE, "file", "file of the curve", TEXT)                                  \
     X(SENSITIVITY_CURVES_CURVE, "curve", "number of the curve in its file", NUMBER)                \
@@ -72,7 +73,7 @@
     X(SENSITIVITY_KEY_N_CURVES, "n_curves", PLAIN)                                                 \
     X(SENSITIVITY_KEY_N_LEFT_OUT, "n_left_out", PLAIN)
 
-/* A lever in each row. */
+/* Each row is one cantilever. */
 #define THERMAL_COLUMNS(X)                                                                         \
     X(THERMAL_FILE, "file", "file of the spectrum", TEXT, LABEL("File"))                           \
     NUMBER_AND_INTERVAL(X, THERMAL_SPRING_CONSTANT, "spring_constant", "spring constant",          \

@@ -1,15 +1,15 @@
-/* The columns and keys of the tables of dwells. Included by tables.h alone.
+/* Columns and keys of the tables of dwells. Only core/table/registry.h includes this file.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #ifndef WT_INDENTATION_TABLES_DWELL_H
 #define WT_INDENTATION_TABLES_DWELL_H
 
-/* A number with its error; empty where it is not known. */
+/* A number with its standard error; both may be empty. */
 #define NUMBER_AND_ERROR(X, ID, name, words, unit, heading, ...)                                   \
     X(ID, name, words, unit, LABEL(heading), STANDARD_ERROR(ID), SPARSE, __VA_ARGS__)              \
     X(ID##_STANDARD_ERROR, name "_standard_error", "its standard error", unit, LABEL("± stat."),   \
       SPARSE)
 
-/* A dwell of a curve in each row. */
+/* Each row is a dwell of a curve. */
 #define DWELL_COLUMNS(X)                                                                           \
     X(DWELL_FILE, "file", "file of the curve", TEXT, LABEL("File"))                                \
     X(DWELL_CURVE, "curve", "number of the curve in its file", NUMBER, LABEL("Curve"))             \
@@ -46,7 +46,7 @@
       OPTIONAL)                                                                                    \
     X(DWELL_KEY_UNITS, "n_units", PLAIN, OPTIONAL)
 
-/* Means over times that grow by one factor; a dwell is a block. */
+/* Means over logarithmic time intervals; each dwell is a block. */
 #define DWELL_POINTS_COLUMNS(X)                                                                    \
     X(DWELL_POINTS_TIME, AS(time), "time from contact", SI(TIME))                                  \
     X(DWELL_POINTS_FORCE, AS(force), "force above the baseline", SI(FORCE))                        \
@@ -59,7 +59,7 @@
     X(DWELL_POINTS_CURVE, AS(curve), "number of the curve in its file", NUMBER)
 #define DWELL_POINTS_KEYS(X)
 
-/* A frequency of a dwell in each row; a dwell is a block. */
+/* Each row is a frequency of a dwell; each dwell is a block. */
 #define DWELL_MODULI_COLUMNS(X)                                                                    \
     X(DWELL_MODULI_FILE, AS(file), "file of the curve", TEXT)                                      \
     X(DWELL_MODULI_CURVE, AS(curve), "number of the curve in its file", NUMBER)                    \
@@ -79,7 +79,7 @@
       SHOWS(moduli.loss_common_error))
 #define DWELL_MODULI_KEYS(X)
 
-/* Those of several curves against the DMA; a group is a block. */
+/* Means over several curves compared with the DMA; each group is a block. */
 #define DWELL_DMA_COLUMNS(X)                                                                       \
     X(DWELL_DMA_GROUP, AS(group), "bulk or track", TEXT, LABEL("Group"))                           \
     X(DWELL_DMA_ANGULAR_FREQUENCY, IN(mean, angular_frequency), "angular frequency",               \

@@ -1,5 +1,6 @@
-/* The columns and keys of the table "spot": a place of a height image under a tip. Included by
- * tables.h alone. SPDX-License-Identifier: GPL-3.0-or-later */
+/* Columns and keys of the table "spot": a position of a height image under a tip. Only
+ * core/table/registry.h includes this file.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #ifndef WT_INDENTATION_TABLES_SPOT_H
 #define WT_INDENTATION_TABLES_SPOT_H
 

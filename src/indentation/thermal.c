@@ -1,4 +1,4 @@
-/* The job of thermal noise: spectra of levers at rest to spring constants.
+/* Job of the thermal noise method: spectra of free cantilevers to spring constants.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "core/base/clocale.h"
 #include "core/base/param.h"
@@ -12,25 +12,27 @@
 #include <stdlib.h>
 #include <string.h>
 
-static const double boltzmann = 1.380649e-23;  /* [J/K], exact */
-static const double room_temperature = 298.15; /* [K]; 10 K more are 3 % of a spring constant */
-/* Of a rectangular lever read at its end: the first mode has 0.971 of the thermal energy, and the
- * slope of its free end is 1.09 times that of a pressed one for the same deflection; together
- * 0.817. Butt and Jaschke 1995. */
+static const double boltzmann = 1.380649e-23; /* [J/K], exact */
+static const double room_temperature =
+    298.15; /* [K]; a difference of 10 K changes a spring constant by 3 % */
+/* Constants of a rectangular cantilever with the laser at its end. The first mode has 0.971 of the
+ * thermal energy. The slope of the free end is 1.09 times that of a loaded end at equal deflection.
+ * Together the factor is 0.817 (Butt and Jaschke 1995). */
 static const double first_mode = 0.971, free_over_pressed = 1.09;
-/* A heuristic: no interval is told of a misfit that one good spectrum in a thousand has. */
+/* Significance level of the misfit below which no interval is reported. This is a heuristic: one
+ * good spectrum in a thousand has such a misfit. */
 static const double least_chance = 1e-3;
-/* A heuristic: the averages by the scatter are those of the file up to a factor, for windows share
- * bins and instruments count differently. */
+/* Largest ratio of the stated averages to those from the scatter. This is a heuristic: windows
+ * share bins, and instruments count averages differently. */
 static const double averages_agree = 2;
-/* The scatter between spectra, where there are so many: of two it has one degree of freedom, and
- * the interval would be 13 standard errors wide. */
+/* Smallest number of spectra for an interval from their scatter. The interval of two spectra, with
+ * one degree of freedom, is 13 standard errors wide. */
 enum { LEAST_SPECTRA = 3 };
-/* Two spring constants of one lever contradict one another beyond this factor. A heuristic: thermal
- * noise, Sader's method and plan view are each good to 10 or 20 % where nothing is wrong, so that
- * this is two standard deviations of their ratio at least. */
+/* Factor beyond which two spring constants of one cantilever are inconsistent. This is a heuristic:
+ * thermal noise, Sader's method and the plan view are each accurate to 10 to 20 %. The factor is at
+ * least two standard deviations of their ratio. */
 static const double contradiction = 1.5;
-/* Length over width of the levers on which Sader, Chon and Mulvaney tried their formula. */
+/* Range of length over width in which Sader, Chon and Mulvaney tested their formula. */
 static const double least_slender = 3.3, most_slender = 13.7;
 
 wt_thermal_job wt_thermal_job_defaults(void)
@@ -87,10 +89,10 @@ typedef struct cantilever_result {
     wt_noise_spectrum spectrum;
     wt_thermal fit;
     wt_estimate temperature;
-    double sensitivity;             /* 1 of a spectrum in metres */
-    double constant, common, error; /* relative errors: of all spectra alike, of this one */
-    wt_estimate sader;              /* by Sader's method; NaN: not asked for */
-    char contradiction[512];        /* to another spring constant; "" = none */
+    double sensitivity;             /* 1 for a spectrum in metres */
+    double constant, common, error; /* relative errors: systematic, and of this spectrum */
+    wt_estimate sader;              /* by Sader's method; NaN if not requested */
+    char contradiction[512];        /* inconsistency with another spring constant; "" if none */
     char note[768];
 } cantilever_result;
 
@@ -138,8 +140,8 @@ static void find_temperature(const wt_thermal_job *job, const wt_job *work, cons
                                               : "says a temperature below absolute zero");
 }
 
-/* What the fit does not take: the mean, which no noise is, is no loss; a density that is missing,
- * or 0, may be. */
+/* Reports excluded points. The point at 0 Hz is no noise and its exclusion is normal; a missing or
+ * zero density may be an error. */
 static void say_left_out(const wt_job *work, const flow_file *file, cantilever_result *l)
 {
     const wt_noise_spectrum *s = &l->spectrum;
@@ -190,14 +192,14 @@ static void find_spring_constant(const wt_thermal_job *job, cantilever_result *l
     l->common = hypot(of_temperature, 2 * job->sensitivity_error);
 }
 
-/* ---- beside it: Sader's method, the file ----------------------------------------------------- */
+/* ---- comparison: Sader's method, the file ---------------------------------------------------- */
 
 static wt_estimate estimate_of(wt_interval i, const char *unit)
 {
     return (wt_estimate){i.value, i.standard_error, 0, unit};
 }
 
-/* Of the resonance and the quality factor of the fit. */
+/* Computes the spring constant by Sader's method from resonance and quality factor of the fit. */
 static void find_sader(const wt_thermal_job *job, cantilever_result *l)
 {
     const wt_estimate f = estimate_of(l->fit.resonance, "Hz"), q = estimate_of(l->fit.quality, "1"),
@@ -223,7 +225,7 @@ static void find_sader(const wt_thermal_job *job, cantilever_result *l)
         add_note(l, "Sader's method was tried on levers 3.3 to 13.7 times as long as wide");
 }
 
-/* What would make the spring constant of the noise `ratio` times another one. */
+/* Describes possible causes if the spring constant from noise is `ratio` times another one. */
 static void say_contradiction(cantilever_result *l, const char *other, double ratio)
 {
     const bool small = ratio < 1;
@@ -285,7 +287,7 @@ static bool has_interval(const cantilever_result *l)
     return l->fit.found && !(l->fit.chance < least_chance);
 }
 
-/* The columns of a number, its error and the ends of its interval stand behind one another. */
+/* Sets a number, its error and the limits of its interval. Their columns must be consecutive. */
 static void put_interval(table_writer *t, thermal_column first, wt_interval i, bool known)
 {
     thermal_put(t, first, i.value);
@@ -331,12 +333,13 @@ static void put_lever(table_writer *t, const flow_file *file, const cantilever_r
     thermal_put(t, THERMAL_CHANCE, f->chance);
 }
 
-/* Of one spectrum its own; of several the mean, with the scatter between them from three on. */
+/* Mean spring constant of all spectra. Its error is that of the spectrum, or from three spectra on
+ * the scatter between them. */
 static wt_estimate all_together(const cantilever_result *levers, size_t n, double *scatter)
 {
     wt_estimate k = {(double)NAN, (double)NAN, 0, "N/m"};
     double sum = 0, own = 0, squares = 0, common = 0, found = 0;
-    bool known = true; /* what a spectrum that is no oscillator's is off by may be in all of them */
+    bool known = true; /* a departure from the oscillator may be systematic */
     *scatter = (double)NAN;
     for (size_t i = 0; i < n; i++)
         if (levers[i].fit.found) {

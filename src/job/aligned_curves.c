@@ -1,5 +1,5 @@
-/* Force curves from their contact points: what was fitted, applied to every sample as it was
- * measured. SPDX-License-Identifier: GPL-3.0-or-later */
+/* Aligns force curves at their contact points: the fitted contact and baseline are applied to every
+ * sample. SPDX-License-Identifier: GPL-3.0-or-later */
 #include "job/aligned_curves.h"
 
 #include "core/data/force_curve.h"
@@ -9,8 +9,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* By how much the largest force may differ from that of the result: the fit may leave samples at
- * the end out, but not another calibration in. */
+/* Largest relative difference of the maximum force from that of the result. The fit may exclude
+ * samples at the end of the curve; a larger difference means another calibration. */
 static const double alike = 0.02;
 
 wt_status contact_points_read(const char *path, const wt_job *work, contact_points *points,
@@ -30,18 +30,18 @@ void contact_points_clear(contact_points *points)
     *points = (contact_points){NULL, NULL};
 }
 
-/* Where the contact is, and what the baseline is there. */
+/* Contact point of a curve, and its baseline at this point. */
 typedef struct contact_of_curve {
     double point, offset, tilt, max_force;
 } contact_of_curve;
 
-/* Rows of a curve, of which the one that has the very name of the file comes before others whose
- * paths end alike. */
+/* Search for the row of a curve. A row with the exact name of the file takes precedence over rows
+ * whose paths have the same end. */
 typedef struct row_search {
     const flow_file *file;
     size_t curve;
     flow_naming best;
-    bool twice; /* there is another as good */
+    bool twice; /* another row matches equally well */
     contact_of_curve contact;
     char verdict[64];
 } row_search;
@@ -106,7 +106,7 @@ static void name_channel(wt_channel *channel, wt_quantity quantity, const char *
     snprintf(channel->unit, sizeof channel->unit, "%s", wt_quantity_unit(quantity));
 }
 
-/* Adds one segment; without height or force it is left out. force: scratch [n_points]. */
+/* Adds one segment; a segment without height or force is skipped. force: scratch [n_points]. */
 static wt_status add_segment(const wt_segment *from, const wt_cantilever *lever, double direction,
                              const contact_of_curve *contact, double *force, wt_force_curve *to,
                              wt_error *err)
@@ -143,7 +143,7 @@ static wt_status add_segment(const wt_segment *from, const wt_cantilever *lever,
     return WT_OK;
 }
 
-/* +1: the height rises into the sample, as the fit finds it. */
+/* Returns +1 if the height increases into the sample, else -1, like the fit. */
 static double direction_of(const wt_segment *approach)
 {
     const double *height = approach != NULL ? segment_height(approach) : NULL;

@@ -1,5 +1,4 @@
-/* The convert job: an instrument file to tables in SI units.
- * SPDX-License-Identifier: GPL-3.0-or-later */
+/* Converts an instrument file to tables in SI units. SPDX-License-Identifier: GPL-3.0-or-later */
 #include "job/aligned_curves.h"
 #include "job/inputs.h"
 
@@ -16,7 +15,7 @@ typedef struct conversion {
     wt_input *input;
     wt_read_options read;
     wt_table_sink sink;
-    wt_curve_sink curves; /* or NULL */
+    wt_curve_sink curves; /* NULL if curves are converted to tables */
     contact_points contact;
     void *user;
 } conversion;
@@ -26,7 +25,8 @@ wt_convert_job wt_convert_job_defaults(void)
     return (wt_convert_job){.read = wt_read_defaults()};
 }
 
-/* The channels of all segments, each quantity once: the further columns of the table. */
+/* Lists the channels of all segments, one for each quantity. They are additional columns of the
+ * table. */
 static size_t curve_columns(const wt_force_curve *curve, const wt_channel *columns[WT_Q_COUNT])
 {
     size_t n = 0;
@@ -48,7 +48,7 @@ static void set_curve_key(table_writer *t, force_curve_key key, double value)
         force_curve_set_value(t, key, value, 0, 0);
 }
 
-/* Ends a table and hands it on. */
+/* Ends a table and passes it to the caller. */
 static wt_status hand_on_table(const conversion *c, table_writer *t, wt_error *err)
 {
     wt_table *table = NULL;
@@ -89,7 +89,7 @@ static wt_status send_curve(const conversion *c, const wt_force_curve *curve, wt
     return hand_on_table(c, &t, err);
 }
 
-/* A curve that cannot be read is recorded and the others go on. */
+/* A curve that cannot be read is recorded as a failure, and the conversion continues. */
 static wt_status convert_force(const conversion *c, wt_error *err)
 {
     wt_force_source *source = NULL;
@@ -124,7 +124,7 @@ static wt_status convert_force(const conversion *c, wt_error *err)
     return status;
 }
 
-/* A point of any sweep; what was not measured is NaN. */
+/* Point of any sweep; values without a measurement are NaN. */
 typedef struct dma_point {
     double temperature, angular_frequency, storage, loss, strain, factor;
     const char *sample;
@@ -135,13 +135,13 @@ static double value_or_nan(const double *values, size_t i)
     return values != NULL ? values[i] : (double)NAN;
 }
 
-/* The table, as far as columns and rows are known. */
+/* State of the table of a sweep. */
 typedef struct dma_table {
     table_writer writer;
     sweep_column storage, loss;
     wt_loading loading;
-    uint64_t used; /* bits of the columns that some point has */
-    bool counting; /* nothing is written yet */
+    uint64_t used; /* bits of the columns with at least one value */
+    bool counting; /* first pass: nothing is written */
 } dma_table;
 
 static void put_known(dma_table *t, sweep_column column, double value)
@@ -211,7 +211,7 @@ static void put_sweep(dma_table *t, const wt_sweep *sweep)
     }
 }
 
-/* Columns that no point has are left out. */
+/* Sends a table without empty columns. */
 static wt_status send_sweep(const conversion *c, const wt_sweep *sweep, wt_error *err)
 {
     static const sweep_column maybe[] = {SWEEP_ANGULAR_FREQUENCY,
@@ -227,7 +227,7 @@ static wt_status send_sweep(const conversion *c, const wt_sweep *sweep, wt_error
                                          SWEEP_STRAIN,
                                          SWEEP_LOSS_FACTOR,
                                          SWEEP_SAMPLE};
-    /* by what was measured, in tension and in shear */
+    /* by type of loading, in tension and in shear */
     static const sweep_column moduli[][2] = {
         [WT_OSCILLATION] = {SWEEP_STORAGE_MODULUS, SWEEP_SHEAR_STORAGE_MODULUS},
         [WT_RELAXATION] = {SWEEP_RELAXATION_MODULUS, SWEEP_SHEAR_RELAXATION_MODULUS},
@@ -332,7 +332,7 @@ static wt_status convert_spectrum(const conversion *c, wt_error *err)
     return status;
 }
 
-/* In the order in which a file that holds several kinds is asked. */
+/* Kinds of data, in the order in which a file with several kinds is tried. */
 static const struct {
     const char *word;
     unsigned kind;
@@ -386,7 +386,7 @@ wt_status wt_convert_file(const wt_convert_job *job, const char *path, const wt_
         wt_input_close(c.input);
         return status;
     }
-    /* An .nid file may hold images and curves: the first kind that has data counts. */
+    /* An .nid file may contain images and curves; the first kind with data is used. */
     status = WT_E_EMPTY;
     for (size_t k = 0; k < COUNT_OF(kinds) && status == WT_E_EMPTY; k++) {
         if ((c.file.format->kinds & kinds[k].kind) == 0 ||

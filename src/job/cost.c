@@ -1,4 +1,4 @@
-/* What each stage of the work costs. SPDX-License-Identifier: GPL-3.0-or-later */
+/* Records the cost of each stage of a job. SPDX-License-Identifier: GPL-3.0-or-later */
 #include "job/cost.h"
 
 #include "core/base/array.h"
@@ -23,9 +23,9 @@ typedef struct cost_part_row {
 } cost_part_row;
 
 struct wt_cost {
-    bool timed, failed, open; /* open: the last stage goes on */
+    bool timed, failed, open; /* open: the last stage has not ended */
     unsigned threads;
-    double wall, cpu; /* of the clocks at the beginning of all */
+    double wall, cpu; /* clocks at the beginning */
     atomic_size_t nodes, files, bytes;
     cost_row *rows;
     size_t n_rows;
@@ -54,7 +54,7 @@ void wt_cost_free(wt_cost *cost)
     free(cost);
 }
 
-/* ---- counting -------------------------------------------------------------------------------- */
+/* ---- counters -------------------------------------------------------------------------------- */
 
 void cost_add_nodes(wt_cost *cost, size_t nodes)
 {
@@ -156,7 +156,7 @@ void cost_set_part(wt_cost *cost, const char *words, double seconds)
     cost_part_row *parts =
         cost != NULL ? array_grow(cost->parts, cost->n_parts, sizeof *parts) : NULL;
     if (parts == NULL)
-        return; /* as if without times */
+        return; /* reported like a part without times */
     cost->parts = parts;
     parts[cost->n_parts++] = (cost_part_row){words, seconds};
 }

@@ -1,38 +1,38 @@
-/* What each stage of the work costs, for the table "cost". A job whose work has no cost counts
- * nothing. Internal to job. SPDX-License-Identifier: GPL-3.0-or-later */
+/* Records the cost of each stage, for the table "cost". A job without a cost object counts nothing.
+ * Internal to job. SPDX-License-Identifier: GPL-3.0-or-later */
 #ifndef WT_JOB_COST_H
 #define WT_JOB_COST_H
 
 #include "weartrack/flow.h"
 
-/* What a job says of itself at its end; 0: nothing to say. Jobs within a job say nothing. */
+/* Report of a job at its end; 0 for unknown numbers. Jobs within a job do not report. */
 typedef struct cost_summary {
     double items;
-    double tolerance_asked, error_estimated; /* relative, numerical */
-    wt_estimate number;                      /* the main one, with its standard error */
+    double tolerance_asked, error_estimated; /* relative numerical errors */
+    wt_estimate number;                      /* main result with its standard error */
 } cost_summary;
 void cost_report(const wt_job *work, cost_summary summary);
 
-/* Adds to the stage; from any thread. */
+/* Add to the counters of the current stage; thread-safe. */
 void cost_add_nodes(wt_cost *cost, size_t nodes);
 void cost_add_file(wt_cost *cost, size_t bytes);
 
-/* A stage with the reason why it runs, of which a copy is kept; it ends with the next one. */
+/* Begins a stage and ends the one before. The reason why it runs is copied. */
 void cost_begin(wt_cost *cost, const char *stage, const char *because);
 void cost_end(wt_cost *cost);
-/* Another reason for the last stage. */
+/* Replaces the reason of the last stage. */
 void cost_explain(wt_cost *cost, const char *because);
-/* A stage that does not run. */
+/* Adds a stage that does not run. */
 void cost_leave_out(wt_cost *cost, const char *stage, const char *because);
 
-/* Elapsed time of a part of the work that a later stage asks for by its words, which are borrowed;
- * NaN if it is not known. */
-double cost_clock(const wt_cost *cost); /* NaN: without times */
+/* Elapsed time [s] of a part of the work, which a later stage requests by its name. The name is
+ * borrowed. NaN if it is unknown. */
+double cost_clock(const wt_cost *cost); /* NaN without times */
 void cost_set_part(wt_cost *cost, const char *words, double seconds);
 double cost_part(const wt_cost *cost, const char *words);
 
-/* Of the stages that ran so far and whose names begin so: elapsed time, and the largest numerical
- * error, relative; NaN if not known. */
+/* Sum over the finished stages whose names begin with `beginning`: elapsed time [s] and largest
+ * relative numerical error; NaN if unknown. */
 typedef struct cost_of_stages {
     double seconds, error;
 } cost_of_stages;

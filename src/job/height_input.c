@@ -1,10 +1,10 @@
-/* Which image of a file has the heights. SPDX-License-Identifier: GPL-3.0-or-later */
+/* Selects the height image of a file. SPDX-License-Identifier: GPL-3.0-or-later */
 #include "job/height_input.h"
 
 #include <stdlib.h>
 #include <string.h>
 
-/* What is in metres, but of the lever. */
+/* True for a signal of the cantilever, which may also be in metres. */
 static bool is_of_lever(const wt_image *image)
 {
     return strncmp(image->name, "Deflection", strlen("Deflection")) == 0 ||

@@ -1,4 +1,4 @@
-/* The files of a job: listing, opening with provenance, recording what failed.
+/* Input files of a job. The functions list and open them, and record failures.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "job/inputs.h"
 #include "job/cost.h"
@@ -13,8 +13,8 @@
 
 wt_job wt_job_defaults(void)
 {
-    /* As many as a master curve keeps of its material: their scatter is known to 5 % then, what is
-     * a line of a stated error better. */
+    /* The same number as the draws of a master curve. The relative uncertainty of their standard
+     * deviation is 5 %, which is better than most stated errors. */
     enum { DRAWS = 200 };
     return (wt_job){.tolerance = wt_friction_defaults().tolerance, .seed = 1, .replicates = DRAWS};
 }
@@ -41,7 +41,7 @@ wt_table *wt_failures_new(void)
     return table_end(&t, &table) == WT_OK ? table : NULL;
 }
 
-/* `path` without `folder` in front of it. */
+/* Returns `path` without the prefix `folder`. */
 static const char *path_below(const char *folder, const char *path)
 {
     size_t length = folder == NULL ? 0 : strlen(folder);
@@ -95,7 +95,7 @@ wt_status wt_job_failed(const wt_job *work, const char *file, wt_status status, 
                         wt_error *err)
 {
     if (flow_may_continue(work, status)) {
-        failure->file[0] = '\0'; /* it has its own column */
+        failure->file[0] = '\0'; /* the table of failures has a column for it */
         return flow_add_failure(work, file, failure, err);
     }
     wt_error_file(failure, file);
@@ -104,9 +104,9 @@ wt_status wt_job_failed(const wt_job *work, const char *file, wt_status status, 
     return status;
 }
 
-/* ---- listing --------------------------------------------------------------------------------- */
+/* ---- lists of files -------------------------------------------------------------------------- */
 
-/* Names between the slashes of a path. */
+/* Returns the number of components of a path. */
 static size_t path_depth(const char *path)
 {
     size_t n = 0;
@@ -117,7 +117,7 @@ static size_t path_depth(const char *path)
     return n;
 }
 
-/* Takes `path`, also on failure. */
+/* Takes ownership of `path`, also on failure. */
 static wt_status files_add(flow_files *files, char *path, const char *pattern,
                            const wt_file_set *set, wt_error *err)
 {
@@ -142,7 +142,7 @@ static int by_path(const void *a, const void *b)
 
 static void keep_path(void *path)
 {
-    (void)path; /* it belongs to the list */
+    (void)path; /* the list owns the paths */
 }
 
 static wt_status list_pattern(const wt_file_set *set, const char *pattern, const wt_job *work,
@@ -222,7 +222,7 @@ flow_naming flow_file_is(const flow_file *file, const char *named, size_t length
     return same_end ? FLOW_SAME_END : FLOW_OTHER_FILE;
 }
 
-/* ---- opening --------------------------------------------------------------------------------- */
+/* ---- opening files --------------------------------------------------------------------------- */
 
 static wt_status read_piece(void *user, size_t from, void *to, size_t n, wt_error *err)
 {

@@ -1,4 +1,4 @@
-/* Values far from the others. SPDX-License-Identifier: GPL-3.0-or-later */
+/* Detects outliers. SPDX-License-Identifier: GPL-3.0-or-later */
 #include "job/outliers.h"
 
 #include "core/base/array.h"
@@ -6,9 +6,9 @@
 #include <math.h>
 #include <stdlib.h>
 
-/* In standard deviations: normal scatter has one of 1.7 million there. */
+/* Threshold in standard deviations; a normal distribution exceeds it once in 1.7 million. */
 static const double far = 5;
-/* Standard deviations of a normal distribution over its median and its mean distance. */
+/* Standard deviation of a normal distribution over its median and its mean absolute deviation. */
 static const double of_median = 1.4826, of_mean = 1.253314137315500;
 
 typical_values flow_usual_values(double *values, size_t n)

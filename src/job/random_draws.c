@@ -1,5 +1,5 @@
-/* Random draws from stated errors: a hash of seed, replicate and purpose, then Box-Muller.
- * SPDX-License-Identifier: GPL-3.0-or-later */
+/* Random draws for stated errors: a hash of seed, replicate and purpose, then the Box-Muller
+ * transform. SPDX-License-Identifier: GPL-3.0-or-later */
 #include "job/random_draws.h"
 
 #include "core/math/splitmix64.h"
@@ -7,7 +7,7 @@
 
 #include <math.h>
 
-/* In (0, 1). */
+/* Converts bits to a number in (0, 1). */
 static double uniform_of(uint64_t bits)
 {
     return ((double)(bits >> 11) + 0.5) * 0x1p-53;

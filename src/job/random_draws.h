@@ -1,13 +1,12 @@
-/* Random numbers that depend on nothing but seed, replicate and what they are for, so that the same
- * seed gives the same replicates on any number of threads, and stating one more error changes none
- * of the other draws. Internal to job.
- * SPDX-License-Identifier: GPL-3.0-or-later */
+/* Random numbers that depend only on seed, replicate and purpose. The same seed gives the same
+ * replicates with any number of threads. A further stated error does not change the other draws.
+ * Internal to job. SPDX-License-Identifier: GPL-3.0-or-later */
 #ifndef WT_JOB_RANDOM_DRAWS_H
 #define WT_JOB_RANDOM_DRAWS_H
 
 #include "weartrack/flow.h"
 
-/* What a draw is for. */
+/* Purpose of a draw. */
 typedef enum flow_draw {
     FLOW_DRAW_SHIFT_LAW,
     FLOW_DRAW_PRESSURE,
@@ -19,37 +18,37 @@ typedef enum flow_draw {
     FLOW_DRAW_OBSERVED,
     FLOW_DRAW_THICKNESS,
     FLOW_DRAW_RATIO,
-    /* of data that are made, not of replicates */
+    /* for simulated data, not for replicates */
     FLOW_DRAW_NOISE,
     FLOW_DRAW_ISOTHERM,
     FLOW_DRAW_SPOT,
     FLOW_DRAW_CURVE,
     FLOW_DRAW_FORCE,
-    /* of replicates again: what stands before keeps its numbers */
+    /* for replicates again; earlier values keep their numbers */
     FLOW_DRAW_SOFT_STORAGE,
     FLOW_DRAW_SOFT_LOSS,
-    /* of the points of a spectrum, each behind the one before */
+    /* for the points of a spectrum, in consecutive numbers */
     FLOW_DRAW_MODES,
-    /* beyond as many points as there can be */
+    /* beyond the largest number of points */
     FLOW_DRAW_RATIO_SLOPE = 1 << 24
 } flow_draw;
 
-/* Standard normal; 0 for WT_NO_REPLICATE. */
+/* Standard normal number; 0 for WT_NO_REPLICATE. */
 double flow_draw_normal(uint64_t seed, size_t replicate, flow_draw what);
-/* value + error z, for quantities of either sign. */
+/* Returns value + error z, for quantities of either sign. */
 double flow_draw_value(wt_estimate e, uint64_t seed, size_t replicate, flow_draw what);
-/* value exp(z error/value), for quantities > 0: stays positive. */
+/* Returns value exp(z error/value), for positive quantities. */
 double flow_draw_positive(wt_estimate e, uint64_t seed, size_t replicate, flow_draw what);
-/* The same with an error that has degrees of freedom, by Student's t; 0 = normal. */
+/* Variant for an error with degrees of freedom, by Student's t; df = 0 means normal. */
 double flow_draw_positive_t(wt_estimate e, double df, uint64_t seed, size_t replicate,
                             flow_draw what);
 
-/* An input as it stands in a table: 0 says that no error was stated, and what is not stated is not
- * known. */
+/* Converts an input for a table: a standard error of 0 means that none was stated, and becomes
+ * NaN. */
 wt_estimate flow_as_stated(wt_estimate input);
 
-/* Standard deviation (n - 1) of the finite ones of x[0], x[stride], ...; NaN with fewer than two.
- */
+/* Standard deviation (n - 1) of the finite values among x[0], x[stride], ...; NaN for fewer than
+ * two. */
 double flow_spread(const double *x, size_t n, size_t stride);
 
 #endif

@@ -1,4 +1,4 @@
-/* Tables that an earlier call wrote, as an input. SPDX-License-Identifier: GPL-3.0-or-later */
+/* Reads tables of an earlier call as input. SPDX-License-Identifier: GPL-3.0-or-later */
 #include "weartrack/flow.h"
 
 #include <string.h>
@@ -17,7 +17,7 @@ static wt_status read_stream(FILE *in, const char *name, wt_result *tables, wt_e
     }
 }
 
-/* The tables of a text stream, in memory. */
+/* Reads the tables of a text stream in memory. */
 static wt_status read_text(const unsigned char *bytes, size_t length, const char *path,
                            const char *instead, wt_result **tables, wt_error *err)
 {
@@ -85,7 +85,7 @@ wt_status wt_tables_read_headlines(const char *path, wt_result **tables, wt_erro
     const wt_status status = named ? wt_store_read_headlines(path, tables, err) : WT_E_FORMAT;
     if (status != WT_E_FORMAT && status != WT_E_IO && status != WT_E_NOT_FOUND)
         return status;
-    /* A pipe, a text stream or a packed file; what else is wrong is said there. */
+    /* Standard input, a text stream or a compressed file; wt_tables_read reports other errors. */
     if (err != NULL)
         *err = (wt_error)WT_ERROR_INIT;
     return wt_tables_read(path, path, NULL, (wt_tables_role){.instead = NULL}, tables, err);

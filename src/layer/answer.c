@@ -1,4 +1,5 @@
-/* What the answer says of a layer beyond its thickness at constant load.
+/* Sentences of the answer about balances, existence, bands, running-in and the thickness from the
+ * curves.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "case/answer/answer_context.h"
 
@@ -9,7 +10,7 @@
 static const char how_thick[] = "How thick is it?",
                   what_friction[] = "What does it do to friction?";
 
-/* The thinnest that a layer stays at; NaN: none. */
+/* Returns the smallest stable thickness [m]; NaN if there is none. */
 static double thinnest_stable(const table_view *v)
 {
     double least = (double)NAN;
@@ -140,7 +141,8 @@ void answer_running_in(const answer_context *story)
     text_builder t = {text, sizeof text, 0};
     const double low = running_in_value(v, RUNNING_IN_KEY_SETTLED_LOW).value,
                  high = running_in_value(v, RUNNING_IN_KEY_SETTLED_HIGH).value;
-    if (!isnan(settled.value) && isnan(high)) /* no replicates, or some settle beyond the times */
+    if (!isnan(settled.value) && isnan(high)) /* no replicates, or some settle after the last
+                                                 time */
         text_append(&t, "; 5 %% of the change are left after %s in contact",
                     format_value(settled).text);
     else if (!isnan(settled.value))

@@ -1,4 +1,5 @@
-/* What is said of the critical energy and the wear rate of layers, of one case and of several.
+/* Sentences of the answer about critical energy and wear rate of layers, for one case and for
+ * several.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "case/answer/answer_context.h"
 
@@ -8,15 +9,14 @@
 #include <math.h>
 #include <string.h>
 
-/* As both tables have them. */
+/* Pair of constants with intervals; both tables have these columns. */
 typedef struct reported_pair {
     double energy, energy_low, energy_high, wear, wear_low, wear_high, correlation, loose_error;
     const char *loose;
 } reported_pair;
 
-/* Value, error and ends of either follow one another, as do the correlation and what is known
- * least.
- */
+/* Reads a pair. Value, error and limits of each constant are adjacent columns, as are the
+ * correlation and the least known combination. */
 static reported_pair pair_at(const table_view *v, size_t row, unsigned energy, unsigned correlation)
 {
     enum { VALUE, ERROR, LOW, HIGH, NEXT };
@@ -33,7 +33,8 @@ static reported_pair pair_at(const table_view *v, size_t row, unsigned energy, u
                            .loose_error = view_number(v, of, row, correlation + 2)};
 }
 
-/* Numbers of which each is known hang together: what they leave open is one combination of them. */
+/* Appends a pair. The constants are correlated, so that one combination of them has the largest
+ * uncertainty. */
 static void tell_pair(text_builder *t, const reported_pair *p)
 {
     text_append(t, "U_c = %s, k = %s",
@@ -50,7 +51,7 @@ static void tell_pair(text_builder *t, const reported_pair *p)
                     exp(NORMAL_95 * p->loose_error));
 }
 
-/* The rows behind the first are the ways that need no range of the literature. */
+/* The rows after the first are the methods that need no literature range. */
 void append_identification(text_builder *t, const table_view *v)
 {
     if (v->n_rows == 1)
@@ -74,7 +75,8 @@ void append_identification(text_builder *t, const table_view *v)
         text_append(t, "; no error of %s is known, and none is in that", lacks);
 }
 
-/* What all cases are known by in one way; those of one sample or condition are in the table. */
+/* Appends the pairs shared by all cases, one for each method. The table also has those of one
+ * sample or condition. */
 void append_shared_pairs(text_builder *t, const table_view *v)
 {
     const char *const settled_by = shared_pairs_words(v, SHARED_PAIRS_KEY_SETTLED_BY);
@@ -92,7 +94,7 @@ void append_shared_pairs(text_builder *t, const table_view *v)
         if (strcmp(one, "one") != 0)
             text_append(t, " (U_c: %s; k: %s)", shared_pairs_text(v, i, SHARED_PAIRS_ONE_ENERGY),
                         shared_pairs_text(v, i, SHARED_PAIRS_ONE_WEAR));
-        if (strcmp(one, "differs") == 0) /* a mean of what is not one is none */
+        if (strcmp(one, "differs") == 0) /* cases that differ have no common mean */
             continue;
         text_append(t, strcmp(one, "one") == 0 ? ", " : "; as one ");
         tell_pair(t, &p);

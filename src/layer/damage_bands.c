@@ -1,6 +1,6 @@
-/* The table of the modified bands: upper and lower edge of the modified rubber in time, through the
- * loads that follow one another, by the values themselves and, for the standard errors, by
- * replicates. SPDX-License-Identifier: GPL-3.0-or-later */
+/* Table of the modified bands: upper and lower edge of the modified rubber against time, through
+ * successive loads, for the stated values and, for the standard errors, by replicates.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "job/cost.h"
 #include "job/random_draws.h"
 #include "layer/layer_loads.h"
@@ -14,14 +14,14 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Times of a load that follows another one or is followed by one, in equal ratios from this part on
- * of how long it lasts; of the last one, of what came before it. */
+/* Number of times of a load that precedes or follows another one. They have equal ratios and begin
+ * at this share of its duration; for the last load, at this share of the time before it. */
 enum { TIMES_OF_LOAD = 20 };
 static const double first_part = 1e-3;
-/* Events that are told, and what the words of a load and of an event need at most. */
+/* Largest number of events in the text, and text sizes of a load and of an event. */
 enum { MOST_EVENTS = 12, LOAD_WORDS = 192, EVENT_WORDS = 96 };
 
-/* The loads by one set of values. */
+/* Loads for one set of values. */
 typedef struct loads {
     size_t n;
     layer_energy *energy;  /* [n] */
@@ -30,16 +30,16 @@ typedef struct loads {
 
 typedef struct bands_task {
     layer_draws draws;
-    wt_sliding range;   /* whose velocities hold those of the loads */
-    double velocity[2]; /* of it */
+    wt_sliding range;   /* sliding with the velocity range of the loads */
+    double velocity[2]; /* velocities of `range` [m/s] */
     layer_load *load;   /* [n] */
     size_t n;
     loads centre;
     double *time; /* [n_times] */
     size_t n_times;
     wt_layer_section *section; /* [n_times] */
-    double latest;             /* of the times */
-    double first;              /* time at which rubber is first modified; NaN: never */
+    double latest;             /* latest of the times [s] */
+    double first;              /* time at which rubber is first modified [s]; NaN if never */
     char *words;               /* [(n + 1) LOAD_WORDS] */
     char events[(MOST_EVENTS + 1) * EVENT_WORDS], known[200], errors[560];
 } bands_task;
@@ -75,7 +75,7 @@ static void say_load(bands_task *task, size_t i)
                   lasts, 1e-6 * p->pressure, 1e3 * p->velocity, 1e9 * p->specific_wear_rate, warm);
 }
 
-/* The wear rate of a load has the relative error of that of the job, and is drawn with it. */
+/* Draws the wear rate of a load. It has the relative error of that of the job and the same draw. */
 static double wear_of(const layer_context *scene, double own)
 {
     wt_estimate wear = scene->job->specific_wear_rate;
@@ -109,7 +109,7 @@ static wt_status loads_make(const bands_task *task, const layer_context *scene, 
     return WT_OK;
 }
 
-/* As they are given; without any, that of the sliding. */
+/* Parses the loads of the job; without any, the sliding conditions are the only load. */
 static wt_status parse_loads(bands_task *task, const wt_layer_job *job, wt_error *err)
 {
     const double unset = (double)NAN;
@@ -125,7 +125,7 @@ static wt_status parse_loads(bands_task *task, const wt_layer_job *job, wt_error
     return status;
 }
 
-/* The slowest and the fastest, for the materials of the replicates. */
+/* Sets the range of velocities, for the materials of the replicates. */
 static void take_range(bands_task *task, const wt_sliding *sliding)
 {
     const double own = flow_layer_velocity(sliding, &task->draws.stated);
@@ -145,7 +145,7 @@ static void take_range(bands_task *task, const wt_sliding *sliding)
 
 /* ---- times ----------------------------------------------------------------------------------- */
 
-/* In equal ratios from a part of the length to all of it. */
+/* Adds times from a share of the length to `to`, in equal ratios. */
 static void add_times(bands_task *task, double begin, double length, double to)
 {
     const double from = first_part * length;
@@ -154,8 +154,8 @@ static void add_times(bands_task *task, double begin, double length, double to)
             begin + from * pow(to / from, (double)k / (double)(TIMES_OF_LOAD - 1));
 }
 
-/* Those of the job, else of every load its own and of the last as long as it changes anything: also
- * where it begins, for there the layer is that of the load before. */
+/* Chooses the times: those of the job, else those of each load, and for the last load as long as it
+ * changes the layer. Each load includes its start, where the layer is that of the previous load. */
 static wt_status take_times(bands_task *task, wt_error *err)
 {
     const wt_layer_stage *last = &task->centre.stage[task->n - 1];
@@ -178,7 +178,7 @@ static wt_status take_times(bands_task *task, wt_error *err)
             add_times(task, begin, length, length);
         begin += length;
     }
-    /* what is chosen for the last load begins where it alone would change something */
+    /* The times of the last load begin where that load alone would have an effect. */
     if (status == WT_OK && begin > 0 && of_last[0] > first_part * begin)
         add_times(task, begin, begin, of_last[0]);
     for (size_t i = 0; status == WT_OK && i < n; i++)
@@ -187,7 +187,7 @@ static wt_status take_times(bands_task *task, wt_error *err)
     return status;
 }
 
-/* ---- what happens ---------------------------------------------------------------------------- */
+/* ---- events ---------------------------------------------------------------------------------- */
 
 static void say_event(const wt_layer_event *e, char *text, size_t size)
 {
@@ -232,12 +232,12 @@ static wt_status find_sections(bands_task *task, wt_error *err)
 
 /* ---- replicates ------------------------------------------------------------------------------ */
 
-/* Numbers of a replicate; those of a time follow: how many bands, and their edges, NaN where the
- * replicate has more or fewer than the values themselves. */
+/* Quantities of a replicate. Those of each time follow: the number of bands and their edges, NaN if
+ * that number differs from the stated values. */
 enum { SOLVED, FIRST, LN_FIRST, THICKNESS, N_NUMBERS };
 enum { AT_BANDS, AT_EDGES, N_AT = AT_EDGES + 2 * WT_LAYER_BANDS };
 
-/* Depth of the modified rubber at the latest time. */
+/* Depth of the modified rubber at the latest time [m]. */
 static wt_estimate last_depth(const wt_layer_section *section, size_t n)
 {
     wt_estimate depth = {(double)NAN, (double)NAN, (double)NAN, "m"};
@@ -297,7 +297,7 @@ static wt_status one_replicate(const void *user, size_t k, double *out, wt_error
     return status;
 }
 
-/* Replicates, as a share, with so many bands at a time; NaN without any. */
+/* Share of the replicates with this number of bands at a time; NaN without replicates. */
 static double share_of(const replicates *r, size_t bands, size_t time)
 {
     size_t solved = 0, same = 0;

@@ -1,4 +1,4 @@
-/* The energy that modifies the rubber, against depth.
+/* Power density that modifies the rubber, against depth.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "job/cost.h"
 #include "layer/layer_energy.h"
@@ -7,7 +7,7 @@
 
 #include <math.h>
 
-#define DEPTHS 121 /* as a figure shows well */
+#define DEPTHS 121 /* resolution of a figure */
 
 TABLE_ROW(energy_density, ENERGY_DENSITY, double depth, energy_density;)
 
@@ -18,7 +18,7 @@ static void add_depths(const wt_energy_source *source, table_writer *t)
         q_min = fmin(q_min, source->wavenumber[i]);
         q_max = fmax(q_max, source->wavenumber[i]);
     }
-    /* from a tenth of the shortest wave to where the longest one has died out */
+    /* from a tenth of the shortest wave to where the longest one has decayed */
     const double first = 0.1 / q_max, last = 3 / q_min;
     for (size_t i = 0; i < DEPTHS; i++) {
         const double depth = first * pow(last / first, (double)i / (DEPTHS - 1));

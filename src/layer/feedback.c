@@ -1,5 +1,5 @@
-/* The table of the balances of a layer that acts back on the energy that makes it, with what its
- * inputs leave open by replicates.
+/* Table of the balances of a layer with feedback on its own energy, with uncertainties from
+ * replicates.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "layer/feedback.h"
 #include "job/cost.h"
@@ -11,13 +11,16 @@
 #include <stdio.h>
 #include <string.h>
 
-/* Thicknesses at which balances are looked for: a step is 9 % of the thickness over six decades. */
+/* Number of thicknesses in the search for balances: the step is 9 % of the thickness over six
+ * decades. */
 enum { GRID = 160 };
-/* The same for a replicate: 35 %, far closer than balances that are not about to meet. */
+/* Number for a replicate: the step is 35 %, far smaller than the distance of balances that are not
+ * close to a fold. */
 enum { REPLICATE_GRID = 48 };
-/* From a layer that the shortest wave hardly feels to one that holds the longest. */
-static const double thinnest = 1e-2; /* 1/q1 */
-static const double thickest = 4;    /* 1/q0 */
+/* Range of the search: from a layer that hardly affects the shortest wave to one thicker than the
+ * longest wave. */
+static const double thinnest = 1e-2; /* in units of 1/q1 */
+static const double thickest = 4;    /* in units of 1/q0 */
 
 TABLE_ROW(layer_balances, LAYER_BALANCES, const char *kind, *stable;
           wt_estimate thickness, map_slope, eigenvalue, wear_rate, hysteresis, area_ratio,
@@ -56,7 +59,7 @@ wt_status feedback_find(layer_context *scene, wt_layer_loop *loop, wt_error *err
 
 /* ---- by one set of values ------------------------------------------------------------------- */
 
-/* A balance, or a fold, with the friction there. */
+/* Quantities of a balance or a fold, with the friction there. */
 enum { AT_THICKNESS, AT_SLOPE, AT_EIGENVALUE, AT_WEAR, AT_HYSTERESIS, AT_AREA, AT_FRICTION, N_AT };
 typedef struct place {
     double value[N_AT], numerical[N_AT];
@@ -85,7 +88,7 @@ static wt_status add_friction(const balances *b, place *at, wt_error *err)
     return WT_OK;
 }
 
-/* An error of formation over wear moves a root by that over the slope of ln(Qf / Qw). */
+/* An error of formation over wear moves a root by that error over the slope of ln(Qf / Qw). */
 static wt_status add_root_error(const balances *b, place *at, wt_error *err)
 {
     wt_energy_source source = {0};
@@ -145,13 +148,15 @@ static wt_status find_balances(balances *b, wt_error *err)
 
 /* ---- replicates ------------------------------------------------------------------------------ */
 
-/* Numbers of a replicate; those of the balances and folds follow, NaN where it has others. */
+/* Quantities of a replicate. Those of the balances and folds follow, NaN if their number differs.
+ */
 enum { RATIO, ONE_WAY, BALANCES, SAME_BALANCES, SAME_FOLDS, N_NUMBERS };
 
 typedef struct balances_task {
     layer_draws draws;
     balances centre;
-    size_t solved, same_balances, same_folds; /* replicates: all, and those as the values have it */
+    size_t solved, same_balances, same_folds; /* number of replicates: solved, and with the same
+                                                 balances or folds as the stated values */
     char agreement[320], errors[760];
 } balances_task;
 
@@ -216,14 +221,15 @@ static wt_status one_replicate(const void *user, size_t i, double *out, wt_error
     put_places(b.root, centre->n_roots, out[SAME_BALANCES] > 0, roots);
     put_places(b.fold, centre->n_folds, out[SAME_FOLDS] > 0, folds);
     for (size_t k = 0; k < centre->n_roots; k++)
-        roots[N_AT * k + AT_WEAR] = job.specific_wear_rate.value; /* is given, whatever it makes */
+        roots[N_AT * k + AT_WEAR] = job.specific_wear_rate.value; /* the wear rate is an input */
     return WT_OK;
 }
 
 /* ---- the table ------------------------------------------------------------------------------- */
 
-/* Replicates that must have the same balances, that their number counts as known, and errors of
- * them: those that have others are not left out by chance, and the rest scatter too little. */
+/* Share of replicates that must have the same balances for a conclusive number and for errors of
+ * them. Below it, the replicates with other balances are not a random subset, and the rest scatter
+ * too little. */
 static const double sure = 0.95;
 
 static bool is_sure(const balances_task *task, size_t same)
@@ -231,7 +237,7 @@ static bool is_sure(const balances_task *task, size_t same)
     return (double)same >= sure * (double)task->solved;
 }
 
-/* Whether the replicates have as many balances, each as stable. */
+/* Tests if the replicates have the same number of balances with the same stability. */
 static void say_agreement(balances_task *task)
 {
     const replicates *r = &task->draws.replicates;
@@ -268,7 +274,7 @@ static void say_agreement(balances_task *task)
                    solved - same, solved);
 }
 
-/* Of n balances or folds that only so many replicates have. */
+/* Removes the errors of n balances or folds that too few replicates share. */
 static void forget_errors(balances_task *task, size_t same, size_t first, size_t n, bool given_wear,
                           const char *what)
 {
@@ -284,7 +290,7 @@ static void forget_errors(balances_task *task, size_t same, size_t first, size_t
              task->solved);
 }
 
-/* What is in the errors, and of which places there are none. */
+/* Writes the error sources, and the balances and folds without errors. */
 static void say_errors(balances_task *task)
 {
     const wt_layer_loop *const loop = &task->centre.loop;

@@ -1,4 +1,4 @@
-/* Figures of the modified layer: energy with depth, thickness in time.
+/* Figures of the modified layer: energy against depth, thickness against time.
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
@@ -15,8 +15,8 @@ static double positive_value(const figure_drawing *d, layer_key key)
     return isfinite(value) && value > 0 ? value : (double)NAN;
 }
 
-/* NaN if unknown or if the curve itself does not show it: without incubation in the model the
- * layer grows from the beginning, and a mark would contradict the curve. */
+/* Incubation time [s]; NaN if unknown or if the curve does not show it. Without incubation in the
+ * model the layer grows from the beginning, and a mark would contradict the curve. */
 static double shown_incubation(const figure_drawing *d)
 {
     double incubation = positive_value(d, LAYER_KEY_INCUBATION_TIME);
@@ -27,7 +27,7 @@ static double shown_incubation(const figure_drawing *d)
     return incubation;
 }
 
-/* A vertical line at a time, named at `place` of the height. */
+/* Draws a vertical line at a time, with a label at this fraction of the height. */
 static void mark_time(figure_drawing *d, double time, const char *label, double place)
 {
     if (!(time >= d->x.low && time <= d->x.high))
@@ -101,7 +101,8 @@ static void caption_layer(figure_drawing *d)
                                ESTIMATE(d->language, &relaxation));
 }
 
-/* Edges with their errors, where replicates have as many bands; those without are points alone. */
+/* Draws the edges with their errors where replicates have the same number of bands, else as points.
+ */
 static void draw_bands(figure_drawing *d)
 {
     if (!drawing_data(d))
@@ -142,7 +143,7 @@ static void caption_running_in(figure_drawing *d)
 
 /* ---- thickness by the curves ----------------------------------------------------------------- */
 
-/* The thickness known otherwise, on the axis of the depth: a line and its interval. */
+/* Marks the thickness from other data on the depth axis as a line with its interval. */
 static void mark_other(figure_drawing *d)
 {
     const double at = track_layer_value(d->table, TRACK_LAYER_KEY_OTHER).value,
@@ -158,7 +159,7 @@ static void mark_other(figure_drawing *d)
     mark_time(d, at, "thickness", 0.06);
 }
 
-/* Measured groups with their intervals, layers as lines. */
+/* Draws measured groups with their intervals, and layers as lines. */
 static void draw_track_layer(figure_drawing *d)
 {
     if (!drawing_data(d))
@@ -173,7 +174,8 @@ static void draw_track_layer(figure_drawing *d)
                              "ls %d"
                            : "($1*x_unit):($2*y_unit) with lines ls %d",
                   drawing_group_style(d, i));
-        plot_title(d, translate(d->language, d->groups[i])); // their names are ours
+        plot_title(d, translate(d->language,
+                                d->groups[i])); // the group names are fixed texts of this program
     }
     plot_end(d);
 }

@@ -1,5 +1,5 @@
-/* Figures of where a layer exists: thickness against the power that makes it, and maps over
- * velocity and pressure with the line beyond which there is none.
+/* Figures of the regime map: thickness against the power that modifies the rubber, and maps over
+ * velocity and pressure with the line R = 1.
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
@@ -12,7 +12,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Room for the scale of colour beside the picture, as described figures have it. */
+/* Relative width of a figure with a colour bar, as in the figure engine. */
 static const double with_scale = 1.15;
 
 static void caption_existence(figure_drawing *d)
@@ -32,7 +32,7 @@ static void caption_existence(figure_drawing *d)
         text_append_translated(&d->caption, " Of the edges one %s.", known);
 }
 
-/* ln R, by so many standard errors of it more. */
+/* ln R, shifted by this number of standard errors of R. */
 static double log_ratio(const table_view *t, size_t row, double errors)
 {
     const double ratio = existence_get(t, row, EXISTENCE_RATIO),
@@ -40,7 +40,8 @@ static double log_ratio(const table_view *t, size_t row, double errors)
     return log(ratio) + (errors == 0 ? 0 : errors * error / ratio);
 }
 
-/* Where R = 1 between two velocities, straight in the logarithms; NaN if not between them. */
+/* Velocity at which R = 1 between two velocities, linear in the logarithms; NaN if not between
+ * them. */
 static double edge_between(const table_view *t, size_t row, double errors)
 {
     const double from = log_ratio(t, row, errors), to = log_ratio(t, row + 1, errors);
@@ -52,8 +53,8 @@ static double edge_between(const table_view *t, size_t row, double errors)
     return isfinite(from) && isfinite(to) ? exp(a + (b - a) * from / (from - to)) : exp(a);
 }
 
-/* Velocity and pressure of the line, of an R higher or lower by so many standard errors; no section
- * without any. */
+/* Adds the line R = 1 as a section of velocity and pressure, for an R shifted by this number of
+ * standard errors. There is no section without points. */
 static int edge_section(figure_drawing *d, const char *title, double errors)
 {
     static const char *const names[] = {"velocity", "pressure", NULL};
@@ -77,7 +78,7 @@ static int edge_section(figure_drawing *d, const char *title, double errors)
     return section;
 }
 
-/* Half of the smallest step of a column, as a factor: what a box of the map is wide on each side.
+/* Square root of the smallest ratio of two values of a column: the half width of a box of the map.
  */
 static double half_step(figure_drawing *d, existence_column column)
 {
@@ -104,7 +105,7 @@ static void widen(value_span *span, double factor)
     span_add(span, span->high * factor, true);
 }
 
-/* Boxes coloured by a column, crosses where there is no layer, and the line between. */
+/* Draws boxes coloured by a column, crosses without a layer, and the line in between. */
 static void draw_map(figure_drawing *d, existence_column shown, const char *label)
 {
     const unsigned columns[] = {EXISTENCE_VELOCITY, EXISTENCE_PRESSURE, (unsigned)shown,
@@ -113,7 +114,7 @@ static void draw_map(figure_drawing *d, existence_column shown, const char *labe
     value_span x = SPAN_EMPTY, y = SPAN_EMPTY, colour = SPAN_EMPTY;
     span_add_column(&y, d->table, EXISTENCE_PRESSURE, true);
     if (!(y.high > y.low))
-        return; /* one pressure is no map */
+        return; /* a single pressure is no map */
     const int section =
         drawing_section(d, d->table, "places", NULL, columns, COUNT_OF(columns), COUNT_OF(columns));
     if (section < 0)

@@ -1,6 +1,6 @@
-/* The identification job: critical energy U_c and specific wear rate k of a layer from its
- * thickness with a wear rate or a running-in time, jointly. SPDX-License-Identifier:
- * GPL-3.0-or-later */
+/* Identification job: critical energy U_c and specific wear rate k of a layer, jointly, from its
+ * thickness with a wear rate or a running-in time.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "core/base/shared_params.h"
 #include "friction/replicates.h"
 #include "friction/sliding_contact.h"
@@ -18,11 +18,11 @@
 
 /* ---- parameters ------------------------------------------------------------------------------ */
 
-/* Orders of magnitude: k of tread rubber by Karger-Kocsis and others, which DIN abrasion bounds
- * from above; U_c by what makes layers of micrometres at such k. */
+/* Orders of magnitude: k of tread rubber by Karger-Kocsis and others, with DIN abrasion as the
+ * upper bound; U_c follows from layers of micrometres at such k. */
 static const double wear_low = 1e-13, wear_high = 1e-11;  /* [m^2/N] */
 static const double energy_low = 1e9, energy_high = 1e12; /* [J/m^3] */
-/* Where an instrument sees no more change of friction. */
+/* Share of the thickness after which an instrument resolves no further change of friction. */
 static const double settled = 0.95;
 
 wt_identify_job wt_identify_job_defaults(void)
@@ -77,13 +77,13 @@ static const char *const way_words[WAYS] = {
     [BY_RATES] = "thickness and running-in, by the balance of rates",
     [BY_TRANSPORT] = "thickness and running-in, by the transport of damage"};
 
-/* Logarithms: those that do not apply are NaN. */
+/* Logarithms of the results; NaN if not applicable. */
 enum {
-    LN_PRODUCT, /* of k U_c: not NaN */
+    LN_PRODUCT, /* ln(k U_c); never NaN */
     LN_RATIO,
     LN_ENERGY,
     LN_WEAR = LN_ENERGY + WAYS,
-    LN_APART = LN_WEAR + WAYS, /* k of a way over that of the first */
+    LN_APART = LN_WEAR + WAYS, /* ln of k of a method over the measured k */
     NUMBERS = LN_APART + WAYS
 };
 
@@ -104,7 +104,7 @@ static wt_status find_way(const identify_task *task, way by, const wt_energy_sou
                                                 FLOW_DRAW_OBSERVED),
                  wear =
                      flow_draw_positive(job->specific_wear_rate, seed, replicate, FLOW_DRAW_WEAR),
-                 /* a critical energy is not given here, so that its number is free */
+                 /* the draw of the critical energy is free, because it is not an input here */
         time = flow_draw_positive(job->running_in_time, seed, replicate, FLOW_DRAW_CRITICAL_ENERGY);
     wt_layer_identified found = {0};
     p.incubation = by == BY_TRANSPORT;
@@ -141,7 +141,7 @@ static wt_status find_all(const identify_task *task, size_t replicate, double *o
     p.velocity = task->velocity;
     source.profile = job->profile;
     source.local_friction = job->local_friction;
-    if (status == WT_OK) /* with k = 1 the critical energy is the product */
+    if (status == WT_OK) /* with k = 1 the critical energy is the product k U_c */
         status =
             wt_layer_identify_wear(&source, &p,
                                    flow_draw_positive(job->observed_thickness, task->work->seed,
@@ -161,19 +161,19 @@ static wt_status one_replicate(const void *user, size_t i, double *out, wt_error
     return find_all(user, i, out, err);
 }
 
-/* ---- what the draws say ---------------------------------------------------------------------- */
+/* ---- intervals from the draws ---------------------------------------------------------------- */
 
-/* Numbers at the values themselves, what the draws scatter with the thickness and without it, and
- * the numbers at either end of the interval of the thickness. */
+/* Results for the stated values, their standard deviations with and without the thickness, and the
+ * results at both limits of the interval of the thickness. */
 typedef struct identified {
     double value[NUMBERS], at_end[2][NUMBERS];
     double error[NUMBERS], rest[NUMBERS];
-    double inputs[NUMBERS]; /* by material, surface and conditions alone */
+    double inputs[NUMBERS]; /* standard deviation due to material, surface and conditions only */
 } identified;
 
-/* exp of number k with its interval of 95 %. A thickness goes into an exponent, so that what its
- * error does is not the same to both sides: its own ends are taken, and joined in squares with what
- * all else scatters. */
+/* exp of quantity k with its 95 % interval. The thickness is an argument of an exponential, so that
+ * its error has an asymmetric effect. The results at its own limits are therefore used and combined
+ * in quadrature with the other errors. */
 static wt_interval interval_of(const identified *found, size_t k)
 {
     const double value = found->value[k], rest = NORMAL_95 * found->rest[k],
@@ -191,7 +191,7 @@ TABLE_ROW(identification, IDENTIFICATION, const char *by; wt_interval energy, we
 
 static const wt_interval not_known = {(double)NAN, (double)NAN, (double)NAN, (double)NAN};
 
-/* Why an interval of a way is none; NULL if it is one. */
+/* Returns the reason why a method has no interval; NULL if it has one. */
 static const char *no_interval(const identify_task *task, bool wear, bool time)
 {
     const wt_identify_job *const job = task->job;
@@ -241,7 +241,8 @@ static void add_way(const identify_task *task, way by, const identified *found, 
     identification_add_row(t, &row);
 }
 
-/* By the first way with an interval; a number without one is no headline. */
+/* Sets the headline to the first method with an interval; a value without an interval is no
+ * headline. */
 static void set_headline(const identify_task *task, const identified *found, table_writer *t)
 {
     way by = BY_WEAR;
@@ -258,7 +259,8 @@ static void set_headline(const identify_task *task, const identified *found, tab
                              (double)NAN);
 }
 
-/* Of the thickness alone: what the ranges of the literature leave of each. */
+/* Adds the row of the thickness alone: the part of the literature ranges that the product allows.
+ */
 static void add_thickness_alone(const identify_task *task, wt_interval product, table_writer *t)
 {
     const wt_identify_job *const job = task->job;
@@ -291,8 +293,8 @@ static void add_thickness_alone(const identify_task *task, wt_interval product, 
     identification_add_row(t, &row);
 }
 
-/* Two ways that both hold ask for one k. An interval that lacks the error of one of the three would
- * contradict what agrees. */
+/* Compares the wear rate of the running-in with the measured one. A verdict needs the errors of
+ * thickness, wear rate and running-in time. */
 static void say_agreement(const identify_task *task, const identified *found, table_writer *t)
 {
     const char *const none = no_interval(task, true, true);
@@ -350,7 +352,7 @@ static wt_status make_table(const identify_task *task, const identified *found, 
 
 /* ---- the job --------------------------------------------------------------------------------- */
 
-/* With or without what the thickness scatters. */
+/* Creates the task with the errors of the job. */
 static identify_task task_of(const wt_sliding *sliding, const wt_identify_job *job,
                              const wt_job *work)
 {
@@ -379,7 +381,8 @@ static wt_status draw_errors(identify_task *task, double error[NUMBERS], wt_erro
     return status;
 }
 
-/* The scatter of what is left to be drawn. Nothing else scatters, or it is not asked what does. */
+/* Standard deviations with some inputs fixed: 0 if no other input varies, NaN if no replicates are
+ * requested. */
 static wt_status draw_held(const identify_task *task, const wt_identify_job *job,
                            double error[NUMBERS], wt_error *err)
 {
@@ -391,8 +394,8 @@ static wt_status draw_held(const identify_task *task, const wt_identify_job *job
     return status;
 }
 
-/* The same with the thickness held: at its value, then at the ends of its interval; and with all
- * that was measured of the layer. */
+/* Repeats the draws with fixed thickness: at its value, and at the limits of its interval; then
+ * with all layer measurements fixed. */
 static wt_status hold_thickness(const identify_task *task, identified *found, wt_error *err)
 {
     wt_identify_job job = *task->job;

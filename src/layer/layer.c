@@ -1,4 +1,4 @@
-/* The layer job: energy density with depth, formation against wear, thickness at balance and in
+/* Layer job: energy density against depth, formation and wear, thickness at balance and against
  * time, with standard errors from replicates.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "core/base/shared_params.h"
@@ -16,7 +16,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* The balance at one set of values. */
+/* Balance for one set of values. */
 typedef struct layer_run {
     layer_energy energy;
     wt_layer_parameters parameters;
@@ -26,7 +26,7 @@ typedef struct layer_run {
     char statement[512];
 } layer_run;
 
-/* Single numbers of a run with their keys; the thicknesses in time follow them. */
+/* Scalar quantities of a run with their keys; the thicknesses at the times follow them. */
 #define NUMBERS(X)                                                                                 \
     X(BALANCE_THICKNESS, run->balance.thickness)                                                   \
     X(FORMATION_WEAR_RATIO, of_rates(run, run->balance.ratio))                                     \
@@ -58,14 +58,15 @@ void wt_layer_tables_clear(wt_layer_tables *tables)
     *tables = (wt_layer_tables){0};
 }
 
-/* What goes with the power of all wavenumbers has its relative numerical error. */
+/* Estimate of a quantity proportional to the total power, with its relative numerical error. */
 static wt_estimate of_power(const layer_run *run, double value)
 {
     return (wt_estimate){.value = value,
                          .numerical_error = fabs(value) * run->energy.source.numerical_error};
 }
 
-/* What goes with formation and wear, which the closure and the severity make of the power. */
+/* Estimate of a quantity proportional to formation or wear, which depend on the power through
+ * closure and severity. */
 static wt_estimate of_rates(const layer_run *run, double value)
 {
     return (wt_estimate){.value = value, .numerical_error = fabs(value) * run->balance.ratio_error};
@@ -161,7 +162,7 @@ static wt_status draw_replicates(layer_task *task, wt_error *err)
     const bool calibrated = !isnan(job->observed_thickness.value);
     const double given = layer_replicates_add(r, task->sliding, job);
     wt_status status = replicates_draw(r, N_NUMBERS + task->n, one_replicate, task, err);
-    if (status == WT_OK && !(given > 0)) /* what is given does not scatter */
+    if (status == WT_OK && !(given > 0)) /* an input without an error has no standard error */
         r->error[calibrated ? NUMBER_BALANCE_THICKNESS : NUMBER_CRITICAL_ENERGY] = (double)NAN;
     size_t without = 0, solved = 0;
     for (size_t i = 0; status == WT_OK && i < r->n; i++) {
@@ -194,10 +195,11 @@ static void set_numbers(const layer_task *task, const layer_run *run, table_writ
     put_numbers(run, number);
     for (size_t i = 0; i < N_NUMBERS; i++) {
         if (keys[i] == LAYER_KEY_REMOVAL_TIME && isnan(number[i].value))
-            continue; /* nothing is removed */
+            continue; /* no layer is removed */
         layer_set_value(t, keys[i], number[i].value, task->replicates.error[i],
                         number[i].numerical_error);
-        /* d ln thickness / d ln k = -Qw / (thickness |dQf/dz|): the balance is where Qf(z) = Qw */
+        /* d ln thickness / d ln k = -Qw / (thickness |dQf/dz|), because the balance is at Qf(z) =
+         * Qw */
         const double sensitivity = -b->wear_rate * b->relaxation_time.value / b->thickness.value;
         if (keys[i] == LAYER_KEY_BALANCE_THICKNESS && isfinite(sensitivity))
             layer_set_value(t, LAYER_KEY_WEAR_SENSITIVITY, sensitivity, (double)NAN, 0);

@@ -1,4 +1,5 @@
-/* What modifies the rubber in one sliding contact: hysteresis, shearing of the surface or both.
+/* Energy that modifies the rubber in one sliding contact: hysteresis, shearing of the surface or
+ * both.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "layer/layer_energy.h"
 #include "job/random_draws.h"
@@ -15,7 +16,7 @@ void layer_energy_clear(layer_energy *energy)
     wt_energy_source_clear(&energy->source);
 }
 
-/* The power that counts over that of the hysteresis. */
+/* Ratio of the effective power to that of the hysteresis. */
 static double power_factor(const wt_layer_job *job, const layer_energy *e)
 {
     const double shear = job->energy == WT_LAYER_HYSTERESIS ? 0 : job->shear_share * e->shear_power;
@@ -23,7 +24,7 @@ static double power_factor(const wt_layer_job *job, const layer_energy *e)
     return (hysteresis + shear) / e->hysteresis_power;
 }
 
-/* Friction and contact area, and what shearing costs. */
+/* Computes friction, contact area and the power of shearing. */
 static wt_status find_area(const wt_sliding *sliding, const wt_layer_job *job,
                            const sliding_contact *c, double velocity, wt_layer_state layer,
                            layer_energy *e, wt_error *err)
@@ -100,7 +101,7 @@ wt_layer_parameters layer_parameters_of(const wt_layer_job *job, const sliding_c
     p.activation.barrier =
         flow_draw_positive(job->barrier, seed, replicate, FLOW_DRAW_CRITICAL_ENERGY);
     p.activation.area_ratio = fmin(1, energy->point.area_ratio.value);
-    /* in a contact that friction heats, that of its finest scale */
+    /* in a contact heated by friction, the temperature of the finest scale */
     p.activation.temperature = isnan(energy->point.temperature.value)
                                    ? contact->temperature
                                    : energy->point.temperature.value;

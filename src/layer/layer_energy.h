@@ -1,5 +1,6 @@
-/* What modifies the rubber in one sliding contact, and the parameters of its layer. Internal to
- * flow. SPDX-License-Identifier: GPL-3.0-or-later */
+/* Energy that modifies the rubber in one sliding contact, and the parameters of its layer. Internal
+ * to layer.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #ifndef WT_LAYER_LAYER_ENERGY_H
 #define WT_LAYER_LAYER_ENERGY_H
 
@@ -7,75 +8,81 @@
 
 typedef struct layer_energy {
     wt_energy_source source;
-    double hysteresis_power, shear_power; /* of the contact, whatever counts [W/m^2]; the second NaN
-                                             where it is not asked for */
-    wt_friction_point point;              /* of the friction, likewise */
+    double hysteresis_power, shear_power; /* total powers of the contact [W/m^2]; the second is
+                                             NaN if not requested */
+    wt_friction_point point;              /* friction, if requested */
 } layer_energy;
 
-/* Whether a job needs friction and contact area beside the energy. */
+/* True if a job needs friction and contact area in addition to the energy. */
 bool layer_needs_area(const wt_layer_job *job);
-/* WT_E_MISSING if shearing counts and its stress is not known. */
+/* Computes the energy; the caller clears it. Returns WT_E_MISSING if shearing contributes and its
+ * stress is not stated. */
 wt_status layer_energy_make(const wt_sliding *sliding, const wt_layer_job *job,
                             const sliding_contact *contact, double velocity, wt_layer_state layer,
                             layer_energy *energy, wt_error *err) WT_NODISCARD;
 void layer_energy_clear(layer_energy *energy);
-/* The parameters of a replicate but for the critical energy, which may have to be calibrated. */
+/* Parameters of a replicate. The critical energy may still have to be calibrated. */
 wt_layer_parameters layer_parameters_of(const wt_layer_job *job, const sliding_contact *contact,
                                         double velocity, const layer_energy *energy, uint64_t seed,
                                         size_t replicate);
 
-/* The times of a job, or such as show a layer from well before its first change to well after the
- * last one: *time [n], to be freed. */
+/* Times of a job, by default from well before the first change of the layer to well after the last:
+ * *time [n], which the caller frees. */
 wt_status layer_times_choose(const wt_layer_job *job, const wt_layer_balance *balance,
                              double **time, size_t *n, wt_error *err) WT_NODISCARD;
 
-/* ---- by which values, at which loads and under which layer ----------------------------------- */
+/* ---- context and operating point ------------------------------------------------------------- */
 
-/* The values themselves, or what a replicate draws of those that are stated with an error. */
+/* Values for a computation: the stated ones, or those that a replicate draws from the stated
+ * errors. */
 typedef struct layer_context {
     const wt_sliding *sliding;
-    const wt_layer_job *job; /* its critical energy calibrated */
+    const wt_layer_job *job; /* job with calibrated critical energy */
     const wt_job *work;
-    size_t replicate;         /* WT_NO_REPLICATE: the values themselves */
-    wt_material_cache *drawn; /* materials of the replicates; NULL: none is kept */
-    double modulus_ratio;     /* of the layer; NaN: not known */
-    wt_ratio_slope slope;     /* of that */
+    size_t replicate;         /* WT_NO_REPLICATE for the stated values */
+    wt_material_cache *drawn; /* cache of the materials of the replicates; NULL if none */
+    double modulus_ratio;     /* modulus ratio of the layer; NaN if unknown */
+    wt_ratio_slope slope;     /* frequency dependence of the modulus ratio */
 } layer_context;
 
-/* Where a layer is looked at. What is given has the relative error of that of the sliding, a
- * temperature the same error, and is drawn with it: one instrument measured both. */
+/* Operating point of a layer. A stated pressure has the relative error of that of the sliding, and
+ * a stated temperature the same error. Both use the same draw, because one instrument measured
+ * both. */
 typedef struct operating_point {
-    double pressure, velocity, temperature; /* NaN: those of the sliding */
-    wt_layer_state layer;                   /* what lies on the bulk already */
+    double pressure, velocity, temperature; /* NaN for those of the sliding */
+    wt_layer_state layer;                   /* layer that is already on the bulk */
 } operating_point;
 operating_point operating_point_default(void);
-/* Under a layer of the scene's modulus; 0: on the bulk. */
+/* Operating point under a layer with the modulus of the context; thickness 0 gives the bare bulk.
+ */
 operating_point layer_under(const layer_context *scene, double thickness);
 
-/* Energy, friction and the parameters of the layer there. */
+/* Computes energy and layer parameters at an operating point. */
 wt_status layer_at(const layer_context *scene, operating_point spot, layer_energy *energy,
                    wt_layer_parameters *parameters, wt_error *err) WT_NODISCARD;
-/* Friction there, by the shear stress of a layer if there is one; of hysteresis alone if no shear
- * stress is known. Errors are numerical. */
+/* Friction at an operating point, with the shear stress of a layer if present. The total is NaN if
+ * no shear stress is stated. Errors are numerical. */
 typedef struct layer_friction {
     double hysteresis, area_ratio, shear_stress, total;
     double hysteresis_error, area_error, total_error;
-    double bulk_stress, pressure; /* of which the others are made */
-    double ratio;                 /* of the moduli, where the layer is sheared; likewise */
+    double bulk_stress, pressure; /* inputs of the total */
+    double ratio;                 /* modulus ratio at the shear frequency; input of the total */
 } layer_friction;
 wt_status layer_friction_at(const layer_context *scene, operating_point spot,
                             layer_friction *friction, wt_error *err) WT_NODISCARD;
-/* Both in one contact; what is NULL is not looked for. */
+/* Computes energy and friction in one contact; NULL arguments are not computed. */
 wt_status layer_look(const layer_context *scene, operating_point spot, layer_energy *energy,
                      wt_layer_parameters *parameters, layer_friction *friction,
                      wt_error *err) WT_NODISCARD;
-/* Shear stress and total of a hysteresis, contact area and bulk's shear stress on a layer. */
+/* Computes shear stress and total friction from hysteresis, contact area and shear stress of the
+ * bulk. */
 void layer_friction_join(const wt_layer_job *job, wt_layer_state layer, layer_friction *friction);
-/* Total friction, or hysteresis where no shear stress is known. */
+/* Total friction, or hysteresis friction if no shear stress is stated. */
 double layer_friction_known(const layer_friction *friction);
-/* A number whose errors are not known. */
+/* Estimate without errors. */
 wt_estimate estimate_without_error(double value);
-/* The job of a scene with its critical energy calibrated, if it has an observed thickness. */
+/* Copies the job of a context and calibrates its critical energy if it has an observed thickness.
+ */
 wt_status layer_job_calibrated(const layer_context *scene, wt_layer_job *calibrated,
                                wt_error *err) WT_NODISCARD;
 

@@ -1,11 +1,12 @@
-/* Friction on a layer against its thickness, computed at each or by curves through nodes.
+/* Friction on a layer against its thickness, computed directly or by interpolation between nodes.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "layer/layer_friction.h"
 
 #include <math.h>
 #include <stdlib.h>
 
-/* Layers of thicknesses in a smaller ratio are of one thickness: nodes must not fall together. */
+/* Smallest ratio of the thickest to the thinnest layer for interpolation: nodes must be distinct.
+ */
 static const double least_ratio = 1 + 1e-6;
 
 static wt_status take_nodes(layer_friction_model *f, double thinnest, double thickest, size_t n,

@@ -6,24 +6,26 @@
 #include "core/math/cubic_interpolation.h"
 #include "layer/layer_energy.h"
 
-/* What is interpolated; the shear stress of the layer, which may jump, is a law of these. */
+/* Interpolated quantities. The shear stress of the layer can be discontinuous and is computed from
+ * these. */
 enum { OF_HYSTERESIS, OF_AREA, OF_BULK_STRESS, OF_RATIO, OF_CURVES };
 
 typedef struct layer_friction_model {
     const layer_context *scene; /* borrowed */
-    size_t n;                   /* nodes; 0: it is computed at every thickness */
+    size_t n;                   /* number of nodes; 0 for direct computation */
     double *log_thickness;      /* [n] rising */
     double pressure;
     double *value[OF_CURVES]; /* [n] each */
     curve *curve[OF_CURVES];
 } layer_friction_model;
 
-/* n nodes from the thinnest to the thickest layer, in equal ratios; fewer than five, or layers of
- * one thickness: none. */
+/* Creates n nodes from the thinnest to the thickest layer, in equal ratios. There are none if n <
+ * CURVE_LEAST_POINTS or if the thicknesses are equal; friction is then computed directly. The
+ * caller clears the model. */
 wt_status layer_friction_model_make(const layer_context *scene, double thinnest, double thickest,
                                     size_t n, layer_friction_model *friction,
                                     wt_error *err) WT_NODISCARD;
-/* Not known of a thickness that is not finite. */
+/* Friction at a thickness [m]; NaN for a thickness that is not finite. */
 wt_status layer_friction_model_at(const layer_friction_model *of, double thickness,
                                   layer_friction *f, wt_error *err) WT_NODISCARD;
 void layer_friction_model_clear(layer_friction_model *friction);

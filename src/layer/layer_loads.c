@@ -1,4 +1,4 @@
-/* Loads that follow one another: "time=900s,pressure=0.4MPa,velocity=5mm/s".
+/* Parser of successive loads: "time=900s,pressure=0.4MPa,velocity=5mm/s".
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "layer/layer_loads.h"
 #include "dma/law_parse.h"

@@ -1,4 +1,4 @@
-/* The parameters of the layer job, and what goes together.
+/* Parameters of the layer job, and their consistency.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "core/base/shared_params.h"
 #include "layer/layer_loads.h"
@@ -29,7 +29,8 @@ wt_layer_job wt_layer_job_defaults(void)
     };
 }
 
-/* A power per area is one per volume times a length: its unit is that of the one over the other. */
+/* Reads a power per area. It equals a power per volume times a length, so that its unit is checked
+ * as power density times metre. */
 static wt_status read_power(const char *text, void *member, wt_error *err)
 {
     char volume[64];
@@ -119,7 +120,8 @@ static const wt_param rows[] = {
 };
 PARAM_TABLE(wt_layer_job_params, wt_layer_job, rows, wt_layer_job_defaults, NO_PARTS)
 
-/* The activated closure has a barrier in the place of the critical energy. */
+/* Checks the parameters of the activated closure, which has a barrier in place of the critical
+ * energy. */
 static wt_status activated_check(const wt_layer_job *job, wt_error *err)
 {
     const bool whole = !isnan(job->barrier.value) && !isnan(job->activation.volume);

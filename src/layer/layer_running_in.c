@@ -1,6 +1,6 @@
-/* The table of the friction in running-in: the layer grows, and friction with it, by the values
- * themselves and, for the standard errors, by replicates. SPDX-License-Identifier: GPL-3.0-or-later
- */
+/* Table of the friction during running-in: layer growth and its effect on friction, for the stated
+ * values and, for the standard errors, by replicates.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "job/cost.h"
 #include "layer/feedback.h"
 #include "layer/layer_friction.h"
@@ -11,24 +11,24 @@
 #include <math.h>
 #include <stdlib.h>
 
-/* Running-in is over when so much of the change of friction is left. */
+/* Running-in ends when this share of the change of friction remains. */
 static const double settled_share = 0.05;
-/* Halves of a step of the time, to 1e-12 of it. */
+/* Number of bisections of a time step, to 1e-12 of it. */
 enum { HALVES = 40 };
 
-/* One run through the times of the task. */
+/* One computation through the times of the task. */
 typedef struct running {
     layer_context *scene;
     const double *time; /* [n] borrowed */
     size_t n;
     layer_friction_model friction_of;
-    wt_energy_source source; /* of bare rubber, and its parameters; none with acting back */
+    wt_energy_source source; /* source of bare rubber, and its parameters; empty with feedback */
     wt_layer_parameters parameters;
     wt_layer_point *points;   /* [n] */
     layer_friction *friction; /* [n] */
-    wt_estimate thickness;    /* at balance; NaN or infinite: there is none */
+    wt_estimate thickness;    /* at balance; NaN or infinite if there is none */
     layer_friction bare, balance;
-    double settled; /* NaN where the times do not hold it */
+    double settled; /* settling time [s]; NaN if outside the times */
 } running;
 
 typedef struct running_task {
@@ -47,7 +47,8 @@ TABLE_KEYS(running_in, RUNNING_IN, double velocity; wt_estimate modulus_ratio;
 
 /* ---- thickness ------------------------------------------------------------------------------- */
 
-/* The balance that a bare surface comes to, and the thickness in time. */
+/* Computes the balance that a bare surface reaches, and the thickness against time, with feedback.
+ */
 static wt_status grow_back(running *r, wt_error *err)
 {
     wt_layer_loop loop;
@@ -83,8 +84,8 @@ static wt_status grow(running *r, wt_error *err)
 
 /* ---- friction -------------------------------------------------------------------------------- */
 
-/* The thickness at a time between two of the list; with acting back linear in the logarithm of the
- * time. */
+/* Thickness at a time between two of the list. With feedback it is interpolated linearly in the
+ * logarithm of the time. */
 static wt_status thickness_at(const running *r, size_t i, double time, double *thickness,
                               wt_error *err)
 {
@@ -135,8 +136,8 @@ static wt_status find_settled(running *r, wt_error *err)
     return WT_OK;
 }
 
-/* nodes: as many as the friction is known at, between which it is interpolated; 0: it is computed
- * at every thickness. */
+/* Computes thickness and friction at the times. `nodes` is the number of nodes for the
+ * interpolation of friction; 0 for direct computation. */
 static wt_status run_through(running *r, size_t nodes, wt_error *err)
 {
     double thinnest = HUGE_VAL, thickest = 0;
@@ -169,10 +170,11 @@ static void running_clear(running *r)
 
 /* ---- replicates ------------------------------------------------------------------------------ */
 
-/* Numbers of a replicate; those of a time follow. */
+/* Quantities of a replicate; those of each time follow. */
 enum { BARE, BALANCE, THICKNESS, SETTLED, LN_SETTLED, N_NUMBERS };
 enum { AT_THICKNESS, AT_HYSTERESIS, AT_AREA, AT_SHEAR, AT_FRICTION, N_AT };
-/* A curve through so many nodes is off by far less than the replicates scatter. */
+/* Number of interpolation nodes: the interpolation error is far below the scatter of the
+ * replicates. */
 enum { NODES = 24 };
 
 static void put_numbers(const running *r, double *out)
@@ -279,8 +281,8 @@ static wt_status make_table(running_task *task, wt_table **table, wt_error *err)
 
 /* ---- the job --------------------------------------------------------------------------------- */
 
-/* Those of the balance without acting back, in order: what is left is looked for from the last on.
- */
+/* Chooses the times from the balance without feedback, in rising order: the settling time is
+ * searched for from the last one. */
 static wt_status take_times(running_task *task, wt_error *err)
 {
     wt_energy_source source = {0};

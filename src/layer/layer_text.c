@@ -1,4 +1,4 @@
-/* What must be said of a layer whose model is not the plain one, each with where it is from.
+/* Text about model options of a layer that differ from the default, with the origin of each.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "layer/layer_text.h"
 
@@ -7,7 +7,7 @@
 
 #include <math.h>
 
-/* Rubber that is modified in 30 years without a load: a rate above it is no rubber. */
+/* Rate of modification without load in 30 years. A rate above it is not plausible for rubber. */
 static const double shelf_rate = 1e-9; /* [1/s] */
 
 void layer_describe(const wt_layer_job *job, const layer_energy *energy,

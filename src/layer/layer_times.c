@@ -1,4 +1,4 @@
-/* The times at which a layer is looked at.
+/* Default times of the history of a layer.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "layer/layer_energy.h"
 
@@ -6,15 +6,15 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* The times that are chosen: so many, as a figure shows well, from half the first scale to the span
- * of the last, where all is over. A scale that is not there is so far from the other one. Which
- * times are told changes none of their numbers. */
+/* Number of default times, as many as a figure shows well. They reach from half the first time
+ * scale to a multiple of the last, where the layer is steady. A missing scale is set by a ratio to
+ * the other one. The choice of times does not affect their results. */
 #define TIMES 61
 #define TIME_SPAN 100
 #define SHORT_OF_LAST 1e-3
 #define PAST_FIRST 1e6
 
-/* From well before the first change to well after the last one. */
+/* Times from well before the first change to well after the last one. */
 wt_status layer_times_choose(const wt_layer_job *job, const wt_layer_balance *b, double **time,
                              size_t *n, wt_error *err)
 {

@@ -1,4 +1,4 @@
-/* Replicates of a layer: which of its errors are drawn, and the values of one replicate.
+/* Monte Carlo draws of a layer: the error sources, and the values of one replicate.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "layer/monte_carlo.h"
 #include "job/random_draws.h"
@@ -116,7 +116,7 @@ void layer_draws_clear(layer_draws *d)
     replicates_clear(&d->replicates);
 }
 
-static const double beyond = 0.025; /* of 95 %, at either end */
+static const double beyond = 0.025; /* probability beyond each limit of a 95 % interval */
 
 static size_t count_known(const replicates *r, size_t k)
 {
@@ -133,7 +133,7 @@ wt_interval layer_interval(const layer_draws *d, size_t k, double value)
     const size_t known = count_known(r, k);
     wt_interval interval = {value, value * error, value / wide, value * wide};
     const bool whole = (double)(r->n - known) <= beyond * (double)r->n;
-    /* without memory for the ends there is no interval: what is left would be another one */
+    /* Without memory there is no interval, because another method would give a different one. */
     if (!whole || (isfinite(value) && r->n >= REPLICATES_FOR_ENDS &&
                    replicate_interval(r, k, beyond, &interval) != WT_OK))
         interval.low = interval.high = interval.standard_error = (double)NAN;

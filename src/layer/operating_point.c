@@ -1,5 +1,6 @@
-/* A layer at other loads than those of the sliding, and under a layer that is there already, by the
- * values themselves or those of a replicate. SPDX-License-Identifier: GPL-3.0-or-later */
+/* Energy and friction at an operating point: other loads than those of the sliding, or under a
+ * layer, for the stated values or a replicate.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "job/random_draws.h"
 #include "layer/layer_energy.h"
 
@@ -27,7 +28,7 @@ wt_estimate estimate_without_error(double value)
     return (wt_estimate){value, (double)NAN, (double)NAN, NULL};
 }
 
-/* The sliding with the values of a spot; *velocity is kept by the caller. */
+/* Sliding with the values of an operating point; *velocity must outlive the result. */
 static wt_sliding sliding_at(const layer_context *scene, operating_point spot, double *velocity)
 {
     wt_sliding s = *scene->sliding;
@@ -50,7 +51,7 @@ static wt_status contact_at(const layer_context *scene, const wt_sliding *s, ope
 {
     wt_job own = *scene->work;
     own.left_out = WT_EXTRAS;
-    /* what is kept of a replicate is of the temperature of the sliding */
+    /* the cached materials are for the temperature of the sliding */
     return sliding_contact_make(s, &own, scene->replicate,
                                 isnan(spot.temperature) ? scene->drawn : NULL, spot.layer, c, err);
 }

@@ -1,6 +1,7 @@
-/* The table of where a layer exists: balance thickness and what it does to friction against the
- * power that modifies the rubber, over velocities and pressures, by the values themselves and, for
- * the errors, by replicates. SPDX-License-Identifier: GPL-3.0-or-later */
+/* Regime map: balance thickness and its effect on friction against the power that modifies the
+ * rubber. It covers velocities and pressures, for the stated values and, for the errors, by
+ * replicates.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "job/cost.h"
 #include "layer/monte_carlo.h"
 
@@ -13,7 +14,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* To so much of a velocity an edge is found; of a replicate, which scatters by far more. */
+/* Relative tolerances of the velocity of an edge, for the stated values and for a replicate, which
+ * scatters far more. */
 static const double edge_close = 1e-9, replicate_close = 1e-4;
 
 TABLE_ROW(existence, EXISTENCE, double pressure, velocity; wt_estimate power, ratio, thickness;
@@ -31,7 +33,7 @@ typedef struct existence_at {
     double value[N_AT], numerical[N_AT];
 } existence_at;
 
-/* Power, R and thickness there, and the friction on bare rubber; friction NULL: not asked for. */
+/* Computes power, R and thickness, and the friction on bare rubber unless it is NULL. */
 static wt_status balance_at(const layer_context *scene, operating_point spot,
                             wt_layer_balance *balance, layer_friction *friction, wt_error *err)
 {
@@ -94,9 +96,9 @@ static wt_status look_at(const layer_context *scene, operating_point spot, exist
 enum { FROM, TO, ENDS };
 typedef struct edges {
     const layer_context *scene;
-    wt_status status; /* of a root */
+    wt_status status; /* first failure of a root search */
     wt_error *err;
-    double velocity[ENDS], power[ENDS]; /* first and last, NaN: beyond the list */
+    double velocity[ENDS], power[ENDS]; /* first and last edge; NaN if outside the list */
     size_t n;
     char words[256];
 } edges;
@@ -112,7 +114,7 @@ static double log_ratio_at(double log_velocity, void *user)
     return b.ratio > 0 ? log(b.ratio) : -HUGE_VAL;
 }
 
-/* The edge between two velocities, and the power there. */
+/* Finds the edge between two velocities, and the power there. */
 static void add_edge(edges *e, double low, double high, bool begins)
 {
     double at;
@@ -135,12 +137,12 @@ static void add_edge(edges *e, double low, double high, bool begins)
         e->velocity[k] = spot.velocity;
         e->power[k] = b.surface_power;
     }
-    if (begins) /* what ends before is not the last */
+    if (begins) /* a range that ended before is not the last one */
         e->velocity[TO] = e->power[TO] = (double)NAN;
     e->n++;
 }
 
-/* At the nominal pressure. */
+/* Finds the edges at the nominal pressure. */
 static edges find_edges(const layer_context *scene, wt_error *err)
 {
     const double unset = (double)NAN;
@@ -165,9 +167,9 @@ static edges find_edges(const layer_context *scene, wt_error *err)
 
 typedef struct existence_task {
     layer_draws draws;
-    wt_sliding sliding; /* its velocities from the least on */
+    wt_sliding sliding; /* sliding with rising velocities */
     double *velocity;   /* [n_velocity] */
-    size_t blocks, n;   /* pressures, rows */
+    size_t blocks, n;   /* number of pressures and of rows */
     edges edges;
     existence_at *at; /* [n] */
     char known[400], errors[560];
@@ -193,11 +195,10 @@ static wt_status look_at_rows(const existence_task *task, const layer_context *s
 
 /* ---- replicates ------------------------------------------------------------------------------ */
 
-/* Numbers of a replicate; those of a row follow. Edges as logarithms. */
+/* Quantities of a replicate; those of each row follow. Edges are logarithms. */
 enum { SOLVED, LN_VELOCITY, LN_POWER = LN_VELOCITY + ENDS, N_NUMBERS = LN_POWER + ENDS };
 
-/* A share of replicates without an edge that leaves the ends of an interval of 95 % where they
- * are. */
+/* Largest share of replicates without an edge for which the quantiles of a 95 % interval exist. */
 static const double most_lost = 0.025;
 
 static wt_status one_replicate(const void *user, size_t i, double *out, wt_error *err)
@@ -228,8 +229,7 @@ static wt_status one_replicate(const void *user, size_t i, double *out, wt_error
     return status;
 }
 
-/* Of the first n replicates, as a share, those for which a number is above a limit; NaN without
- * any. */
+/* Share of the first n replicates in which a quantity exceeds a limit; NaN without replicates. */
 static double share_above(const replicates *r, size_t n, size_t k, double limit)
 {
     size_t solved = 0, above = 0;
@@ -241,8 +241,8 @@ static double share_above(const replicates *r, size_t n, size_t k, double limit)
     return solved > 0 ? (double)above / (double)solved : (double)NAN;
 }
 
-/* Of the replicates that have an edge, how many are too few for an interval; words of those that
- * have none where the values have one, or the other way round. */
+/* True if enough replicates agree with the stated values on an edge for an interval. Otherwise it
+ * appends the reason to the text. */
 static bool edge_known(existence_task *task, size_t end)
 {
     const replicates *r = &task->draws.replicates;
@@ -333,7 +333,7 @@ static wt_status make_table(existence_task *task, wt_table **table, wt_error *er
     return table_end(&t, table);
 }
 
-/* The same with its velocities from the least on, between which edges are looked for. */
+/* Copies the sliding with rising velocities, because edges are searched for between neighbours. */
 static wt_status order_velocities(existence_task *task, const wt_sliding *sliding, wt_error *err)
 {
     const size_t n = sliding->n_velocity;

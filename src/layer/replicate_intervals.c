@@ -1,4 +1,4 @@
-/* The ends of an interval by replicates, of which what was drawn is a sample of what is known.
+/* Interval limits from replicates, corrected for the sampling error of the draws.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "layer/replicate_intervals.h"
 
@@ -9,8 +9,8 @@
 #include <math.h>
 #include <stdlib.h>
 
-/* Of n in order, the value below which so large a part of them is; NaN beyond the last of m that
- * are known. */
+/* Quantile of n sorted values at the probability `part`; NaN beyond the last of the m finite ones.
+ */
 static double quantile(const double *sorted, size_t m, size_t n, double part)
 {
     const double at = fmax(part * (double)n - 0.5, 0);
@@ -26,8 +26,8 @@ typedef struct parabola {
     double b[3];
 } parabola;
 
-/* The values against where they lie along their line: a line, bent where what is asked for is not
- * straight in what is drawn. False: they do not tell it. */
+/* Fits a parabola to the values against their positions along the linear fit; the quadratic term
+ * describes nonlinearity. False if the fit is singular. */
 static bool find_parabola(const replicates *r, size_t k, const double *at, parabola *bent)
 {
     double a[9] = {0};
@@ -60,8 +60,8 @@ static int by_place(const void *left, const void *right)
                           : (a->replicate > b->replicate) - (a->replicate < b->replicate);
 }
 
-/* How much each of the n values goes up when what was drawn is where it is to be expected; 0 where
- * there is no line. */
+/* Correction of each of the n values if each draw had its expected order statistic; 0 without a
+ * fit. */
 static wt_status find_moves(const replicates *r, size_t k, double *move)
 {
     bool known = false;

@@ -1,6 +1,6 @@
-/* The columns and keys of what a layer is beyond its thickness at constant load: bands, running-in,
- * a layer that acts back, where there is one. Included by tables.h alone. SPDX-License-Identifier:
- * GPL-3.0-or-later */
+/* Columns and keys of the layer tables other than the thickness at constant load: bands,
+ * running-in, balances with feedback, regime map. Included by core/table/registry.h only.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #ifndef WT_LAYER_TABLES_H
 #define WT_LAYER_TABLES_H
 

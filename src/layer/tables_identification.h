@@ -1,9 +1,10 @@
-/* The columns and keys of the table "identification": critical energy and specific wear rate from
- * what is seen of a layer. Included by tables.h alone. SPDX-License-Identifier: GPL-3.0-or-later */
+/* Columns and keys of the table "identification": critical energy and specific wear rate from
+ * observations of a layer. Included by core/table/registry.h only.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #ifndef WT_LAYER_TABLES_IDENTIFICATION_H
 #define WT_LAYER_TABLES_IDENTIFICATION_H
 
-/* A way to know them in each row. */
+/* Each row is one identification method. */
 #define IDENTIFICATION_COLUMNS(X)                                                                  \
     X(IDENTIFICATION_BY, AS(by), "what they are known by", TEXT, LABEL("By"))                      \
     NUMBER_AND_INTERVAL(X, IDENTIFICATION_ENERGY, "critical_energy", "critical energy U_c",        \
@@ -28,7 +29,7 @@
       NUMBER, OPTIONAL, SPARSE)                                                                    \
     X(IDENTIFICATION_NOTE, AS(note), "what is lacking, or taken from elsewhere", TEXT,             \
       LABEL("Note"))
-/* The first two are those of the first way that has an interval. */
+/* The first two belong to the first method with an interval. */
 #define IDENTIFICATION_KEYS(X)                                                                     \
     X(IDENTIFICATION_KEY_ENERGY, "identified_critical_energy", SI(ENERGY_DENSITY),                 \
       HEADLINE("Critical energy by the layer"), OPTIONAL)                                          \

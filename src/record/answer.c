@@ -1,4 +1,4 @@
-/* What is said of friction and wear as measured.
+/* Sentences of the answer about measured friction and wear.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "case/answer/answer_context.h"
 #include "case/answer/format_number.h"
@@ -6,7 +6,8 @@
 #include <math.h>
 #include <string.h>
 
-/* Of the rows in which something slides, or is not known to rest; *n counts them. */
+/* Returns the smallest (sign -1) or largest (sign 1) friction coefficient of all rows that are not
+ * at rest. *n counts these rows. */
 static double extreme_friction(const table_view *v, double sign, size_t *n)
 {
     double most = (double)NAN;
@@ -41,7 +42,7 @@ void append_record(text_builder *t, const table_view *v)
         text_append(t, "; %s", record_text(v, 0, RECORD_NOTE));
 }
 
-/* The nominal pressure under a ball and its duty, of which wear need not tell anything. */
+/* Appends the nominal pressure under the ball and its duty. Both are known without a wear rate. */
 static void tell_ball(text_builder *t, const table_view *v)
 {
     double least = (double)NAN, most = (double)NAN;

@@ -1,4 +1,4 @@
-/* What the answer says of measured against predicted friction.
+/* Sentences of the answer that compare measured and predicted friction.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "case/answer/answer_context.h"
 #include "core/base/range_text.h"
@@ -123,7 +123,7 @@ static void say_narrowed(const answer_context *story, const table_view *v)
 void answer_validation(const answer_context *story)
 {
     const table_view *const v = &story->validation;
-    if (v->table == NULL) { /* as it may have failed */
+    if (v->table == NULL) { /* this stage may have failed */
         say_running_in(story);
         return;
     }

@@ -1,4 +1,5 @@
-/* One number of several measurements of it. SPDX-License-Identifier: GPL-3.0-or-later */
+/* Combination of repeated measurements of one quantity.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "record/record.h"
 
 #include <math.h>
@@ -28,7 +29,8 @@ wt_estimate record_group_mean(const record_group *s, const char *unit)
     if (!(s->n > 0))
         return (wt_estimate){(double)NAN, (double)NAN, 0, unit};
     const double by_scatter = by_scatter_of(s), by_errors = s->own / (s->n * s->n);
-    /* an error that is not known leaves the scatter alone, which one measurement has none of */
+    /* An unknown standard error leaves only the scatter, which a single measurement does not
+     * have. */
     if (isnan(by_errors) && s->n > 1)
         return (wt_estimate){s->mean, sqrt(by_scatter), 0, unit};
     return (wt_estimate){s->mean, isnan(by_errors) ? by_errors : sqrt(fmax(by_errors, by_scatter)),

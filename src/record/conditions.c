@@ -1,18 +1,18 @@
-/* Steps of a record: where velocity, load, pressure or temperature change to another value.
+/* Division of a record into steps: velocity, load, pressure or temperature change their value.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "record/record.h"
 
 #include <math.h>
 
-/* Another value, not the control of the instrument: friction of rubber goes with the logarithm of
- * the velocity, and a tenth of it is no other place; glass transitions move 5 K in one decade. */
+/* A change counts only if it exceeds the control accuracy of the instrument. Rubber friction
+ * depends on the logarithm of the velocity. A change of 10 % is therefore not a new condition.
+ * Glass transitions shift by 5 K per decade. */
 static const double same_ratio = 0.1, same_temperature = 5; /* [K] */
-/* Cycles that a new value must last, and how far it must stand out of the scatter of the old one.
- */
+/* Number of cycles that a new value must last, and the fewest cycles of a comparison. */
 enum { LASTING = 10, FEWEST = 3 };
-static const double outstanding = 5; /* standard errors */
+static const double outstanding = 5; /* threshold of a change [standard errors] */
 
-/* The rotation counts where no radius tells the velocity. */
+/* The rotation is compared if no radius gives the velocity. */
 typedef enum condition {
     VELOCITY,
     ROTATION,
@@ -56,7 +56,7 @@ static spread spread_of(const wt_cycle *cycles, size_t n, condition which)
     return s;
 }
 
-/* Do the next cycles have another value than those before? */
+/* True if the mean of the next cycles differs from the mean before. */
 static bool changes(const spread *before, const spread *next, condition which)
 {
     const double change = fabs(next->mean - before->mean);
@@ -66,7 +66,7 @@ static bool changes(const spread *before, const spread *next, condition which)
     return change > outstanding * sqrt(variance * (1 / before->n + 1 / next->n));
 }
 
-/* The first cycle that is nearer to the new value than to the old one. */
+/* Returns the first cycle that is closer to the new value than to the old one. */
 static size_t nearer(const wt_cycle *cycles, size_t i, size_t n, condition which, double old)
 {
     const size_t from = i + LASTING < n ? i + LASTING / 2 : i;
@@ -89,7 +89,7 @@ size_t conditions_step(const wt_cycle *cycles, size_t n)
     size_t end = 1;
     while (end < n && cycles[end].step == cycles[0].step)
         end++;
-    /* what stands still before sliding begins is a step, however short */
+    /* A rest before sliding begins is a step of its own, however short it is. */
     for (size_t still = 0; still < end && rests(&cycles[still]); still++)
         if (still + 1 < end && !rests(&cycles[still + 1]))
             return still + 1;
@@ -112,7 +112,7 @@ static double mean_or_nan(const wt_cycle *cycles, size_t n, condition which)
     return s.n > 0 ? s.mean : (double)NAN;
 }
 
-/* Path over time: laps of other numbers of samples are as long. */
+/* Path over time. Laps with different numbers of samples have the same length. */
 static double mean_velocity(const wt_cycle *cycles, size_t n)
 {
     double path = 0, time = 0;
@@ -137,7 +137,7 @@ bool conditions_rest(record_conditions at)
     return !(at.velocity > 0 || at.rotation > 0) && (at.velocity == 0 || at.rotation == 0);
 }
 
-/* What only one of them tells is not known to be alike. */
+/* A quantity that only one of both states is not equal. */
 static bool alike(double a, double b, condition which)
 {
     if (isnan(a) || isnan(b))

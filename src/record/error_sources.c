@@ -1,4 +1,4 @@
-/* Where the error of measured over predicted comes from, and what would make it smaller.
+/* Contributions to the error of measured over predicted friction, with remedies.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "record/validation.h"
 
@@ -15,7 +15,7 @@
 TABLE_ROW(validation_sources, VALIDATION_SOURCES, const char *source, *remedy;
           double error, share, needed_share, pull, pull_error;)
 
-/* What is drawn, in words. Two numbers of one source have the same words, and make one row. */
+/* Names of the random draws. Draws with the same name form one source and one row. */
 static const struct {
     flow_draw draw;
     const char *words, *remedy;
@@ -52,12 +52,16 @@ const char *source_of_draw(flow_draw draw, const char **remedy)
     return drawn[k].words;
 }
 
-enum { MOST_SOURCES = COUNT_OF(drawn) + 3 }; /* and the material, the record, its scatter */
+enum {
+    MOST_SOURCES = COUNT_OF(drawn) + 3
+}; /* plus material, record and scatter between the
+      steps */
 
 typedef struct source {
     const char *words, *remedy;
-    double variance, needed; /* of ln measured over predicted; of the shear stress needed */
-    double pull, left;       /* as the columns */
+    double variance, needed; /* variances of ln(measured/predicted) and of the required shear
+                                stress */
+    double pull, left;       /* as in the columns pull and pull_error */
 } source;
 
 typedef struct source_list {
@@ -76,9 +80,9 @@ static source *find_source(source_list *list, const char *words, const char *rem
     return s;
 }
 
-/* ---- the variance by sources ----------------------------------------------------------------- */
+/* ---- variance by source ---------------------------------------------------------------------- */
 
-/* What the draws leave beside the numbers that are told apart. */
+/* Names the variance that is not attributed to a single draw. */
 static const char *words_of_rest(const wt_sliding *sliding, bool split)
 {
     const bool with_surface = sliding->surface->modes_error != NULL;
@@ -128,8 +132,8 @@ static void list_sources(const validation *v, bool split, const model_variant_pa
     add_rest(list, v->job->sliding, split, parts, needed);
 }
 
-/* What the record makes of each drawn number, before it 0 +- 1: the value is noise about slope
- * times what the number truly is off, the other way round. */
+/* Computes how far the record shifts each drawn number, whose prior is 0 +- 1. The value is noise
+ * plus slope times the true offset of the number. This is the inverse problem. */
 static wt_status find_pulls(const validation *v, const model_variant *t, source_list *list,
                             wt_error *err)
 {
@@ -147,7 +151,7 @@ static wt_status find_pulls(const validation *v, const model_variant *t, source_
             told += weight[i] * slope[i];
         }
         source *const s = find_source(list, drawn[k].words, drawn[k].remedy);
-        if (!isnan(s->pull)) /* of two numbers: there is not one pull */
+        if (!isnan(s->pull)) /* a source of two numbers has no single pull */
             pull = told = (double)NAN;
         s->pull = -pull;
         s->left = sqrt(fmax(1 - told, 0));
@@ -164,8 +168,8 @@ static int by_variance(const void *a, const void *b)
     return (x->variance < y->variance) - (x->variance > y->variance);
 }
 
-/* How many sources, the largest first, must go that the interval leaves the end of the margin that
- * it holds; their number + 1: all of them are not enough. */
+/* Number of sources, the largest first, that must vanish until the interval no longer contains the
+ * bound of the margin. Returns the number of sources + 1 if all of them do not suffice. */
 static size_t count_to_settle(const validation *v, const model_variant *t, const source_list *list)
 {
     const agreement *const fit = &t->fit;
@@ -179,7 +183,7 @@ static size_t count_to_settle(const validation *v, const model_variant *t, const
     return sqrt(fmax(left, 0)) > wanted ? list->n + 1 : n;
 }
 
-/* More of them at once are no advice. */
+/* Advice that names more sources at once is not useful. */
 enum { MOST_NAMED = 2 };
 
 static void give_advice(const validation *v, const model_variant *t, const source_list *list,
@@ -205,7 +209,7 @@ static void give_advice(const validation *v, const model_variant *t, const sourc
                       n == 1 ? ": " : "", n == 1 ? first->remedy : "");
 }
 
-/* ---- the table ------------------------------------------------------------------------------- */
+/* ---- table ----------------------------------------------------------------------------------- */
 
 static wt_status write_table(const source_list *list, const source_advice *advice, wt_table **table,
                              wt_error *err)
@@ -234,7 +238,8 @@ wt_status sources_make(const validation *v, source_advice *advice, wt_table **ta
     agreement_row(&v->shear.fit, 0, row);
     const model_variant_parts needed = model_variant_variance(&v->shear, row);
     free(row);
-    const bool split = t->split || v->p.n_draws == 0; /* without draws there is nothing to split */
+    const bool split = t->split || v->p.n_draws == 0; /* without draws there is nothing to
+                                                         attribute */
     list_sources(v, split, &parts, &needed, &list);
     const wt_status status = v->has_shear && split ? find_pulls(v, t, &list, err) : WT_OK;
     if (status != WT_OK)

@@ -8,7 +8,7 @@
 
 #include <math.h>
 
-/* Cycles, then the mean of the steady part of each step at the end of its running-in. */
+/* Draws the cycles and the mean of the steady state of each step at the end of its running-in. */
 static void draw_record(figure_drawing *d)
 {
     static const unsigned columns[] = {RECORD_RUNNING_IN, RECORD_FRICTION, RECORD_RUNNING_IN_LOW,
@@ -37,7 +37,8 @@ static void caption_record(figure_drawing *d)
         text_append_translated(&d->caption, " Without an end of the running-in: %zu.", without);
 }
 
-/* In degrees Celsius, which a description of a curve cannot say: value, its error, the interval. */
+/* Uses degrees Celsius, which the description of a curve cannot express. The columns are the value
+ * and its interval. */
 static void draw_temperature(figure_drawing *d)
 {
     if (!drawing_data(d))

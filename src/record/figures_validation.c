@@ -4,7 +4,7 @@
  */
 #include "report/drawing.h"
 
-/* What the figures are about, as the key says it. */
+/* The caption states the subject and the verdict of the key. */
 static void caption_verdict(figure_drawing *d)
 {
     text_append_translated(&d->caption, " Of %s: %s.",
@@ -18,7 +18,7 @@ static void caption_course(figure_drawing *d)
                            validation_course_words(d->table, VALIDATION_COURSE_KEY_VERDICT));
 }
 
-/* Where measured and predicted agree. */
+/* Marks the ratio 1, at which measured and predicted friction agree. */
 static void mark_agreement(figure_drawing *d)
 {
     span_add(&d->y[0], 1, false);

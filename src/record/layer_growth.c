@@ -1,4 +1,5 @@
-/* Friction while a layer grows. SPDX-License-Identifier: GPL-3.0-or-later */
+/* Friction during the growth of a layer.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "record/layer_growth.h"
 #include "job/random_draws.h"
 #include "layer/feedback.h"
@@ -8,31 +9,32 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Times in equal ratios: by damage transport so close that a layer which is there at once is placed
- * to 2 %; the rate balance is smooth, and its line between two misses a thousandth. */
+/* Number of times in equal ratios. With damage transport, the spacing locates an instantaneous
+ * layer to 2 %. The rate balance is smooth, and linear interpolation misses less than 0.1 %. */
 enum { TIMES_TRANSPORT = 600, TIMES_RATES = 150 };
-/* Thicknesses that friction is computed at, with a curve through them, which misses less than a
- * thousandth of its change. */
+/* Number of thicknesses at which friction is computed. The curve through them misses less than 0.1
+ * % of its change. */
 enum { NODES = 32 };
-/* From a layer that the shortest wave hardly feels: of 1/q1, but of what is grown at least. */
+/* Thinnest layer, as a fraction of 1/q1 or at least as a fraction of the final thickness. The
+ * shortest wave hardly senses it. */
 static const double thinnest = 0.02, least_part = 1e-3;
 
 typedef struct growing {
     wt_sliding sliding; /* at the conditions of the record */
     double velocity;
-    const wt_sliding *stated; /* the conditions of the case, at which a thickness was observed */
+    const wt_sliding *stated; /* at the conditions of the case, where a thickness was observed */
     wt_layer_job job;         /* as stated, with the shear stress of the layer */
     const wt_layer_observation *known;
     const wt_job *work;
-    bool transport; /* of damage; else by rates */
+    bool transport; /* true: damage transport; false: rate balance */
     double *time;   /* [n] */
     size_t n;
 } growing;
 
 /* ---- one draw -------------------------------------------------------------------------------- */
 
-/* The scene of a draw at the conditions of the record, whose job the caller keeps: its critical
- * energy is that which makes an observed thickness at the conditions of the case. */
+/* Creates the context of a draw at the conditions of the record. The caller owns its job. The
+ * critical energy reproduces the observed thickness at the conditions of the case. */
 static wt_status scene_of(const growing *g, size_t replicate, wt_material_cache *drawn,
                           wt_layer_job *job, layer_context *scene, wt_error *err)
 {
@@ -58,12 +60,12 @@ static wt_status scene_of(const growing *g, size_t replicate, wt_material_cache 
     return status;
 }
 
-/* What a layer does to friction, and when it is how thick. */
+/* Friction with a layer, and the thickness in time. */
 typedef struct one_draw {
     layer_context *scene;
     wt_layer_parameters parameters;
     wt_layer_point *points; /* [n] at the times */
-    double thickness, bare; /* in the end; friction without a layer */
+    double thickness, bare; /* final thickness [m]; friction coefficient without a layer */
     layer_friction_model friction_of;
 } one_draw;
 
@@ -150,9 +152,9 @@ static wt_status follow(const growing *g, layer_context *scene, double *out, wt_
     return status;
 }
 
-/* ---- the times ------------------------------------------------------------------------------- */
+/* ---- times ----------------------------------------------------------------------------------- */
 
-/* Those that a layer is shown at, closer. */
+/* Refines the times at which a layer is shown. */
 static wt_status choose_times(growing *g, growth *out, wt_error *err)
 {
     layer_energy energy = {.source = {.n = 0}};
@@ -173,7 +175,8 @@ static wt_status choose_times(growing *g, growth *out, wt_error *err)
     if (status == WT_OK)
         status = layer_times_choose(&job, &balance, &shown, &n, err);
     if (status == WT_OK) {
-        /* by rates a layer is there at once: from the thinnest that is felt on */
+        /* With the rate balance the layer starts at once. The times start where the thinnest
+         * relevant layer exists. */
         const double at_once = thinnest / g->sliding.surface->q1 / balance.formation_rate_zero,
                      first = g->transport || !(at_once > 0) ? shown[0] : fmin(shown[0], at_once);
         out->log_first = log(first);
@@ -275,7 +278,7 @@ wt_status growth_make(const wt_sliding *sliding, const wt_layer_job *layer,
                       const wt_job *work, growth *out, wt_error *err)
 {
     wt_job own = *work;
-    own.drawn = NULL; /* of another temperature */
+    own.drawn = NULL; /* the stored draws are for another temperature */
     own.left_out = WT_EXTRAS;
     growing g = growing_of(sliding, layer, known, at, &own);
     g.transport = layer->incubation && !layer->acts_back;

@@ -1,5 +1,6 @@
-/* Friction while a layer grows at the conditions of a record, by the values themselves and by their
- * draws (internal to record). SPDX-License-Identifier: GPL-3.0-or-later */
+/* Friction during the growth of a layer at the conditions of a record, for the nominal values and
+ * for their draws. Internal to record.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #ifndef WT_RECORD_LAYER_GROWTH_H
 #define WT_RECORD_LAYER_GROWTH_H
 
@@ -7,39 +8,42 @@
 #include "record/measured_friction.h"
 #include "record/numerics/running_in_curve.h"
 
-/* Numbers of one draw before its friction in time. */
+/* Numbers of one draw that precede its friction in time. */
 typedef enum growth_number {
-    GROWTH_END,    /* friction at the balance of formation and wear; first, as never NaN */
-    GROWTH_BARE,   /* without a layer */
-    GROWTH_WEAR,   /* k [m^2/N] */
-    GROWTH_ENERGY, /* U_c [J/m^3]; NaN: the closure has none */
+    GROWTH_END,    /* friction at the steady-state thickness; first member because it is never
+                      NaN */
+    GROWTH_BARE,   /* friction without a layer */
+    GROWTH_WEAR,   /* specific wear rate k [m^2/N] */
+    GROWTH_ENERGY, /* critical energy U_c [J/m^3]; NaN if the closure has none */
     GROWTH_NUMBERS
 } growth_number;
 
 typedef struct growth {
     size_t n, n_draws, stride;
     double log_first, log_step; /* of the n times [s] */
-    double *value;  /* [(1 + n_draws) * stride] the numbers, then friction at the times; those of
-                       the values themselves first; NaN: a draw that has no solution */
-    double *course; /* [(1 + n_draws) * n] that friction less the one in the end */
+    double *value;  /* [(1 + n_draws) * stride] the numbers, then friction at the times; nominal
+                       values first; NaN for a draw without a solution */
+    double *course; /* [(1 + n_draws) * n] friction less final friction */
     flow_draw line[REPLICATES_MOST];
-    size_t n_lines, n_bare; /* draws in which there is no layer */
-    char includes[256];     /* what is drawn, in words */
-    bool without_errors;    /* what acts back is followed by the values themselves alone */
+    size_t n_lines, n_bare; /* draws without a layer */
+    char includes[256];     /* names of the drawn sources */
+    bool without_errors;    /* true if the layer feeds back: only nominal values are computed */
 } growth;
 
-/* WT_E_RANGE where there is no layer, or one that grows without end. */
+/* Computes the growth. The caller clears it, also after a failure. Returns WT_E_RANGE if no layer
+ * exists or if it grows without limit. */
 wt_status growth_make(const wt_sliding *sliding, const wt_layer_job *layer,
                       const wt_layer_observation *known, const measured_step *at,
                       const wt_job *work, growth *g, wt_error *err) WT_NODISCARD;
 void growth_clear(growth *g);
 
-/* Of the values themselves (k = 0) or of draw k - 1. */
+/* Returns a number of the nominal values (k = 0) or of draw k - 1. */
 double growth_number_of(const growth *g, size_t k, growth_number number);
 course growth_course(const growth *g, size_t k);
-/* Friction at a time. */
+/* Returns the friction coefficient at a time [s]. */
 double growth_friction(const growth *g, size_t k, double time);
-/* Standard deviation of what `of` gives of the draws that tell it; NaN of fewer than two. */
+/* Returns the standard deviation of a function over the draws with a finite value. NaN if fewer
+ * than two have one. */
 typedef double growth_value(const growth *g, size_t k, double time);
 double growth_scatter(const growth *g, growth_value *of, double time);
 

@@ -1,4 +1,5 @@
-/* Steps of records, ready to be predicted. SPDX-License-Identifier: GPL-3.0-or-later */
+/* Measured steps of records, prepared for the prediction.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "record/measured_friction.h"
 #include "friction/sliding_contact.h"
 
@@ -7,13 +8,12 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Covariances go with the square of the steps: 500 take 2 MB each. */
+/* Covariances need memory quadratic in the number of steps: 500 steps take 2 MB each. */
 enum { MOST_STEPS = 500 };
-/* One preparation of the contact serves steps that differ by less: a quarter of a kelvin shifts
- * filled rubber by a fortieth of a decade, and friction goes with the power 1/3 of the pressure at
- * most. */
+/* Steps that differ by less share one contact computation. A shift of 0.25 K moves filled rubber by
+ * 1/40 decade. Friction depends on the pressure with an exponent of 1/3 at most. */
 static const double same_temperature = 0.25 /* [K] */, same_pressure = 0.01;
-/* Loads of one step are held to 10 %, see the steps of records. */
+/* Loads of one step agree to 10 %; see conditions.c. */
 static const double same_load = 1.1;
 
 static const char *why_not(const measured_step *s)
@@ -32,7 +32,7 @@ static bool is_used(const measured_step *s)
     return s->note[0] == '\0';
 }
 
-/* What is not known is alike, and behind all that is. */
+/* Unknown values are equal and sort after all known values. */
 static int by_value(double a, double b)
 {
     if (isnan(a) || isnan(b))
@@ -55,7 +55,8 @@ static int by_condition(const void *x, const void *y)
     return order != 0 ? order : by_value(a->error, b->error);
 }
 
-/* Values that merely flicker become those of the first, so that they sort by velocity. */
+/* Replaces values that merely fluctuate by the first of them, so that the steps sort by
+ * velocity. */
 static void join_flicker(measured *m)
 {
     for (size_t i = 0; i < m->n_all; i++)
@@ -90,7 +91,7 @@ void measured_taken(const table_view *record, bool first_steps, char *remarks, s
         velocity |= isnan(record_get(record, i, RECORD_VELOCITY));
         temperature |= isnan(record_get(record, i, RECORD_TEMPERATURE));
         pressure |= isnan(record_get(record, i, RECORD_PRESSURE));
-        lightest = fmin(lightest, load); /* which leave out NaN */
+        lightest = fmin(lightest, load); /* fmin and fmax skip NaN */
         heaviest = fmax(heaviest, load);
     }
     if (velocity)

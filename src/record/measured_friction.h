@@ -1,4 +1,4 @@
-/* The steps of records that a prediction is held against (internal to record).
+/* Measured steps of records that a prediction is compared with. Internal to record.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #ifndef WT_RECORD_MEASURED_FRICTION_H
 #define WT_RECORD_MEASURED_FRICTION_H
@@ -6,36 +6,37 @@
 #include "core/table/registry.h"
 #include "weartrack/flow.h"
 
-/* Friction is predicted at what the record says, and at what the case says where it says nothing.
- */
+/* The conditions are those of the record. The case replaces conditions that the record does not
+ * state. */
 typedef struct measured_step {
-    double velocity, temperature, pressure; /* temperature NaN: the reference of the rubber */
+    double velocity, temperature, pressure; /* [m/s], [K], [Pa]; temperature NaN: the reference
+                                               temperature of the rubber */
     double friction, error;
-    wt_interval measured; /* the same with its interval */
-    const char *note;     /* why it is not compared, or "" */
+    wt_interval measured; /* friction with its interval */
+    const char *note;     /* reason of exclusion, or "" */
     const char *file;     /* borrowed from the table */
 } measured_step;
 
 typedef struct measured {
-    measured_step *step; /* by temperature, pressure and velocity; then those not compared */
+    measured_step *step; /* sorted by temperature, pressure and velocity; excluded steps last */
     size_t n, n_all;
-    char remarks[640]; /* what was taken for granted */
+    char remarks[640]; /* assumptions about conditions */
 } measured;
 
-/* Of a row of the record, what it does not say as the case has it. */
+/* Reads a row of the record. Missing conditions come from the case. */
 measured_step measured_step_of(const table_view *record, size_t row, const wt_sliding *sliding);
-/* Its pressure and temperature, with the errors of the case. */
+/* Sets pressure and temperature of the step, with the relative errors of the case. */
 void measured_conditions(const measured_step *step, wt_sliding *sliding);
 
-/* What the record does not say and the case does, in words; of the first steps alone, or of all. */
+/* Appends remarks on conditions that come from the case, for the first steps or for all steps. */
 void measured_taken(const table_view *record, bool first_steps, char *remarks, size_t size);
 
 wt_status measured_make(const table_view *record, const wt_sliding *sliding, measured *m,
                         wt_error *err) WT_NODISCARD;
-/* One more in the key remarks. */
+/* Appends a remark to the key "remarks". */
 void measured_remark(measured *m, const char *words);
 void measured_clear(measured *m);
-/* How many steps from `first` on have its temperature and pressure. */
+/* Returns the number of steps from `first` on with the same temperature and pressure. */
 size_t measured_alike(const measured *m, size_t first);
 
 #endif

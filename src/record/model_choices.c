@@ -1,4 +1,4 @@
-/* What a record says of the choices of the model: the likelihood of each row of the table what_if.
+/* Likelihood of the record for each model choice of the table "what_if".
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "record/validation.h"
 #include "study/what_if.h"
@@ -10,7 +10,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* A share of the weight as an interval has it of the probability. */
+/* Share of the weight, with the same level as a 95 % interval. */
 static const double most_of_it = 0.95;
 
 typedef struct choice_row {
@@ -23,7 +23,8 @@ TABLE_ROW_OF(validation_choices, VALIDATION_CHOICES, choice_row)
 
 /* ---- one row --------------------------------------------------------------------------------- */
 
-/* The prediction of a setting at the steps, with the thickness that the table has for it. */
+/* Predicts friction at the steps for a model choice, with the thickness that the table has for
+ * it. */
 static wt_status predict(const validation *v, setting *s, double thickness, prediction *p,
                          wt_error *err)
 {
@@ -49,7 +50,8 @@ static wt_status predict(const validation *v, setting *s, double thickness, pred
     return status;
 }
 
-/* Its ratio about the same covariance: what is drawn does to it what it does to the values used. */
+/* Assesses the ratio with the covariance of the values used: the draws affect a choice in the same
+ * way. */
 static wt_status judge(const validation *v, const prediction *p, choice_row *r, wt_error *err)
 {
     const model_variant *const used = &v->ratio[v->layered];
@@ -113,7 +115,7 @@ static wt_status compute_row(const validation *v, const table_view *what_if, siz
 
 /* ---- weights --------------------------------------------------------------------------------- */
 
-/* The fewest rows that hold most of the weight, the heaviest first. */
+/* Selects the fewest rows that hold most of the weight, the largest weight first. */
 static void keep_rows(choice_row *rows, size_t n)
 {
     double sum = 0;
@@ -133,7 +135,7 @@ static void weigh_rows(choice_row *rows, size_t n)
 {
     double largest = -(double)INFINITY, sum = 0;
     for (size_t i = 0; i < n; i++)
-        largest = fmax(largest, rows[i].log_likelihood); /* which leaves out NaN */
+        largest = fmax(largest, rows[i].log_likelihood); /* fmax skips NaN */
     for (size_t i = 0; i < n; i++) {
         const double l = rows[i].log_likelihood;
         rows[i].weight = isnan(l) ? 0 : exp(l - largest);
@@ -174,7 +176,8 @@ static void find_ranges(const table_view *what_if, const choice_row *rows, size_
     }
 }
 
-/* The best of all rows does not agree: then which is likelier says little. */
+/* If no likely row agrees with the record, the text says so: the relative likelihood is then of
+ * little use. */
 static void say_narrowed(const choice_row *rows, size_t n, choice_ranges *ranges)
 {
     size_t kept = 0, explained = 0, best = 0;
@@ -190,7 +193,7 @@ static void say_narrowed(const choice_row *rows, size_t n, choice_ranges *ranges
                   explained > 0 ? "" : "; but none of them agrees with the record");
 }
 
-/* ---- the table ------------------------------------------------------------------------------- */
+/* ---- table ----------------------------------------------------------------------------------- */
 
 static wt_status write_table(const validation *v, const choice_row *rows, size_t n,
                              const choice_ranges *ranges, wt_table **table, wt_error *err)
@@ -211,7 +214,8 @@ wt_status choices_make(const validation *v, const table_view *what_if, choice_ra
     setting *settings = NULL;
     size_t n = 0;
     wt_status status = what_if_settings(&v->used, &settings, &n, err);
-    if (status == WT_OK && n != what_if->n_rows) { /* made with a layer, which is tried without */
+    if (status == WT_OK && n != what_if->n_rows) { /* the table was computed with a layer, and
+                                                      this comparison is without one */
         free(settings);
         return WT_OK;
     }

@@ -1,4 +1,5 @@
-/* One prediction held against the record. SPDX-License-Identifier: GPL-3.0-or-later */
+/* Comparison of one prediction with the record.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "record/model_variant.h"
 
 #include "core/math/cholesky.h"
@@ -7,21 +8,21 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* As many draws for each slope that what they scatter by is small against the rest, as for the
- * standard errors of the replicates. */
+/* Draws per slope. The scatter of the slopes is then small, as for the standard errors of
+ * replicates. */
 enum { FOR_EACH = 5, MOST_COLUMNS = REPLICATES_MOST + 1 };
 
-/* ---- where the error comes from -------------------------------------------------------------- */
+/* ---- error sources --------------------------------------------------------------------------- */
 
 typedef struct splitting {
     const prediction *p;
     model_variant *t;
-    double *z;     /* [n_draws * columns] 1, then the numbers that are drawn */
+    double *z;     /* [n_draws * columns] 1, then the drawn numbers */
     double *value; /* [n_draws * n] */
     size_t columns, n_good;
 } splitting;
 
-/* The draws that have a solution, with the numbers they are made of. */
+/* Collects the draws that have a solution, with their standard normal numbers. */
 static void collect_draws(splitting *s, model_variant_value *of, const void *user, uint64_t seed)
 {
     const size_t n = s->t->n;
@@ -39,7 +40,7 @@ static void collect_draws(splitting *s, model_variant_value *of, const void *use
     }
 }
 
-/* Takes the lines out of the values, and keeps their slopes. */
+/* Subtracts the linear regression on the drawn numbers from the values and stores the slopes. */
 static bool take_lines(splitting *s)
 {
     const size_t p = s->columns, n = s->t->n;
@@ -77,8 +78,8 @@ static void take_mean(splitting *s)
     }
 }
 
-/* The numbers that are drawn are standard normal, so their part of the covariance follows from the
- * slopes without scatter; of the rest it is that of the draws. */
+/* Drawn numbers are standard normal. Their part of the covariance follows from the slopes without
+ * sampling error. The sample covariance gives the remainder. */
 static wt_status find_covariance(splitting *s, wt_error *err)
 {
     model_variant *const t = s->t;
@@ -88,7 +89,7 @@ static wt_status find_covariance(splitting *s, wt_error *err)
         s->columns = 1;
         take_mean(s);
     }
-    if (s->p->n_draws == 0) /* not asked for */
+    if (s->p->n_draws == 0) /* no errors are requested */
         return WT_OK;
     if (s->n_good <= s->columns)
         return wt_fail(err, WT_E_RANGE,
@@ -125,7 +126,7 @@ static wt_status split_draws(const prediction *p, model_variant_value *of, const
     return status;
 }
 
-/* ---- the trial ------------------------------------------------------------------------------- */
+/* ---- model variant --------------------------------------------------------------------------- */
 
 static wt_status allocate(model_variant *t, wt_error *err)
 {
@@ -177,7 +178,7 @@ void model_variant_clear(model_variant *t)
     *t = (model_variant){.n = 0};
 }
 
-/* ---- what is compared ------------------------------------------------------------------------ */
+/* ---- compared quantities --------------------------------------------------------------------- */
 
 double ratio_value(const void *user, size_t k, size_t step)
 {
@@ -231,7 +232,7 @@ wt_status model_variant_of_shear(const prediction *p, const measured *steps, boo
     return status;
 }
 
-/* ---- parts of the variance ------------------------------------------------------------------- */
+/* ---- components of the variance -------------------------------------------------------------- */
 
 model_variant_parts model_variant_variance(const model_variant *t, const double *row)
 {

@@ -1,5 +1,5 @@
-/* The largest wavenumber that a record asks for, all else as used: where its likelihood is largest,
- * for a level alone may ask for two.
+/* Required largest wavenumber of a record, all else as used. It maximises the likelihood: a level
+ * alone may be met by two values.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "record/validation.h"
 
@@ -9,11 +9,11 @@
 #include <math.h>
 #include <stdlib.h>
 
-/* Twice the decade by which the choices of the model move it, in tenths of a decade: friction is a
- * smooth function of ln q1. */
+/* Scan in steps of 0.1 decade over two decades on either side, twice the range of the model
+ * choices. Friction is a smooth function of ln q1. */
 enum { EACH_WAY = 20, TRIED = 2 * EACH_WAY + 1 };
 static const double tenth = 0.1;
-/* No surface has waves below the size of a molecule [m]. */
+/* [m] no surface has waves below the size of a molecule */
 static const double shortest_wave = 1e-9;
 
 typedef struct scan {
@@ -34,7 +34,8 @@ static double limit_high(const setting *s)
     return fmin(2 * M_PI / shortest_wave, known);
 }
 
-/* ln of the likelihood of the record with another q1, about the same covariance. value: [n]. */
+/* ln of the likelihood of the record for another q1, with the same covariance. value: [n]
+ * scratch. */
 static wt_status likelihood_at(const validation *v, double q1, double *value, double *likelihood,
                                wt_error *err)
 {
@@ -70,7 +71,7 @@ static wt_status scan_make(const validation *v, scan *s, wt_error *err)
         const double at = used + tenth * i;
         if (i != 0 && (at < low || at > high))
             continue;
-        /* of that used the logarithm may lie beyond the last density by a rounding error */
+        /* rounding may place the logarithm of the used value beyond the last density */
         const double q1 = i == 0 ? v->used.surface.q1 : fmin(pow(10, at), limit_high(&v->used));
         status = likelihood_at(v, q1, value, &s->likelihood[s->n], err);
         s->log_q1[s->n++] = at;
@@ -79,7 +80,8 @@ static wt_status scan_make(const validation *v, scan *s, wt_error *err)
     return status;
 }
 
-/* Of the parabola through the best and its neighbours; NaN where the best is an end. */
+/* Maximum of the parabola through the best point and its neighbours. NaN if the best point is at a
+ * limit of the scan. */
 static double place_of_best(const scan *s, size_t best)
 {
     if (best == 0 || best + 1 == s->n)
@@ -88,8 +90,7 @@ static double place_of_best(const scan *s, size_t best)
     return s->log_q1[best] + tenth * 0.5 * (a - c) / (a - 2 * b + c);
 }
 
-/* Where the likelihood has fallen as far as at an end of an interval of 95 %, on one side; NaN:
- * nowhere. */
+/* Limit of the 95 % profile likelihood interval on one side. NaN if the scan does not reach it. */
 static double end_of(const scan *s, size_t best, int side)
 {
     const double level = s->likelihood[best] - 0.5 * NORMAL_95 * NORMAL_95;
@@ -114,7 +115,7 @@ wt_status cutoff_set_keys(const validation *v, table_writer *t, wt_error *err)
     size_t best = 0;
     char text[256];
     const wt_status status = scan_make(v, &s, err);
-    if (status == WT_E_RANGE || status == WT_E_CONVERGENCE) { /* beside it all else stands */
+    if (status == WT_E_RANGE || status == WT_E_CONVERGENCE) { /* the other results remain valid */
         validation_set_text(t, VALIDATION_KEY_CUTOFF_NOTE,
                             "not known: friction is not predicted at every wavenumber tried");
         return WT_OK;

@@ -1,4 +1,5 @@
-/* Friction at the steps of records. SPDX-License-Identifier: GPL-3.0-or-later */
+/* Friction predicted at the steps of records.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "record/predicted_friction.h"
 #include "friction/sliding_contact.h"
 
@@ -6,7 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Steps of one temperature and pressure. */
+/* Steps with the same temperature and pressure. */
 typedef struct group {
     wt_sliding sliding;
     const wt_layer_observation *known; /* or NULL */
@@ -20,8 +21,8 @@ static double *numbers_of(double *out, size_t n, prediction_part part)
     return out + (size_t)part * n;
 }
 
-/* One contact: friction without a shear stress of the bulk, which is the hysteresis and what cracks
- * cost, and by how much it grows with that. */
+/* Computes one contact. `hysteresis` is friction without a shear stress of the bulk: hysteresis and
+ * crack losses. `by_shear` is its derivative with respect to this stress. */
 static wt_status compute_contact(const group *g, wt_material_cache *drawn, size_t replicate,
                                  wt_layer_state layer, wt_friction_point *points,
                                  double *hysteresis, double *by_shear, wt_error *err)
@@ -80,7 +81,7 @@ static wt_status one_replicate(const void *user, size_t i, double *out, wt_error
     return compute_group(d->group, d->r->drawn, i, out, err);
 }
 
-/* The numbers that are drawn for friction with a shear stress and a layer. */
+/* Numbers that are drawn for friction with a shear stress and a layer. */
 static replicates begin_replicates(const group *g, const wt_sliding *sliding, const wt_job *work)
 {
     replicates r = replicates_of(&g->sliding, work, "validation");
@@ -97,7 +98,7 @@ static replicates begin_replicates(const group *g, const wt_sliding *sliding, co
 
 /* ---- all groups ------------------------------------------------------------------------------ */
 
-/* The numbers of a group go to the steps from `first` on. */
+/* Stores the numbers of a group in the steps from `first` on. */
 static void spread_numbers(const double *from, size_t n, size_t first, prediction *p, size_t k)
 {
     for (size_t part = 0; part < PARTS; part++)
@@ -164,7 +165,7 @@ wt_status prediction_make(const wt_sliding *sliding, const wt_layer_observation 
                           wt_error *err)
 {
     wt_job own = *work;
-    own.drawn = NULL; /* of another temperature */
+    own.drawn = NULL; /* the stored draws are for another temperature */
     own.left_out |= WT_EXTRA_SHARE;
     *p = (prediction){
         .n = steps->n, .layered = known != NULL, .layer_gain = {(double)NAN, (double)NAN}};

@@ -1,5 +1,6 @@
-/* Friction at the steps of records, by the values themselves and by their draws (internal to
- * record). SPDX-License-Identifier: GPL-3.0-or-later */
+/* Friction predicted at the steps of records, for the nominal values and for their draws. Internal
+ * to record.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #ifndef WT_RECORD_PREDICTED_FRICTION_H
 #define WT_RECORD_PREDICTED_FRICTION_H
 
@@ -18,20 +19,22 @@ typedef enum prediction_part {
 typedef struct prediction {
     size_t n, n_draws; /* steps; draws, of which the first n_lines numbers are drawn */
     bool layered;
-    double *part;  /* [(1 + n_draws) * PARTS * n] first those of the values themselves */
-    double *shear; /* [1 + n_draws] tau_f [Pa]; NaN: not given */
+    double *part;  /* [(1 + n_draws) * PARTS * n] nominal values first */
+    double *shear; /* [1 + n_draws] tau_f [Pa]; NaN if not stated */
     flow_draw line[REPLICATES_MOST];
     size_t n_lines;
-    double layer_gain[2]; /* where the loss modulus of the layer is taken as 0; NaN: nowhere */
+    double layer_gain[2]; /* range where the loss modulus of the layer is set to 0; NaN if
+                             nowhere */
 } prediction;
 
-/* `known` NULL: without a layer. Without `draws` only the values themselves. */
+/* Predicts friction. A NULL observation means no layer. Without `draws` only nominal values are
+ * computed. The caller clears `p`, also after a failure. */
 wt_status prediction_make(const wt_sliding *sliding, const wt_layer_observation *known,
                           const measured *steps, const wt_job *work, bool draws, prediction *p,
                           wt_error *err) WT_NODISCARD;
 void prediction_clear(prediction *p);
 
-/* Of the values themselves (k = 0) or of draw k - 1. */
+/* Returns a component of the nominal values (k = 0) or of draw k - 1. */
 double prediction_part_of(const prediction *p, size_t k, prediction_part part, size_t step);
 /* hysteresis + shear x by_shear. */
 double prediction_total(const prediction *p, size_t k, bool layered, size_t step, double shear);

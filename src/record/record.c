@@ -1,5 +1,6 @@
-/* The job of friction records: from the samples of a tribometer to friction that a theory can be
- * held against. SPDX-License-Identifier: GPL-3.0-or-later */
+/* Job of friction records: it reduces the samples of a tribometer to friction that a theory can be
+ * compared with.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "record/record.h"
 
 #include "job/cost.h"
@@ -14,9 +15,10 @@
 #include <string.h>
 #include <sys/stat.h>
 
-/* Below, the mean of a cycle holds a part of its wave that changes from cycle to cycle. */
+/* Fewest samples per cycle. With fewer, the mean of a cycle contains a variable part of its
+ * wave. */
 static const double fewest_samples = 20;
-/* The coefficient of a file and its forces agree to the digits of a display. */
+/* Tolerance between the coefficient of a file and its forces: the digits of a display. */
 static const double same_friction = 0.01;
 
 void wt_record_tables_clear(wt_record_tables *tables)
@@ -79,8 +81,8 @@ static double middle(const wt_cycle *cycle, bool distance)
     return distance ? cycle->distance : cycle->time;
 }
 
-/* Where a cycle begins, in time or distance from the beginning of the step on: half-way between the
- * middles. */
+/* Time or distance at the beginning of a cycle from the beginning of the step on: half-way between
+ * the middles. */
 static double begins_at(const wt_cycle *c, size_t n, double number, bool distance)
 {
     if (isnan(number) || n < 2)
@@ -124,8 +126,7 @@ static void add_note(char *note, size_t size, const char *words)
         snprintf(note + used, size - used, "%s%s", used > 0 ? "; " : "", words);
 }
 
-/* Of those that are before a sample of a step; all that is known of a record without a time is that
- * it tells none. */
+/* Counts the pauses within a step. A record without time does not determine them. */
 static void count_pauses(const record_pauses *pauses, const wt_cycle *first, const wt_cycle *last,
                          record_row *r, char *note, size_t size)
 {
@@ -143,7 +144,7 @@ static void count_pauses(const record_pauses *pauses, const wt_cycle *first, con
     add_note(note, size, words);
 }
 
-/* What a person should know of a step. */
+/* Notes the limitations of a step. */
 static void say_step(const wt_job *work, const wt_cycles *cycles, const record_row *r, char *note,
                      size_t size)
 {
@@ -152,7 +153,8 @@ static void say_step(const wt_job *work, const wt_cycles *cycles, const record_r
     add_note(note, size, r->steady.note);
     if (periodic && cycles->samples < fewest_samples)
         add_note(note, size, "few samples in a cycle: its mean holds a part of its wave");
-    if (isnan(r->end.value) && r->steady.n < r->cycles) { /* no end, and yet not all of it */
+    if (isnan(r->end.value) && r->steady.n < r->cycles) { /* no end was found, and yet a part is
+                                                             truncated */
         add_note(note, size, "not steady: the last tenth is told");
         wt_log_add(work->log, WT_WARNING, r->file, NULL,
                    "friction does not become steady before the last tenth of step %zu, whose "
@@ -215,7 +217,7 @@ static wt_status measure_step(const wt_record_job *job, const wt_cycles *all, co
 
 /* ---- one file -------------------------------------------------------------------------------- */
 
-/* Rows so far, for what they have in common. */
+/* Rows so far, for their common conditions. */
 typedef struct together {
     record_group friction;
     record_conditions first;
@@ -225,12 +227,12 @@ typedef struct together {
 typedef struct writers {
     table_writer record, cycles, wear;
     together all;
-    bool has_wear;    /* asked for, or stored beside a record */
+    bool has_wear;    /* requested, or read from a stored record */
     wear_rates rates; /* of it */
     size_t n_files;
 } writers;
 
-/* What does not slide has no friction coefficient of sliding. */
+/* Rows at rest have no friction coefficient of sliding. */
 static void count_row(together *all, const record_row *r)
 {
     if (conditions_rest(r->at))
@@ -305,7 +307,7 @@ static void say_pauses(const wt_job *work, const record_pauses *pauses, const ch
                    pauses->alike);
 }
 
-/* Of a disc, by what its laps were long; NaN: neither tells it. */
+/* Radius of a disc from distance and laps. NaN if the record lacks one of them. */
 static double radius_of_laps(const wt_record *record)
 {
     const double *const distance = record->channel[WT_RECORD_DISTANCE],
@@ -317,7 +319,7 @@ static double radius_of_laps(const wt_record *record)
     return radius > 0 && isfinite(radius) ? radius : (double)NAN;
 }
 
-/* The length of a track takes its radius, which a record of laps tells if it is of a disc. */
+/* The track length needs the radius. A record of laps determines it for a disc. */
 static wt_status measure_wear(const wt_record_job *job, const wt_job *work, const wt_record *record,
                               const wt_cycles *cycles, wt_estimate radius, const char *file,
                               writers *w, wt_error *err)
@@ -333,7 +335,7 @@ static wt_status measure_wear(const wt_record_job *job, const wt_job *work, cons
     return wear_add(job, record, cycles, radius, file, &w->wear, &w->rates, err);
 }
 
-/* ---- a result of an earlier call ------------------------------------------------------------- */
+/* ---- stored result --------------------------------------------------------------------------- */
 
 static void count_stored(void *user, const table_view *v, size_t row)
 {
@@ -367,7 +369,7 @@ static void begin_wear(writers *w, wt_error *err)
     w->has_wear = true;
 }
 
-/* Its rows stand beside those that are measured now. */
+/* Adds the rows of a stored record to those that are measured in this call. */
 static wt_status take_stored(const wt_job *work, const flow_file *file, writers *w, wt_error *all,
                              wt_error *err)
 {
@@ -395,7 +397,7 @@ static wt_status take_stored(const wt_job *work, const flow_file *file, writers 
     return status;
 }
 
-/* A pipe, with a name too, can be read once only, and is taken for a measured record. */
+/* A pipe, also a named one, can be read only once. It is treated as a measured record. */
 static bool is_stored(const flow_file *file)
 {
     wt_input *input = NULL;
@@ -452,7 +454,7 @@ typedef struct record_task {
     const wt_record_job *job;
     const wt_job *work;
     writers *w;
-    wt_error *all; /* of the tables, whatever the file */
+    wt_error *all; /* error of the tables, independent of the file */
 } record_task;
 
 static wt_status take_file(void *user, flow_file *file, size_t i, wt_error *err)

@@ -1,8 +1,9 @@
-/* What is asked of friction records. SPDX-License-Identifier: GPL-3.0-or-later */
+/* Parameters of friction records.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "core/base/param.h"
 #include "weartrack/flow.h"
 
-/* Rubber of these tests: filled, well above its glass transition. */
+/* Poisson's ratio of filled rubber well above its glass transition. */
 static const double incompressible = 0.5;
 
 wt_record_job wt_record_job_defaults(void)

@@ -1,15 +1,16 @@
-/* Friction of the cycles of a record against time. SPDX-License-Identifier: GPL-3.0-or-later */
+/* Friction of the cycles of a record against time.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "record/recorded_friction.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-/* A series of more is told by the means of equal numbers of cycles, which bounds the work. */
+/* Longer series are replaced by means over equal numbers of cycles, which bounds the work. */
 enum { MOST_MEANS = 1000 };
 
-/* Middles of the cycles become their ends: half-way to the next. Those that are lost before the
- * first lasted as long as it. */
+/* Converts middles of cycles to their ends, half-way to the next. Missing cycles before the first
+ * have its duration. */
 static bool find_ends(recorded *r, double lost)
 {
     double *const t = r->end;
@@ -37,8 +38,8 @@ static bool is_of(const table_view *cycles, size_t row, const recorded *r)
            strcmp(record_cycles_text(cycles, row, RECORD_CYCLES_FILE), r->at.file) == 0;
 }
 
-/* What slid before the first of two cycles by a count that runs on from 0, in cycles; 0 below one,
- * as counts begin at 1, too. */
+/* Number of cycles before the first of two, by a counter that starts at 0. It is 0 below one cycle,
+ * because counters also start at 1. */
 static double cycles_before(const double count[2])
 {
     const double before = count[0] / (count[1] - count[0]) - 0.5;
@@ -72,7 +73,7 @@ static void take_cycles(const table_view *cycles, recorded *r)
         r->note = "the times of its cycles do not rise";
 }
 
-/* Behind the first step of a file, those in which nothing slides: its first one that slides. */
+/* Skips steps at rest at the beginning of a file and returns its first step that slides. */
 static size_t first_sliding(const table_view *record, size_t row, const wt_sliding *sliding)
 {
     const char *const file = record_text(record, row, RECORD_FILE);

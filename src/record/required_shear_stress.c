@@ -1,4 +1,5 @@
-/* The shear stress that a record asks for. SPDX-License-Identifier: GPL-3.0-or-later */
+/* Required shear stress of a record.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "record/validation.h"
 
 #include "core/base/clocale.h"
@@ -6,8 +7,8 @@
 #include <math.h>
 #include <stdlib.h>
 
-/* What is so far above 0 has an interval that is normal in the logarithm, for what it goes with
- * (pressure, area, modulus ratio) are factors; what is nearer, one that may reach below 0. */
+/* A value far above 0 has a log-normal interval, because its inputs (pressure, area, modulus ratio)
+ * are factors. A smaller one has a normal interval that may include 0. */
 static const double well_above = 3; /* standard errors */
 
 wt_interval required_shear_interval(double value, double error, double df)
@@ -18,7 +19,8 @@ wt_interval required_shear_interval(double value, double error, double df)
     return (wt_interval){value, error, value - half, value + half};
 }
 
-/* The weighted mean of what the steps ask for, of the values and of each draw. */
+/* Weighted mean of the required shear stress of the steps, for the nominal values and for each
+ * draw. */
 static wt_status find_needed(validation *v, wt_error *err)
 {
     const model_variant *const t = &v->shear;
@@ -44,7 +46,7 @@ wt_status required_shear_make(validation *v, wt_error *err)
     if (status == WT_OK)
         status = find_needed(v, err);
     if (status != WT_OK || !(v->needed.value > 0) || v->ratio[0].fit.terms < 2)
-        return status; /* one velocity tells one number, which is the shear stress */
+        return status; /* one velocity determines one number, the shear stress */
     const ratio_of of = {&v->p, &v->steps, v->needed_shear, v->layered};
     status = model_variant_of_ratio(&of, v->work->seed, &v->shape, err);
     if (status == WT_OK)
@@ -52,7 +54,7 @@ wt_status required_shear_make(validation *v, wt_error *err)
     return status;
 }
 
-/* Where it came from, so that a reader can disagree. */
+/* Source of the range, so that a reader can disagree. */
 static const char literature[] = "the range of the literature for rubber on rough counter surfaces";
 
 static void say_plausible(const validation *v, table_writer *t)

@@ -1,4 +1,5 @@
-/* The running-in of one record, and of several. SPDX-License-Identifier: GPL-3.0-or-later */
+/* Fits of the running-in of one record and of several records.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "record/running_in_validation.h"
 
 #include "core/math/normal_quantile.h"
@@ -6,12 +7,14 @@
 #include <math.h>
 #include <stdlib.h>
 
-/* A series of joined cycles is looked at again up to so many settled times, with shorter means. */
+/* A series of averaged cycles is fitted again up to this multiple of the settling time, with
+ * shorter means. */
 static const double lengths_kept = 20;
 enum { LOOKS = 3 };
-/* What is expected of the time before the record is seen, where nothing scatters the prediction. */
+/* Smallest prior error of the logarithm of the time, if the prediction has no scatter. */
 static const double least_expected = 0.05;
-/* Around the likeliest factor that of a draw is looked for in so many standard errors of it. */
+/* Search range for the factor of a draw: standard errors about the most probable factor, and a
+ * lower bound. */
 static const double errors_around = 4, least_around = 0.3;
 
 /* ---- one run --------------------------------------------------------------------------------- */
@@ -47,7 +50,7 @@ static wt_status fit_until(run_fit *run, double until, double expected, wt_error
     return status;
 }
 
-/* The whole of the record, then its beginning where that is what counts. */
+/* Fits the whole record, then only its beginning if that contains the change. */
 static wt_status fit_values(run_fit *run, wt_error *err)
 {
     const double settled = settled_of(run->growth, 0), expected = expected_error(run->growth);
@@ -57,7 +60,7 @@ static wt_status fit_values(run_fit *run, wt_error *err)
         const double factor = run->fit.seen ? exp(run->fit.log_factor) : 1,
                      shorter = lengths_kept * factor * settled;
         if (!(shorter < 0.5 * until) || !recorded_is_joined(run->rec, until) ||
-            recorded_means(run->rec, shorter) < COURSE_FEWEST) /* what is fitted stands */
+            recorded_means(run->rec, shorter) < COURSE_FEWEST) /* the previous fit remains */
             break;
         until = shorter;
         status = fit_until(run, until, expected, err);
@@ -77,13 +80,13 @@ static void put_numbers(const run_fit *run, size_t k, double margin, double log_
     out[RUN_RATIO] = ratio;
     out[RUN_PREDICTED] = log(settled_of(g, k));
     out[RUN_MEASURED] = out[RUN_TIME_RATIO] + out[RUN_PREDICTED];
-    /* formation and wear go with the clock together, at one thickness */
+    /* formation and wear scale with time together, at the same thickness */
     out[RUN_WEAR] = log(growth_number_of(g, k, GROWTH_WEAR)) - out[RUN_TIME_RATIO];
     out[RUN_ENERGY] = log(growth_number_of(g, k, GROWTH_ENERGY)) + out[RUN_TIME_RATIO];
 }
 
-/* What the course of each draw says, as it differs from that of the values by one law of the
- * scatter: what all laws leave open is the error of the record. */
+/* Fits the curve of each draw with one law of the scatter, relative to the nominal curve. The
+ * uncertainty over all laws is the error of the record. */
 static wt_status fit_draws(run_fit *run, double margin, wt_error *err)
 {
     const growth *const g = run->growth;
@@ -99,7 +102,7 @@ static wt_status fit_draws(run_fit *run, double margin, wt_error *err)
     put_numbers(run, 0, margin, fit->log_factor, fit->ratio, run->value);
     for (size_t k = 1; status == WT_OK && k <= g->n_draws; k++) {
         const course c = growth_course(g, k);
-        /* not seen: held at the time that the draw predicts */
+        /* without a visible change, the factor is fixed at the time that the draw predicts */
         const double around = fit->seen ? centre + settled - log(settled_of(g, k)) : 0;
         const running_in_optimum place = running_in_optimum_find(&s, &c, fit->law, around, within);
         put_numbers(run, k, margin, fit->log_factor + place.log_factor - base.log_factor,
@@ -171,7 +174,7 @@ double run_fit_own(const run_fit *run, run_number number)
 
 /* ---- draws ----------------------------------------------------------------------------------- */
 
-/* Over the draws that both have; their number is returned. */
+/* Covariance over the draws that both runs have. Returns their number. */
 static size_t covariance(const run_fit *a, const run_fit *b, run_number number, double *covariance)
 {
     const size_t n =
@@ -211,7 +214,7 @@ double run_fit_end(const run_fit *run, run_number number)
 
 bool run_fit_determines(const run_fit *run, run_number number)
 {
-    if (number == RUN_PREDICTED) /* of which the record says nothing */
+    if (number == RUN_PREDICTED) /* the record does not determine it */
         return false;
     const bool of_change = number == RUN_MORE || number == RUN_LESS || number == RUN_RATIO;
     return (of_change ? run->value != NULL : run_fit_is_closed(run)) &&
@@ -292,15 +295,15 @@ void run_level_clear(run_level *level)
     agreement_clear(&level->fit);
 }
 
-/* ---- all runs as one ------------------------------------------------------------------------- */
+/* ---- joint fit ------------------------------------------------------------------------------- */
 
 typedef struct joint {
-    const run_fit **of; /* [n] those that were compared */
+    const run_fit **of; /* [n] compared runs */
     running_in_series *series;
     course *course;
     running_in_curve_pair *pair;
     size_t n;
-    double log_odds; /* of a time and a change of each */
+    double log_odds; /* with a separate time and change for each run */
 } joint;
 
 static void joint_clear(joint *j)
@@ -335,8 +338,8 @@ static wt_status joint_make(const run_fit *runs, size_t n, joint *j, wt_error *e
     return status;
 }
 
-/* What draw k moves the time by: the mean of the runs that it moves, or, where none shows a course,
- * as it moves the time predicted. */
+/* Change of the logarithm of the time due to draw k: the mean over the runs that it affects. If no
+ * run shows a change, it is that of the predicted time. */
 static double moved(const joint *j, size_t k)
 {
     double sum = 0, n = 0;
@@ -364,7 +367,7 @@ static wt_status joint_tell(const joint *j, double margin, run_fit *joined, wt_e
     return WT_OK;
 }
 
-/* One fit to all records that were compared; its value is NULL where they do not have one time. */
+/* Fits all compared records jointly. The value is NULL if they do not have one time. */
 static wt_status join_runs(const run_fit *runs, size_t n, double margin, run_fit *joined,
                            wt_error *err)
 {
@@ -383,7 +386,7 @@ static wt_status join_runs(const run_fit *runs, size_t n, double margin, run_fit
     return status;
 }
 
-/* Numbers of the time, which a record may leave untold. */
+/* Numbers of the time, which a record may not determine. */
 static const run_number of_time[] = {RUN_TIME_RATIO, RUN_MEASURED, RUN_WEAR, RUN_ENERGY};
 
 static wt_status level_together(run_set *all, wt_error *err)
@@ -409,7 +412,7 @@ wt_status run_set_levels(run_set *all, wt_error *err)
         compared += all->runs[i].value != NULL;
         closed += run_fit_is_closed(&all->runs[i]);
     }
-    /* those that scatter by more than their errors have no time in common */
+    /* runs that scatter by more than their errors have no common time */
     if (status == WT_OK && compared > 1 && closed < compared &&
         !(all->level[RUN_TIME_RATIO].fit.scatter > 0))
         status = level_together(all, err);

@@ -1,4 +1,4 @@
-/* The table of friction in running-in, measured and predicted.
+/* Table of measured and predicted friction during the running-in.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "record/running_in_validation.h"
 
@@ -8,7 +8,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-/* Rows of a run, in equal ratios of the time: as many as a figure shows well. */
+/* Most rows of a run, in equal ratios of the time, for the resolution of a figure. */
 enum { MOST_ROWS = 48 };
 
 TABLE_ROW(validation_course, VALIDATION_COURSE, double time; wt_interval measured;
@@ -20,13 +20,13 @@ static double bare_friction(const growth *g, size_t k, double time)
     return growth_number_of(g, k, GROWTH_BARE);
 }
 
-/* With what its draws scatter. */
+/* Predicted value with its standard deviation over the draws. */
 static wt_estimate predicted(const growth *g, growth_value *of, double time)
 {
     return (wt_estimate){of(g, 0, time), growth_scatter(g, of, time), (double)NAN, NULL};
 }
 
-/* Means first to before `end` of the series. */
+/* Adds the mean over the means from `first` to before `end` of the series. */
 static void add_row(const run_fit *run, const running_in_series *s, size_t first, size_t end,
                     table_writer *t)
 {

@@ -1,4 +1,4 @@
-/* The job that holds the running-in of records against friction while a layer grows.
+/* Job that compares the running-in of records with friction during the growth of a layer.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "record/running_in_validation.h"
 #include "friction/sliding_contact.h"
@@ -29,15 +29,15 @@ typedef struct running_in_task {
     const wt_job *work;
     recorded *rec;  /* [n] */
     run_fit *run;   /* [n] */
-    growth *growth; /* [n] those of a condition of their own */
-    bool *own;      /* [n] whether there is one */
+    growth *growth; /* [n] of runs with conditions of their own */
+    bool *own;      /* [n] true if the run has a prediction of its own */
     size_t n, n_compared;
-    char remarks[640]; /* what was taken for granted of the record */
+    char remarks[640]; /* assumptions about the record */
 } running_in_task;
 
 /* ---- predictions and fits -------------------------------------------------------------------- */
 
-/* Conditions that one prediction serves: within what a record holds them. */
+/* Tolerances of conditions that share one prediction: the control accuracy of a record. */
 static const double same_velocity = 0.01, same_pressure = 0.01, same_temperature = 0.25 /* [K] */;
 
 static bool is_near(double a, double b, double off)
@@ -52,7 +52,7 @@ static bool are_alike(const measured_step *a, const measured_step *b)
            is_near(a->temperature, b->temperature, same_temperature);
 }
 
-/* That of an earlier run at the same conditions, or its own. */
+/* Uses the prediction of an earlier run with the same conditions, or computes one. */
 static wt_status predict(running_in_task *task, size_t i, wt_error *err)
 {
     run_fit *const run = &task->run[i];
@@ -130,14 +130,14 @@ TABLE_ROW(validation_running_in, VALIDATION_RUNNING_IN, measured_step at;
           wt_interval settled, time_ratio, change_ratio; wt_estimate predicted, change;
           const char *note, *file;)
 
-/* Standard error of a number of a run; NaN without draws, which an interval must hold. */
+/* Standard error of a number of a run. NaN without draws, since the interval must include the error
+ * of the prediction. */
 static double error_of(const run_fit *run, run_number number)
 {
     return hypot(sqrt(run_fit_own(run, number)), run_fit_spread(run, number));
 }
 
-/* A time, or its ratio; of one end alone, which is that of the verdict, where it lies behind that
- * is not told. */
+/* Interval of a time or its ratio. If the record determines one limit alone, the other is NaN. */
 static wt_interval factor_of(const run_fit *run, run_number number)
 {
     const bool has_low = !isnan(run->fit.low), has_high = !isnan(run->fit.high);
@@ -155,7 +155,7 @@ static wt_interval ratio_of_run(const run_fit *run)
     return (wt_interval){value, error, value - half, value + half};
 }
 
-/* Friction less that in the end where it is farthest from it; NaN without an end. */
+/* Largest difference of friction from its final value. NaN without a final value. */
 static double farthest(const growth *g, size_t k, double time)
 {
     const course c = growth_course(g, k);
@@ -201,7 +201,8 @@ static void add_run(const run_fit *run, const wt_sliding *sliding, table_writer 
 
 /* ---- keys ------------------------------------------------------------------------------------ */
 
-/* Where the prediction has no errors the record's alone are no interval of the number. */
+/* Without an error of the prediction, the error of the record alone is not an interval of the
+ * number. */
 static wt_interval level_of(const run_set *all, run_number number)
 {
     wt_interval i = run_level_interval(&all->level[number]);
@@ -223,12 +224,12 @@ static void set_interval(table_writer *t, validation_running_in_key key, wt_inte
     validation_running_in_set_value(t, key, i.value, i.standard_error, (double)NAN);
     if (isnan(i.low) || isnan(i.high))
         return;
-    /* the ends stand behind it, see KEY_ENDS, and have no error of their own */
+    /* the limits follow the value, see KEY_ENDS, and have no error */
     validation_running_in_set_value(t, (validation_running_in_key)(key + 1), i.low, 0, 0);
     validation_running_in_set_value(t, (validation_running_in_key)(key + 2), i.high, 0, 0);
 }
 
-/* The wear rate that the time asks for against the one that was measured. */
+/* Compares the required wear rate with the measured one. */
 static wt_status set_agreement(const running_in_task *task, const run_set *all, table_writer *t,
                                wt_error *err)
 {
@@ -279,7 +280,7 @@ static void set_remarks(const running_in_task *task, table_writer *t)
                                         words, join);
 }
 
-/* What the prediction of the first run that has one holds. */
+/* Names the errors in the prediction of the first run that has one. */
 static const char *errors_of(const running_in_task *task)
 {
     for (size_t i = 0; i < task->n; i++)

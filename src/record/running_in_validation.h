@@ -1,5 +1,6 @@
-/* Parts of the job that holds the running-in of records against a growing layer. Internal to
- * record. SPDX-License-Identifier: GPL-3.0-or-later */
+/* Parts of the job that compares the running-in of records with a growing layer. Internal to
+ * record.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #ifndef WT_RECORD_RUNNING_IN_VALIDATION_H
 #define WT_RECORD_RUNNING_IN_VALIDATION_H
 
@@ -7,49 +8,51 @@
 #include "record/numerics/agreement.h"
 #include "record/recorded_friction.h"
 
-/* Of the change of friction; what is then left of it an instrument hardly sees. */
+/* Remaining fraction of the change of friction at the settling time. An instrument hardly resolves
+ * the remainder. */
 #define RUNNING_IN_LEFT 0.05
 
-/* What a run tells, of the values themselves and of every draw. */
+/* Numbers of a run, for the nominal values and for every draw. */
 typedef enum run_number {
-    RUN_TIME_RATIO, /* ln of time measured over predicted; NaN: not told */
-    RUN_MORE,       /* change of friction less the least that agrees, in friction */
-    RUN_LESS,       /* the most that agrees less the change */
-    RUN_RATIO,      /* change measured over predicted */
-    RUN_PREDICTED,  /* ln of the time predicted [s] */
-    RUN_MEASURED,   /* ln of the time measured [s] */
-    RUN_WEAR,       /* ln of k asked for [m^2/N] */
-    RUN_ENERGY,     /* ln of U_c asked for with it [J/m^3]; NaN: none */
+    RUN_TIME_RATIO, /* ln of measured over predicted time; NaN if undetermined */
+    RUN_MORE,       /* change of friction less the smallest change that agrees */
+    RUN_LESS,       /* largest change of friction that agrees less the change */
+    RUN_RATIO,      /* measured over predicted change */
+    RUN_PREDICTED,  /* ln of the predicted time [s] */
+    RUN_MEASURED,   /* ln of the measured time [s] */
+    RUN_WEAR,       /* ln of the required k [m^2/N] */
+    RUN_ENERGY,     /* ln of the required U_c [J/m^3]; NaN if there is none */
     RUN_NUMBERS
 } run_number;
 
 typedef struct run_fit {
     const recorded *rec;
-    const growth *growth; /* NULL: not predicted */
+    const growth *growth; /* NULL if not predicted */
     running_in_curve_fit fit;
-    double until;  /* that it was fitted up to [s] */
-    double *value; /* [(1 + n_draws) * RUN_NUMBERS]; NULL: not compared */
+    double until;  /* end of the fitted part [s] */
+    double *value; /* [(1 + n_draws) * RUN_NUMBERS]; NULL if not compared */
     char note[256];
 } run_fit;
 
-/* The fits of one run; its note says why where there is none. */
+/* Fits one run. Its note has the reason if there is no fit. The caller clears the run, also after a
+ * failure. */
 wt_status run_fit_compute(run_fit *run, double margin, wt_error *err) WT_NODISCARD;
 void run_fit_clear(run_fit *run);
-/* It has a time that the record tells to both sides. */
+/* True if the record determines both limits of the time. */
 bool run_fit_is_closed(const run_fit *run);
-/* Whether the record tells this number of it. */
+/* True if the record determines this number. */
 bool run_fit_determines(const run_fit *run, run_number number);
 double run_fit_value(const run_fit *run, size_t k, run_number number);
-/* Variance by the record alone, and what its draws scatter. */
+/* Returns the variance due to the record alone. */
 double run_fit_own(const run_fit *run, run_number number);
 double run_fit_spread(const run_fit *run, run_number number);
-/* Of a time of which the record tells one end alone that end of its ln, 95 % with the error of the
- * prediction; NaN without that error. */
+/* Returns the only determined limit of ln of a time, 95 %, with the error of the prediction. NaN
+ * without that error. */
 double run_fit_end(const run_fit *run, run_number number);
 
-/* The level of a number over the runs that tell it, with both errors. */
+/* Mean of a number over the runs that determine it, with both errors. */
 typedef struct run_level {
-    agreement fit; /* n 0: none tells it */
+    agreement fit; /* n 0: no run determines it */
     double own, common;
 } run_level;
 wt_status run_level_make(const run_fit *runs, size_t n, run_number number, run_level *level,
@@ -57,20 +60,20 @@ wt_status run_level_make(const run_fit *runs, size_t n, run_number number, run_l
 wt_interval run_level_interval(const run_level *level);
 void run_level_clear(run_level *level);
 
-/* What all runs say together. */
+/* Numbers of all runs together. */
 typedef struct run_set {
     const run_fit *runs;
     size_t n;
     double margin;
-    uint64_t seed; /* of the draws */
+    uint64_t seed; /* of the random draws */
     bool has_shear;
-    const char *without_errors; /* why the prediction has none; NULL */
+    const char *without_errors; /* reason why the prediction has no errors; NULL if it has */
     run_level level[RUN_NUMBERS];
 } run_set;
-/* The levels of all numbers. Where a record does not tell the time that others tell, those are the
- * ones that chance lets tell one, and their mean is off: the level is then what all records say
- * together of one time and one change over those predicted, or nothing, where they do not tell it
- * or a time and a change of each are likelier by COURSE_ODDS. */
+/* Computes the levels of all numbers. If a record does not determine the time, the other records
+ * are a biased selection. The level then comes from a joint fit with one time and one change. It is
+ * empty if the joint fit is undetermined, or if separate values are more probable by
+ * COURSE_ODDS. */
 wt_status run_set_levels(run_set *all, wt_error *err) WT_NODISCARD;
 void run_set_clear(run_set *all);
 
@@ -79,7 +82,7 @@ typedef struct run_verdict {
 } run_verdict;
 run_verdict run_set_assess(const run_set *all);
 
-/* Table "validation_course". */
+/* Creates the table "validation_course". */
 wt_status running_in_course_table(const run_set *all, const char *verdict, wt_table **table,
                                   wt_error *err) WT_NODISCARD;
 

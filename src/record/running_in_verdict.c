@@ -1,4 +1,5 @@
-/* The verdict on the running-in, in words. SPDX-License-Identifier: GPL-3.0-or-later */
+/* Verdict on the running-in and its text.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "record/running_in_validation.h"
 #include "record/validation.h"
 
@@ -9,10 +10,10 @@
 #include <math.h>
 #include <string.h>
 
-/* More draws without a layer than this leave open whether there is one. */
+/* With a larger share of draws without a layer, the existence of the layer is inconclusive. */
 static const double least_doubt = 0.025;
 
-/* ---- two questions --------------------------------------------------------------------------- */
+/* ---- tests ----------------------------------------------------------------------------------- */
 
 static bool contradicts_at_one_end(const run_fit *run, double margin)
 {
@@ -22,7 +23,7 @@ static bool contradicts_at_one_end(const run_fit *run, double margin)
     return isnan(run->fit.high) ? end > log1p(margin) : end < -log1p(margin);
 }
 
-/* The first run that contradicts at the one end that it tells; NULL. */
+/* Returns the first run that contradicts with its only determined limit, or NULL. */
 static const run_fit *contradicting(const run_set *all)
 {
     for (size_t i = 0; i < all->n; i++)
@@ -31,7 +32,7 @@ static const run_fit *contradicting(const run_set *all)
     return NULL;
 }
 
-/* The first compared run of which the record does not tell both ends of the time; NULL. */
+/* Returns the first compared run without both limits of the time, or NULL. */
 static const run_fit *first_open(const run_set *all)
 {
     for (size_t i = 0; i < all->n; i++)
@@ -40,7 +41,7 @@ static const run_fit *first_open(const run_set *all)
     return NULL;
 }
 
-/* The first run that tells a number; NULL. */
+/* Returns the first run that determines a number, or NULL. */
 static const run_fit *first_telling(const run_set *all, run_number number)
 {
     for (size_t i = 0; i < all->n; i++)
@@ -49,7 +50,7 @@ static const run_fit *first_telling(const run_set *all, run_number number)
     return NULL;
 }
 
-/* What a run leaves open no other run tells: of it the time may be any. */
+/* An undetermined run prevents a yes: no other run determines its time. */
 static agreement_verdict judge_time(const run_set *all)
 {
     agreement judged = all->level[RUN_TIME_RATIO].fit;
@@ -62,7 +63,7 @@ static agreement_verdict judge_time(const run_set *all)
                                                                       : judged.verdict;
 }
 
-/* Both ends of the margin are tests of their own, as the change predicted may be near none. */
+/* Both limits of the margin are separate tests, because the predicted change may be near zero. */
 static agreement_verdict judge_change(const run_set *all)
 {
     const wt_interval more = run_level_interval(&all->level[RUN_MORE]),
@@ -72,7 +73,7 @@ static agreement_verdict judge_change(const run_set *all)
     return more.low > 0 && less.low > 0 ? AGREEMENT_YES : AGREEMENT_OPEN;
 }
 
-/* ---- words ----------------------------------------------------------------------------------- */
+/* ---- text ------------------------------------------------------------------------------------ */
 
 static void tell_open(const run_fit *run, char *text, size_t size)
 {
@@ -98,7 +99,8 @@ static void tell_open(const run_fit *run, char *text, size_t size)
                       "a change as the layer makes it is over within the first cycles, after %.3g "
                       "times the time predicted at most%s",
                       exp(isnan(with_prediction) ? fit->high : with_prediction), by);
-    if (fit->seen && run->rec->running_in > 0) /* another question, with an answer of its own */
+    if (fit->seen && run->rec->running_in > 0) /* this is a different question with an answer of
+                                                  its own */
         clocale_append(text, size, " (by its scatter alone friction is steady after %.0f cycles)",
                        run->rec->running_in);
     else if (fit->seen && run->rec->running_in == 0)
@@ -106,7 +108,7 @@ static void tell_open(const run_fit *run, char *text, size_t size)
                        " (by its scatter alone friction is steady from the first cycle)");
 }
 
-/* What decides it: a run that contradicts, what is known of all, else what a run leaves open. */
+/* Describes what decides: a run that contradicts, the common interval, or an undetermined run. */
 static void tell_time(const run_set *all, char *text, size_t size)
 {
     const wt_interval i = run_level_interval(&all->level[RUN_TIME_RATIO]);
@@ -138,7 +140,7 @@ static void append_change(const run_set *all, char *text, size_t size)
 static void append_verdict(const run_set *all, agreement_verdict verdict, char *text, size_t size)
 {
     char time[240], change[120];
-    /* The one that decides comes first. */
+    /* the deciding part comes first */
     const bool by_change = judge_time(all) != AGREEMENT_NO && judge_change(all) == AGREEMENT_NO;
     tell_time(all, time, sizeof time);
     append_change(all, change, sizeof change);
@@ -147,9 +149,10 @@ static void append_verdict(const run_set *all, agreement_verdict verdict, char *
              validation_requested_range(all->margin).text);
 }
 
-/* ---- what would settle it -------------------------------------------------------------------- */
+/* ---- remedies -------------------------------------------------------------------------------- */
 
-/* The draw that a number of a run goes with most, and its share of the variance; 0: not known. */
+/* Finds the draw that correlates most with a number of a run and returns its share of the variance;
+ * 0 if unknown. */
 static double largest_line(const run_fit *run, uint64_t seed, run_number number, size_t *line)
 {
     double most = 0;
@@ -215,7 +218,7 @@ static void advise(const run_set *all, run_number number, char *text, size_t siz
                   remedy, 100 * share * of_common);
 }
 
-/* Of a compared run the draws leave open whether there is a layer. */
+/* True if the draws of a compared run leave the existence of a layer inconclusive. */
 static bool may_be_bare(const run_set *all)
 {
     for (size_t i = 0; i < all->n; i++) {
@@ -226,9 +229,10 @@ static bool may_be_bare(const run_set *all)
     return false;
 }
 
-/* ---- all ------------------------------------------------------------------------------------- */
+/* ---- verdict --------------------------------------------------------------------------------- */
 
-/* Why nothing can be said; the first note of a run if nothing else. */
+/* Sets the verdict if the test is impossible. The last resort for the reason is the note of the
+ * first run. */
 static bool refuse(const run_set *all, run_verdict *w)
 {
     const run_fit *const run = first_compared(all);

@@ -1,4 +1,5 @@
-/* Rows of records that an earlier call measured. SPDX-License-Identifier: GPL-3.0-or-later */
+/* Rows of records that an earlier call measured.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "record/record.h"
 
 #include <string.h>
@@ -16,7 +17,7 @@ bool stored_record_begins(wt_input *input)
     return false;
 }
 
-/* All columns of a row as they are. */
+/* Copies all columns of a row. */
 static void copy_row(const table_view *from, size_t row, table_writer *t)
 {
     const table_schema *const schema = from->schema;

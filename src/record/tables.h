@@ -1,9 +1,10 @@
-/* The columns and keys of the tables of friction records. Included by tables.h alone.
+/* Columns and keys of the tables of friction records. Only the table registry includes this
+ * file.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #ifndef WT_RECORD_TABLES_H
 #define WT_RECORD_TABLES_H
 
-/* One step of a record in each row: what it was measured at, then friction in its steady part. */
+/* Each row is one step of a record: its conditions, then friction in its steady state. */
 #define RECORD_COLUMNS(X)                                                                          \
     X(RECORD_VELOCITY, IN(at, velocity), "sliding velocity", SI(VELOCITY), LABEL("Velocity"),      \
       SPARSE)                                                                                      \
@@ -63,13 +64,13 @@
     X(RECORD_STEP, AS(step), "number of the step in its file", NUMBER, LABEL("Step"))              \
     X(RECORD_NOTE, AS(note), "what is lacking", TEXT, LABEL("Note"))                               \
     X(RECORD_FILE, AS(file), "file of the record", TEXT, LABEL("File"))
-/* Over all rows that were measured at the same conditions, if all were. */
+/* The friction coefficient is the mean over all rows, if their conditions are equal. */
 #define RECORD_KEYS(X)                                                                             \
     X(RECORD_KEY_FRICTION, "friction_coefficient", UNIT("1"), HEADLINE("Friction, measured"),      \
       OPTIONAL)                                                                                    \
     X(RECORD_KEY_N_FILES, "n_files", PLAIN)
 
-/* A cycle in each row, a step of a record in each block. */
+/* Each row is a cycle; each block is a step of a record. */
 #define RECORD_CYCLES_COLUMNS(X)                                                                   \
     X(RECORD_CYCLES_CYCLE, AS(number), "number of the cycle in its step", NUMBER)                  \
     X(RECORD_CYCLES_TIME, IN(cycle, time), "time", SI(TIME), SPARSE)                               \
@@ -92,7 +93,7 @@
     X(RECORD_CYCLES_FILE, AS(file), "file of the record", TEXT)
 #define RECORD_CYCLES_KEYS(X) X(RECORD_CYCLES_KEY_AVERAGED_OVER, "averaged_over", TEXT)
 
-/* A record in each row. */
+/* Each row is a record. */
 #define WEAR_COLUMNS(X)                                                                            \
     NUMBER_AND_INTERVAL(X, WEAR_RATE, "specific_wear_rate", "specific wear rate k", SI(WEAR_RATE), \
                         "Specific wear rate", SHOWS(rate))                                         \
@@ -118,7 +119,7 @@
       NUMBER, LABEL("Effective duty"), SPARSE)                                                     \
     X(WEAR_NOTE, AS(note), "why there is no rate, or what it lacks", TEXT, LABEL("Note"))          \
     X(WEAR_FILE, AS(file), "file of the record", TEXT, LABEL("File"))
-/* The mean of several, with their scatter. */
+/* The rate is the mean of several rows, with their scatter. */
 #define WEAR_KEYS(X)                                                                               \
     X(WEAR_KEY_RATE, "specific_wear_rate", SI(WEAR_RATE), HEADLINE("Specific wear rate"),          \
       OPTIONAL)                                                                                    \

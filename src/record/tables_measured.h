@@ -1,9 +1,10 @@
-/* The columns and keys of measurements as `weartrack convert` writes them. Included by tables.h
- * alone. SPDX-License-Identifier: GPL-3.0-or-later */
+/* Columns and keys of measurements as `weartrack convert` writes them. Only the table registry
+ * includes this file.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #ifndef WT_RECORD_TABLES_MEASURED_H
 #define WT_RECORD_TABLES_MEASURED_H
 
-/* Then a column for each quantity that the file has, called by its identifier. */
+/* One column follows for each quantity of the file, named by its identifier. */
 #define FORCE_CURVE_COLUMNS(X) X(FORCE_CURVE_SEGMENT, "segment", "kind of segment", TEXT)
 #define FORCE_CURVE_KEYS(X)                                                                        \
     X(FORCE_CURVE_KEY_POSITION_X, "position_x", SI(POSITION_X), OPTIONAL)                          \
@@ -12,8 +13,7 @@
     X(FORCE_CURVE_KEY_SENSITIVITY, "sensitivity", SI(SENSITIVITY), OPTIONAL)                       \
     X(FORCE_CURVE_KEY_CURVE, "curve", PLAIN)
 
-/* A map in HDF5: its curves and segments, whose samples stand in arrays beside them, and the
- * quantities of these. */
+/* A map in HDF5: its curves and segments, and the quantities of the arrays of samples. */
 #define MAP_CURVES_COLUMNS(X)                                                                      \
     X(MAP_CURVES_CURVE, "curve", "number of the curve in its file", UNIT("1"), SHOWS(curve.index)) \
     X(MAP_CURVES_SEGMENTS, "segments", "how many segments it has", UNIT("1"),                      \
@@ -45,7 +45,7 @@
     X(MAP_CHANNELS_UNIT, AS(unit), "its unit there", TEXT)
 #define MAP_CHANNELS_KEYS(X)
 
-/* The moduli in tension or in shear, as measured. */
+/* Measured moduli in tension or in shear. */
 #define SWEEP_COLUMNS(X)                                                                           \
     X(SWEEP_TEMPERATURE, "temperature", "temperature", SI(TEMPERATURE))                            \
     X(SWEEP_ANGULAR_FREQUENCY, "angular_frequency", "angular frequency", SI(ANGULAR_FREQUENCY),    \
@@ -73,7 +73,7 @@
       SI(SHEAR_CREEP_COMPLIANCE), OPTIONAL, SPARSE)
 #define SWEEP_KEYS(X)
 
-/* The density of a surface or of a line, as measured. */
+/* Measured power spectrum of a surface or of a line. */
 #define SPECTRUM_COLUMNS(X)                                                                        \
     X(SPECTRUM_WAVENUMBER, "wavenumber", "wavenumber", SI(WAVENUMBER))                             \
     X(SPECTRUM_DENSITY_2D, "power_spectrum_2d", "two-dimensional power spectrum C(q)",             \
@@ -82,7 +82,7 @@
       SI(POWER_SPECTRUM_1D), OPTIONAL)
 #define SPECTRUM_KEYS(X)
 
-/* Units, and the words of the value, are those of the image; a single line has no y. */
+/* The units and the label of the value are those of the image. A single line has no y. */
 #define IMAGE_COLUMNS(X)                                                                           \
     X(IMAGE_X, "x", "first axis", UNIT("as measured"))                                             \
     X(IMAGE_Y, "y", "second axis", SI(LENGTH), OPTIONAL)                                           \

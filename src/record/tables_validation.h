@@ -1,15 +1,16 @@
-/* The columns and keys of the tables that hold measured friction against predicted friction.
- * Included by tables.h alone. SPDX-License-Identifier: GPL-3.0-or-later */
+/* Columns and keys of the tables that compare measured and predicted friction. Only the table
+ * registry includes this file.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #ifndef WT_RECORD_TABLES_VALIDATION_H
 #define WT_RECORD_TABLES_VALIDATION_H
 
-/* A number of a step with its standard error alone. */
+/* A number of a step with its standard error only. */
 #define STEP_NUMBER(X, ID, name, words, heading, shown)                                            \
     X(ID, name, words, NUMBER, LABEL(heading), STANDARD_ERROR(ID), SPARSE, shown)                  \
     X(ID##_STANDARD_ERROR, name "_standard_error", "its standard error", NUMBER, LABEL("± stat."), \
       SPARSE)
 
-/* A step of a record in each row. */
+/* Each row is a step of a record. */
 #define VALIDATION_COLUMNS(X)                                                                      \
     X(VALIDATION_VELOCITY, AS(velocity), "sliding velocity", SI(VELOCITY), LABEL("Velocity"))      \
     X(VALIDATION_TEMPERATURE, AS(temperature), "temperature that it is predicted at",              \
@@ -36,11 +37,11 @@
       LABEL("Note"))                                                                               \
     X(VALIDATION_FILE, AS(file), "file of the record", TEXT, LABEL("File"))
 
-/* Of a number without an error of its own kind its interval of 95 %. */
+/* Limits of the 95 % interval of a number whose key has no interval. */
 #define KEY_ENDS(X, ID, name, unit, heading)                                                       \
     X(ID##_LOW, name "_low", unit, LABEL(heading ", 95 % interval from"), OPTIONAL)                \
     X(ID##_HIGH, name "_high", unit, LABEL("to"), OPTIONAL)
-/* Over the choices of the model: all of them, then those that hold 95 % of the weight. */
+/* Ranges over all model choices, and over those that hold 95 % of the weight. */
 #define KEY_RANGE(X, ID, name, unit, heading)                                                      \
     X(ID##_ALL_LOW, name "_all_low", unit, LABEL(heading ", over all choices of the model from"),  \
       OPTIONAL)                                                                                    \
@@ -94,7 +95,7 @@
     X(VALIDATION_KEY_LEFT_OUT, "n_left_out", PLAIN, LABEL("Steps that were not"))                  \
     X(VALIDATION_KEY_REMARKS, "remarks", TEXT, LABEL("What was taken for granted"), OPTIONAL)
 
-/* A row of the table what_if in each row, and what the record says of it. */
+/* Each row is a row of the table "what_if" with the likelihood of the record. */
 #define VALIDATION_CHOICES_COLUMNS(X)                                                              \
     X(VALIDATION_CHOICES_CHOICE, AS(choice), "the choice that is moved; the first row: none",      \
       TEXT, LABEL("Choice"))                                                                       \
@@ -121,10 +122,10 @@
     X(VALIDATION_CHOICES_KEY_JUDGED, "judged", TEXT, LABEL("Likelihood of"))                       \
     X(VALIDATION_CHOICES_KEY_NARROWS, "narrows", TEXT, LABEL("What the record leaves"))
 
-/* What the source begins with that is what the DMA and the scans of the surface are off by. */
+/* Prefix of a source that consists of the errors of the DMA and of the surface scans. */
 #define VALIDATION_OF_MATERIAL "material"
 
-/* A source of the error in each row. */
+/* Each row is a source of the error. */
 #define VALIDATION_SOURCES_COLUMNS(X)                                                              \
     X(VALIDATION_SOURCES_SOURCE, AS(source), "where the error comes from", TEXT, LABEL("Source"))  \
     X(VALIDATION_SOURCES_ERROR, AS(error),                                                         \
@@ -143,7 +144,7 @@
 #define VALIDATION_SOURCES_KEYS(X)                                                                 \
     X(VALIDATION_SOURCES_KEY_ADVICE, "advice", TEXT, LABEL("What would narrow it most"))
 
-/* The running-in of a record in each row. */
+/* Each row is the running-in of a record. */
 #define VALIDATION_RUNNING_IN_COLUMNS(X)                                                           \
     X(VALIDATION_RUNNING_IN_VELOCITY, IN(at, velocity), "sliding velocity", SI(VELOCITY),          \
       LABEL("Velocity"))                                                                           \
@@ -200,7 +201,7 @@
     X(VALIDATION_RUNNING_IN_KEY_INCLUDES, "includes", TEXT, LABEL("Errors in the prediction"))     \
     X(VALIDATION_RUNNING_IN_KEY_REMARKS, "remarks", TEXT, LABEL("Taken for granted"), OPTIONAL)
 
-/* Friction in the running-in of a record: a time in each row, a record in each block. */
+/* Friction during the running-in: each row is a time, each block is a record. */
 #define VALIDATION_COURSE_COLUMNS(X)                                                               \
     X(VALIDATION_COURSE_TIME, AS(time), "time from the start of the record on", SI(TIME))          \
     NUMBER_AND_INTERVAL(X, VALIDATION_COURSE_MEASURED, "friction_measured",                        \

@@ -1,5 +1,5 @@
-/* The validation job: friction as measured over friction as predicted, what would make them agree,
- * and what the record says of the choices of the model.
+/* Validation job: measured over predicted friction, the required inputs, and the likelihood of the
+ * model choices.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "record/validation.h"
 #include "friction/layer_observation.h"
@@ -15,15 +15,15 @@
 
 /* ---- parameters ------------------------------------------------------------------------------ */
 
-/* Friction of one pair of materials by a pin on a disc differs by about a fifth between
- * laboratories (ASTM G99, its interlaboratory test): a theory that comes as near explains it. */
+/* Friction of one pair of materials on a pin-on-disc tribometer differs by about 20 % between
+ * laboratories (ASTM G99, interlaboratory test). A theory within this margin explains it. */
 static const double reproducibility = 0.2;
 /* [Pa] Tread compounds on road and concrete: Lorenz et al., J. Chem. Phys. 142 (2015) 194701;
- * Tolpekina and Persson, Lubricants 7 (2019) 20; soft and dirty contacts have less. */
+ * Tolpekina and Persson, Lubricants 7 (2019) 20. Soft and contaminated contacts have less. */
 static const double shear_low = 1e6, shear_high = 10e6;
 
-/* Times of running-in go with the inverse of the wear rate, which is hardly known better than to a
- * factor of two. */
+/* Running-in times are inverse to the wear rate, which is hardly known to better than a factor of
+ * two. */
 static const double time_reproducibility = 1;
 
 wt_validation_job wt_validation_job_defaults(void)
@@ -75,7 +75,7 @@ TABLE_ROW(validation, VALIDATION, double velocity, temperature, pressure; wt_int
           wt_estimate predicted, with_layer; wt_interval ratio, ratio_with_layer, needed;
           const char *note, *file;)
 
-/* Of one step by itself: the scatter of the steps is its error, too. */
+/* Standard error of a single step; it includes the scatter between the steps. */
 static double step_error(const model_variant *t, size_t i)
 {
     return sqrt(t->own[i] + t->fit.scatter + t->common[i * t->n + i]);
@@ -124,7 +124,7 @@ static void add_step(const validation *v, size_t i, table_writer *t)
 
 /* ---- keys ------------------------------------------------------------------------------------ */
 
-/* An end has no error of its own. */
+/* Sets a limit, which has no error. */
 static void set_end(table_writer *t, validation_key key, double value)
 {
     if (isfinite(value))
@@ -199,12 +199,12 @@ static void set_ranges(const choice_ranges *r, table_writer *t)
         {SETTING_WITH_LAYER, VALIDATION_KEY_LAYERED_ALL_LOW, VALIDATION_KEY_LAYERED_KEPT_LOW},
         {SETTING_THICKNESS, VALIDATION_KEY_THICKNESS_ALL_LOW, VALIDATION_KEY_THICKNESS_KEPT_LOW}};
     for (size_t i = 0; i < sizeof keys / sizeof *keys; i++)
-        for (unsigned end = 0; end < 4; end++) /* both of one range stand together */
+        for (unsigned end = 0; end < 4; end++) /* both limits of a range are adjacent */
             set_end(t, (validation_key)((end < 2 ? keys[i].all : keys[i].kept) + end % 2),
                     (end < 2 ? r->all : r->kept)[keys[i].number][end % 2]);
 }
 
-/* Wear as measured against that which the layer is calculated from. */
+/* Compares the measured wear rate with that of the layer. */
 static wt_status set_wear(const validation *v, table_writer *t, wt_error *err)
 {
     table_view wear = {0};
@@ -214,7 +214,7 @@ static wt_status set_wear(const validation *v, table_writer *t, wt_error *err)
     const wt_estimate is = status == WT_OK ? wear_value(&wear, WEAR_KEY_RATE) : no_number,
                       used = v->job->layer->specific_wear_rate;
     if (status != WT_OK || !(is.value > 0) || !(used.value > 0) || is.value == used.value)
-        return status; /* the layer wears as measured */
+        return status; /* the layer uses the measured rate */
     const bool known = is.standard_error > 0;
     const double error =
         hypot(known ? is.standard_error / is.value : (double)NAN, used.standard_error / used.value);
@@ -230,8 +230,7 @@ static wt_status set_wear(const validation *v, table_writer *t, wt_error *err)
     return WT_OK;
 }
 
-/* ranges: NULL where no choices were held against the record. */
-/* The layer that friction was predicted with. */
+/* Sets the keys of the layer that friction was predicted with. */
 static void set_layer(const validation *v, table_writer *t)
 {
     const wt_sliding *const sliding = v->job->sliding;
@@ -290,7 +289,7 @@ static wt_status hold_ratios(validation *v, wt_error *err)
     return status == WT_OK ? mean_ratio_make(&v->ratio[v->layered], &v->mean, err) : status;
 }
 
-/* A layer that grows without end has no friction. */
+/* A layer that grows without limit has no friction. */
 static wt_status begin(validation *v, wt_error *err)
 {
     table_view record = {0};
@@ -329,7 +328,7 @@ static wt_status make_tables(const validation *v, wt_validation_tables *tables, 
     if (status != WT_OK)
         return status;
     table_writer t = table_begin(&validation_schema, err);
-    size_t next = 0; /* step of another temperature or pressure: its line is another one */
+    size_t next = 0; /* first step with another temperature or pressure, which begins a new block */
     for (size_t i = 0; i < v->steps.n_all; i++) {
         if (i < v->steps.n && i == next) {
             table_block(&t);

@@ -1,4 +1,5 @@
-/* The verdict on a trial, in words. SPDX-License-Identifier: GPL-3.0-or-later */
+/* Verdict on a model variant and its text.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "record/validation.h"
 
 #include "core/base/clocale.h"

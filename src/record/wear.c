@@ -1,6 +1,5 @@
-/* Specific wear rate of a record by what the track lost, and the nominal pressure of its ball.
- *
- * Archard, J. Appl. Phys. 24 (1953) 981: volume = k load distance.
+/* Specific wear rate of a record from the lost volume, and nominal pressure of the ball. Archard,
+ * J. Appl. Phys. 24 (1953) 981: volume = k load distance.
  *
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "record/record.h"
@@ -12,9 +11,10 @@
 #include <math.h>
 #include <stdlib.h>
 
-/* Cycles at either end of a record that tell the depth there: a fiftieth of it. */
+/* Cycles that determine the depth at either end of a record: 1/50 of them, and the fewest. */
 enum { END_SHARE = 50, END_LEAST = 4 };
-/* Hertz's law is of contacts that are small against the ball; tribolayer-beyond says where. */
+/* Largest contact radius over ball radius. Hertz's law holds for small contacts; see
+ * tribolayer-beyond. */
 static const double small_contact = 0.3;
 
 TABLE_ROW(wear, WEAR, wt_interval rate; const char *of; wt_estimate volume, depth;
@@ -51,10 +51,10 @@ static wt_estimate product(wt_estimate a, wt_estimate b, const char *unit)
     return (wt_estimate){value, value * hypot(relative(a), relative(b)), 0, unit};
 }
 
-/* ---- what is known of the record ------------------------------------------------------------- */
+/* ---- quantities of the record ---------------------------------------------------------------- */
 
-/* Of a track of that length strokes slide twice as far; NaN: the cycles are none, or tell no time.
- */
+/* Mean velocity of strokes on a track of known length, which is passed twice. NaN if the cycles are
+ * not strokes or have no time. */
 static double velocity_of_strokes(const wt_cycles *cycles, double length)
 {
     double time = 0;
@@ -64,7 +64,7 @@ static double velocity_of_strokes(const wt_cycles *cycles, double length)
                                                        : (double)NAN;
 }
 
-/* Steps of an instrument may lie apart. */
+/* Time of all steps without the gaps between them. */
 static double time_of_steps(const wt_record *record)
 {
     const double *const time = record->channel[WT_RECORD_TIME];
@@ -91,7 +91,7 @@ static double distance_of(const wt_record *record, const wt_cycles *cycles, doub
            (isnan(velocity) ? velocity_of_strokes(cycles, length) : velocity);
 }
 
-/* As given, else of strokes half of their path, else a circumference. */
+/* Length of the track as stated, else half the path of a double stroke, else the circumference. */
 static wt_estimate track_length(const wt_record_job *job, const wt_cycles *cycles,
                                 wt_estimate radius)
 {
@@ -112,16 +112,16 @@ static wt_estimate load_of(const wt_record_job *job, const wt_cycles *cycles)
     return (wt_estimate){load, load * error, 0, "N"};
 }
 
-/* Share of the whole depth that lies between the means of the first and of the last cycles, `part`
- * of them all at either end: by Archard's law the cap of a ball grows with the distance, and its
- * depth with the power 2/3 of it. */
+/* Share of the depth between the means of the first and of the last cycles, each over `part` of all
+ * cycles. By Archard's law the volume of a ball cap grows with the distance, and its depth with the
+ * power 2/3. */
 static double share_between_ends(double part)
 {
     return 0.6 * ((1 - pow(1 - part, 5.0 / 3)) / part - pow(part, 2.0 / 3));
 }
 
-/* Depth at the end over that at the beginning, by the cycles there. What is added for their halves
- * hangs on the law of wear, and half of it is an error. */
+/* Depth at the end less depth at the beginning, by means over cycles. The correction for the finite
+ * length of the means depends on the law of wear. Half of it is taken as an error. */
 static wt_status depth_of(const wt_cycles *cycles, wt_estimate *depth, wt_error *err)
 {
     const size_t n = cycles->n / END_SHARE > END_LEAST ? cycles->n / END_SHARE : END_LEAST;
@@ -147,7 +147,7 @@ static wt_status depth_of(const wt_cycles *cycles, wt_estimate *depth, wt_error 
     return status;
 }
 
-/* Cross-section of a cap of a ball, with its slope against the depth. */
+/* Cross-section of a ball cap, with its derivative with respect to the depth. */
 static wt_estimate cap_of(wt_estimate depth, double radius)
 {
     const double h = depth.value, half = sqrt(h * (2 * radius - h));
@@ -157,7 +157,7 @@ static wt_estimate cap_of(wt_estimate depth, double radius)
 
 /* ---- rows ------------------------------------------------------------------------------------ */
 
-/* Why there is no rate: the first thing that is not known. */
+/* Names the first missing input of the rate. */
 static const char *what_lacks(const wt_record_job *job, const wear_row *r, wt_estimate load,
                               bool strokes)
 {
@@ -205,7 +205,7 @@ static void set_ball(const wt_record_job *job, wt_estimate load, double track_ra
     r->duty = wt_ball_duty(r->ball.contact_radius, track_radius, 0);
 }
 
-/* Where the rows of a record go, and what they have in common. */
+/* Rows of a record and their common quantities. */
 typedef struct wear_rows {
     const wt_record_job *job;
     wear_row row;
@@ -221,7 +221,7 @@ static void put(wear_rows *rows, const char *of, wt_estimate volume)
     const bool large = r->ball.contact_radius > small_contact * rows->job->ball_radius.value;
     r->of = of;
     r->volume = volume;
-    if (!(volume.standard_error > 0)) /* none was given */
+    if (!(volume.standard_error > 0)) /* no error was stated */
         r->volume.standard_error = (double)NAN;
     set_rate(rows->job, r, rows->load, rows->strokes,
              large ? "the contact is large against the ball" : "");

@@ -1,4 +1,4 @@
-/* What a track lost, from profiles across it.
+/* Cross-section of a wear track from profiles across it.
  *
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "job/height_input.h"
@@ -69,7 +69,7 @@ wt_status wear_area_of_profiles(const wt_record_job *job, const wt_job *work, wt
     set.patterns = &job->profile;
     set.n_patterns = 1;
     if (job->profile_set == NULL)
-        set.read.format = NULL; /* that of the records */
+        set.read.format = NULL; /* that of the records does not apply */
     flow_files files = {NULL, 0, NULL};
     profiles found = {.work = work};
     size_t n_failed = 0;

@@ -1,7 +1,6 @@
-/* Axes of a figure: ranges that end at whole tics, tics that read well, factors to lab units.
+/* Axes of a figure: ranges, round tics and conversion to display units.
  *
- * SPDX-License-Identifier: GPL-3.0-or-later
- */
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "report/drawing.h"
 
 #include <math.h>
@@ -14,7 +13,7 @@ bool span_empty(const value_span *span)
 
 void span_add(value_span *span, double value, bool positive_only)
 {
-    // Beyond a hundred decades nothing is measured, and no axis can show it.
+    // Values beyond a hundred decades are not plotted.
     if (!(fabs(value) < 1e100) || (positive_only && !(value > 1e-100)))
         return;
     if (span_empty(span))
@@ -42,7 +41,7 @@ static void write_label(figure_drawing *d, const char *axis, const char *label, 
     text_add(&words, translate(d->language, label));
     if (lab->label[0] != '\0')
         text_format(&words, " (%s)", lab->label);
-    if (strcmp(axis, "cb") == 0) // beside the scale of colour, which stands right of the picture
+    if (strcmp(axis, "cb") == 0) // room for the label of the colour scale at the right
         text_add(&d->script, "set rmargin 12\n");
     text_format(&d->script, "set %slabel ", axis);
     text_quoted(&d->script, text_string(&words));
@@ -67,17 +66,17 @@ static void write_range(figure_drawing *d, const char *axis, double low, double 
     text_format(&d->script, "set %srange [%s:%s]\n", axis, LITERAL(low), LITERAL(high));
 }
 
-/* Of a linear axis, and of one of half a panel. */
+/* Number of tic intervals of a linear axis, and of one in a narrow panel. */
 enum { PARTS = 5, FEW_PARTS = 3 };
 
-/* 1, 2, 2.5 or 5 times a power of ten that divides `width` into about so many parts. */
+/* Returns a step of 1, 2, 2.5 or 5 times a power of ten for about `parts` intervals. */
 static double tidy_step(double width, int parts)
 {
     double raw = width / parts, power = pow(10, floor(log10(raw))), part = raw / power;
     return (part < 1.5 ? 1 : part < 2.25 ? 2 : part < 3.5 ? 2.5 : part < 7.5 ? 5 : 10) * power;
 }
 
-/* The same of degrees, which are read by parts of a turn. */
+/* Returns a step for degrees: a fraction of a turn. */
 static double tidy_angle(double width)
 {
     return width > 270   ? 90
@@ -87,10 +86,12 @@ static double tidy_angle(double width)
                          : tidy_step(width, PARTS);
 }
 
-/* Labels of tics this wide leave the margin of the styles room for that of the axis. */
+/* Tic labels of this width [characters] fit into the margin of the styles, together with the axis
+ * label. */
 enum { WIDE = 5, BESIDE = 5 };
 
-/* A margin for labels that are wider: gnuplot puts that of the axis beside them, on no paper. */
+/* Widens the left margin for wider tic labels: gnuplot would place the axis label outside of the
+ * page. */
 static void write_margin(figure_drawing *d, const char *axis, double low, double high, double step)
 {
     const double size = fmax(fabs(low), fabs(high));
@@ -110,7 +111,7 @@ void axis_linear(figure_drawing *d, const char *axis, const char *label, const s
     lab_unit lab = lab_unit_for(column->quantity, unit, fmax(fabs(span.low), fabs(span.high)) / 2);
     double low = lab_value(&lab, span.low), high = lab_value(&lab, span.high);
     double size = fmax(fabs(high), fabs(low));
-    if (!(high - low > fmax(1e-12 * size, 1e-100))) { // one value: a range around it
+    if (!(high - low > fmax(1e-12 * size, 1e-100))) { // a single value: a range around it
         double half = size > 1e-100 ? size / 2 : 1;
         low -= half;
         high += half;
@@ -119,7 +120,7 @@ void axis_linear(figure_drawing *d, const char *axis, const char *label, const s
                       ? tidy_angle(high - low)
                       : tidy_step(high - low, d->narrow ? FEW_PARTS : PARTS),
            margin = 0.04 * (high - low);
-    // A zero that ends the data ends the axis: nothing is drawn beyond it.
+    // If the data end at zero, the axis ends there, too.
     low = low == 0 ? 0 : low - margin;
     high = high == 0 ? 0 : high + margin;
     write_unit(d, axis, unit, &lab);
@@ -130,13 +131,13 @@ void axis_linear(figure_drawing *d, const char *axis, const char *label, const s
     write_margin(d, axis, low, high, step);
 }
 
-/* Numbers of many digits do not stand beside each other. */
+/* True for decades whose tic labels need a power of ten. */
 static bool by_power(int decade)
 {
     return decade < -3 || decade > 4;
 }
 
-/* A tic by its mantissa and decade. */
+/* Writes one tic from its mantissa and decade. */
 static void write_tic(figure_drawing *d, const char *comma, double mantissa, int decade)
 {
     text_add(&d->script, comma);
@@ -145,7 +146,7 @@ static void write_tic(figure_drawing *d, const char *comma, double mantissa, int
     text_add(&d->script, LITERAL(mantissa * pow(10, decade)));
 }
 
-/* Little more than two decades at most: 1-2-5 tics with plain numbers. */
+/* Writes a logarithmic axis of at most 2.2 decades: 1-2-5 tics with plain numbers. */
 static void short_log(figure_drawing *d, const char *axis, double low, double high, double width)
 {
     double margin = pow(10, fmax(0.05 * width, 0.02));
@@ -157,7 +158,7 @@ static void short_log(figure_drawing *d, const char *axis, double low, double hi
     const char *comma = "";
     write_range(d, axis, low, high);
     text_format(&d->script, "unset m%stics\nset %stics (", axis, axis);
-    if (width < 0.15) { // less than a factor of 1.4: as on a linear axis
+    if (width < 0.15) { // less than a factor of 1.4: tics as on a linear axis
         double step = tidy_step(high - low, PARTS);
         for (int i = (int)ceil(low / step); i <= (int)floor(high / step); i++) {
             text_format(&d->script, "%s%s", comma, LITERAL(i * step));
@@ -183,8 +184,9 @@ void axis_log(figure_drawing *d, const char *axis, const char *label, const sche
 {
     const char *unit = schema_unit(column);
     double decades = log10(span.high / span.low);
-    // The unit that suits three times the geometric middle, as decades go both ways from it; over
-    // many decades, times and velocities are better known in SI, moduli in MPa.
+    // The unit suits three times the geometric mean. Over many decades, times and velocities are
+    // shown in SI units, moduli in MPa. many decades, times and velocities are better known in SI,
+    // moduli in MPa.
     double size = 3 * sqrt(span.low) * sqrt(span.high);
     if (decades > 2.5 && (strcmp(unit, "s") == 0 || strcmp(unit, "m/s") == 0))
         size = 1;
@@ -203,8 +205,9 @@ void axis_log(figure_drawing *d, const char *axis, const char *label, const sche
     low /= margin;
     high *= margin;
     write_range(d, axis, low, high);
-    // Seven labels at most, and of many decades no more than a narrow figure holds. The first tic
-    // must be given: else gnuplot counts from the end of the axis, which is no whole decade.
+    // At most seven labels. The first tic is given, as gnuplot would count from the end of the
+    // axis, which is no whole decade. must be given: else gnuplot counts from the end of the axis,
+    // which is no whole decade.
     int step = 1 + (int)(decades / 6), first = (int)ceil(log10(low));
     text_format(&d->script, "set %stics 1e%d,1e%d\n", axis, first, step);
     text_format(&d->script, step == 1 ? "set m%stics 10\n" : "unset m%stics\n", axis);

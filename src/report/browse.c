@@ -1,7 +1,6 @@
-/* One self-contained page to go through the curves of a result.
+/* Writes one self-contained page for browsing the curves of a result.
  *
- * SPDX-License-Identifier: GPL-3.0-or-later
- */
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "report/browse.h"
 
 #include "report/curve_finder.h"
@@ -10,7 +9,7 @@
 
 #include <string.h>
 
-/* Parts of the page by the marks that browse.html has for them. */
+/* A part of the page and its placeholder in browse.html. */
 typedef struct page_part {
     const char *mark, *text;
 } page_part;

@@ -1,15 +1,14 @@
-/* The page to go through the curves of a result: what it is made of.
+/* Data of the page for browsing curves.
  *
- * SPDX-License-Identifier: GPL-3.0-or-later
- */
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #ifndef WT_REPORT_BROWSE_H
 #define WT_REPORT_BROWSE_H
 
 #include "report/report_tables.h"
 #include "report/report_text.h"
 
-/* Appends the curves of all groups, their samples and the choices made before as JSON that may
- * stand in a script element. */
+/* Appends the curves of all groups, their samples and the earlier manual choices as JSON that is
+ * safe inside a script element. */
 wt_status browse_data(const figure_tables *tables, text_buffer *to, wt_error *err) WT_NODISCARD;
 
 #endif

@@ -1,8 +1,7 @@
-/* The data of the page to go through curves: JSON, with the samples of each curve as 16-bit numbers
- * in base64, which is a tenth of their decimals and finer than any screen.
+/* Data of the page for browsing curves as JSON. The samples of each curve are 16-bit numbers in
+ * base64, a tenth of the size of decimals and finer than any screen.
  *
- * SPDX-License-Identifier: GPL-3.0-or-later
- */
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "report/browse.h"
 
 #include "core/base/utf8.h"
@@ -13,13 +12,13 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* The largest 16-bit number; the one that means no value. */
+/* Largest value of a packed number, and the code for a missing value. */
 enum { PACKED_MOST = 65534, PACKED_NONE = 65535 };
 
-/* ---- words and numbers ----------------------------------------------------------------------- */
+/* ---- strings and numbers -----------------------------------------------------------------------
+ */
 
-/* A string. Neither '<' nor what else markup has can stand in it, and what is no UTF-8 becomes
- * U+FFFD. */
+/* Appends a JSON string without '<' and other markup. Invalid UTF-8 becomes U+FFFD. */
 static void add_text(text_buffer *to, const char *text)
 {
     static const char escaped[] = "\"\\<>&\x7f";
@@ -48,7 +47,8 @@ static void add_number(text_buffer *to, double value)
         text_add(to, "null");
 }
 
-/* Contact points are differences of large numbers, and are handed back. */
+/* Appends a number with all digits. Contact points are differences of large numbers, and the page
+ * exports them. */
 static void add_exact(text_buffer *to, double value)
 {
     char number[64];
@@ -108,7 +108,8 @@ static uint8_t *put_packed(uint8_t *to, unsigned value)
     return to + 2;
 }
 
-/* Compliance of the lever: what displacement and indentation differ by at the largest force. */
+/* Returns the compliance of the cantilever: displacement minus indentation over force, at the
+ * largest force. */
 static double compliance(const table_view *view, curve_block b)
 {
     double largest = 0, per_force = (double)NAN;
@@ -124,9 +125,9 @@ static double compliance(const table_view *view, curve_block b)
     return per_force;
 }
 
-/* [samples, of them approach, first with a fit above the baseline, displacement from, to, force
- * from, to, compliance of the lever, base64: displacements, forces, fitted forces of the contact]
- */
+/* Appends [number of samples, of approach samples, index of the first fitted sample in contact,
+ * lowest and highest displacement, lowest and highest force, compliance of the cantilever, base64
+ * of displacements, forces and fitted forces in contact]. */
 static wt_status add_samples(const table_view *view, curve_block b, text_buffer *to, wt_error *err)
 {
     const size_t n = b.to - b.from;
@@ -166,8 +167,8 @@ static wt_status add_samples(const table_view *view, curve_block b, text_buffer 
 
 /* ---- curves ---------------------------------------------------------------------------------- */
 
-/* [file, curve, verdict, reason, modulus, its error, contact point, x, y, samples or null]; a file
- * is a number in the list of files. */
+/* Appends [file, curve, verdict, reason, modulus, its error, contact point, x, y, samples or null];
+ * `file` is an index into the list of files. */
 static wt_status add_row(const table_view *rows, size_t row, size_t file, curve_finder *f,
                          text_buffer *to, wt_error *err)
 {
@@ -224,7 +225,7 @@ static wt_status add_group(const table_view *rows, curve_finder *f, text_buffer 
     return status;
 }
 
-/* Those of before, which are handed back with those that are made on the page. */
+/* Appends the earlier choices, which the page exports together with its own. */
 static void add_choices(const table_view *choices, text_buffer *to)
 {
     static const choices_column texts[] = {CHOICES_GROUP, CHOICES_FILE, CHOICES_CHOICE,

@@ -1,7 +1,6 @@
-/* The samples of a curve by its row.
+/* Finds the samples of a curve by its row.
  *
- * SPDX-License-Identifier: GPL-3.0-or-later
- */
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "report/curve_finder.h"
 
 #include "weartrack/report.h"
@@ -9,7 +8,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* ---- whether there are any ------------------------------------------------------------------- */
+/* ---- kinds and availability -------------------------------------------------------------------
+ */
 
 curve_kind curve_kind_of(const table_view *rows, size_t row)
 {
@@ -19,7 +19,7 @@ curve_kind curve_kind_of(const table_view *rows, size_t row)
     return strcmp(verdict, "doubtful") == 0 ? CURVE_DOUBTFUL : CURVE_REFUSED;
 }
 
-/* Those that were fitted, if none of them was refused; else 0. */
+/* Returns the number of curves if none is rejected, else 0. */
 static size_t n_none_refused(const figure_tables *tables)
 {
     size_t n = 0;

@@ -1,35 +1,35 @@
-/* The samples of a curve in the table "curves", by the row of the curve in its group.
+/* Samples of a curve in the table "curves", found by the row of the curve in its group.
  *
- * SPDX-License-Identifier: GPL-3.0-or-later
- */
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #ifndef WT_REPORT_CURVE_FINDER_H
 #define WT_REPORT_CURVE_FINDER_H
 
 #include "report/report_tables.h"
 
-/* The rows of one curve. */
+/* Range of rows of one curve. */
 typedef struct curve_block {
     size_t from, to;
 } curve_block;
 
 typedef struct curve_finder {
-    const table_view *view; /* of the table "curves"; borrowed */
+    const table_view *view; /* view of the table "curves"; borrowed */
     curve_block *blocks;    /* [n] */
-    size_t n, next; /* the one behind the last that was found, for both stand in one order */
+    size_t n,
+        next; /* next: index after the last match, as both tables usually have the same order */
 } curve_finder;
 
-/* In the order in which they are looked at. */
+/* Kinds of curves in their order on the sheets. */
 typedef enum curve_kind { CURVE_REFUSED, CURVE_DOUBTFUL, CURVE_ACCEPTED, CURVE_KINDS } curve_kind;
 
-/* By its verdict. */
+/* Returns the kind of a row from its verdict. */
 curve_kind curve_kind_of(const table_view *rows, size_t row);
 
-/* Whether there are curves to look at; WT_E_EMPTY says how they are made. */
+/* Checks that the result has samples of curves. WT_E_EMPTY explains how to produce them. */
 wt_status curves_check(const figure_tables *tables, wt_error *err) WT_NODISCARD;
 
-/* With a view. curve_finder_clear also after a failure. */
+/* Initialises a finder with a view. Call curve_finder_clear also after a failure. */
 wt_status curve_finder_make(curve_finder *finder, wt_error *err) WT_NODISCARD;
-/* NULL if the curve has no samples. */
+/* Returns the samples of the curve of a row, NULL if it has none. */
 const curve_block *curve_finder_next(curve_finder *finder, const table_view *rows, size_t row);
 void curve_finder_clear(curve_finder *finder);
 

@@ -1,7 +1,6 @@
-/* One force curve as a panel.
+/* Draws one force curve as a panel.
  *
- * SPDX-License-Identifier: GPL-3.0-or-later
- */
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "report/curve_panel.h"
 
 #include "core/base/utf8.h"
@@ -10,8 +9,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Characters of 8 points that stand beside each other above a third of a sheet, and lines for the
- * 159 that a reason has at most. */
+/* Characters of 8 points per line above a third of a sheet, and lines for a reason of at most 159
+ * characters. */
 enum { LINE_LENGTH = 48, REASON_LINES = 4 };
 
 const char curve_panel_words[] =
@@ -28,7 +27,7 @@ static bool has_numbers(const table_view *curves, curve_block b)
     return false;
 }
 
-/* By kind; those of one kind stay in their order. */
+/* Sorts by kind; the order within a kind is kept. */
 static void sort_by_kind(listed_curve *to, const curve_list *list)
 {
     size_t at[CURVE_KINDS] = {0};
@@ -80,8 +79,8 @@ void curve_list_clear(curve_list *list)
 
 /* ---- heading --------------------------------------------------------------------------------- */
 
-/* Adds a text in lines, broken at blanks; what the last line has no room for is left out, and said
- * by dots. Returns how many. */
+/* Adds a text in at most `most` lines, broken at blanks. A text that is too long ends in dots.
+ * Returns the number of lines. */
 static size_t add_lines(text_buffer *to, const char *text, size_t most)
 {
     size_t n = 0;
@@ -103,12 +102,13 @@ static size_t add_lines(text_buffer *to, const char *text, size_t most)
 
 static void add_name(text_buffer *to, const char *file, double curve)
 {
-    enum { NAME = LINE_LENGTH - 8 }; /* behind it the number */
+    enum { NAME = LINE_LENGTH - 8 }; /* leaves room for the number */
     text_name(to, strrchr(file, '/') != NULL ? strrchr(file, '/') + 1 : file, NAME);
     text_format(to, ":%.0f", curve);
 }
 
-/* Lines: curve, verdict and modulus, reason of what was not accepted. Returns how many. */
+/* Adds the heading: curve, verdict and modulus, reason of a curve that was not accepted. Returns
+ * the number of lines. */
 static size_t add_words(text_buffer *to, const figure_drawing *d, const listed_curve *c)
 {
     const char *verdict = indentation_text(c->rows, c->row, INDENTATION_VERDICT),
@@ -145,7 +145,7 @@ size_t curve_panel_lines(const figure_drawing *d, const listed_curve *c)
     return lines;
 }
 
-/* As a label from the left end of the panel, its last line above the picture. */
+/* Draws the heading as labels from the left edge of the panel, the last line just above it. */
 static void add_heading(figure_drawing *d, const listed_curve *c)
 {
     text_buffer words = {0}, line = {0};
@@ -166,7 +166,7 @@ static void add_heading(figure_drawing *d, const listed_curve *c)
 
 /* ---- panel ----------------------------------------------------------------------------------- */
 
-/* The samples of one segment of a curve, with the fit of the approach. */
+/* Adds a section of the samples of one segment, with the fit of the approach. */
 static int curve_section(figure_drawing *d, curve_block b, const char *segment)
 {
     static const char *const columns[] = {"displacement", "force", "fitted_force", NULL};
@@ -190,7 +190,7 @@ static int curve_section(figure_drawing *d, curve_block b, const char *segment)
     return section;
 }
 
-/* A fit says where it is. */
+/* True if the curve has a fit, which determines the contact point. */
 static bool has_contact(const figure_drawing *d, curve_block b)
 {
     for (size_t i = b.from; i < b.to; i++)

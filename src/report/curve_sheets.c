@@ -1,7 +1,6 @@
-/* Force curves as a PDF to be printed: many on a sheet, many sheets.
+/* Writes force curves as a PDF of printable sheets.
  *
- * SPDX-License-Identifier: GPL-3.0-or-later
- */
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "core/base/param.h"
 #include "core/system/file_signatures.h"
 #include "core/system/temporary.h"
@@ -18,13 +17,13 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-/* On a sheet: each panel is then 55 mm wide and, below the words, 40 mm high. */
+/* Panels on a sheet; each is 55 mm wide and, below its heading, 40 mm high. */
 enum { COLUMNS = 3, ROWS = 4, CURVES = COLUMNS * ROWS };
 
-/* Ten times what twelve curves of the most samples that a table of them has take. */
+/* Size limit of a sheet [byte], ten times that of twelve curves with the most samples. */
 static const size_t sheet_size = (size_t)1 << 20;
 
-/* A sheet of A4 [mm]; output.gnuplot adds the hundredth of an inch that is taken off here. */
+/* An A4 sheet. output.gnuplot adds the hundredth of an inch that is subtracted here. */
 #define SHEET_BEGIN                                                                                \
     "figure_name = 'sheets'; figure_format = 'pdf'; figure_width = 1; figure_height = 1\n"         \
     "panel_width = (210/25.4-0.01)*72*15/8.\n"
@@ -40,15 +39,15 @@ typedef struct sheets {
     text_buffer style, script;
     char *folder; /* temporary */
     int in_use;
-    size_t n, begun; /* sheets in all; that gnuplot has begun */
-    double since;    /* when it began the last one */
+    size_t n, begun; /* number of sheets; of those that gnuplot has begun */
+    double since;    /* wall time when the last one began [s] */
     bool late;
     const wt_progress *progress;
 } sheets;
 
 /* ---- one sheet ------------------------------------------------------------------------------- */
 
-/* "sheet_12", which is its data, with an ending, or the mark that it is begun. */
+/* Writes "sheet_12", the stem of its data file and the name of the file that marks its begin. */
 static void sheet_name(size_t sheet, char name[32])
 {
     (void)snprintf(name, 32, "sheet_%zu", sheet + 1);
@@ -69,7 +68,7 @@ static wt_status write_file(const sheets *s, const char *name, const char *endin
     return status;
 }
 
-/* What stands above the panels. */
+/* Adds the title above the panels. */
 static void add_title(sheets *s, size_t sheet)
 {
     static const char *const kinds[] = {"refused", "doubtful", "accepted"};
@@ -89,7 +88,7 @@ static void add_title(sheets *s, size_t sheet)
     text_done(&words, &s->script);
 }
 
-/* Writes the data of a sheet and appends what draws it. */
+/* Writes the data of a sheet and appends its script. */
 static wt_status add_sheet(sheets *s, size_t sheet, wt_error *err)
 {
     char name[32];
@@ -138,7 +137,7 @@ static bool is_begun(const sheets *s, size_t sheet)
     return there;
 }
 
-/* Asked all the while that gnuplot draws. */
+/* Callback while gnuplot runs; false ends it. */
 static bool go_on(void *user)
 {
     sheets *s = user;
@@ -148,7 +147,8 @@ static bool go_on(void *user)
     return !s->late && text_append(s, s->begun > 0 ? s->begun - 1 : 0);
 }
 
-/* Beside the output; where that is a pipe there is no such place. */
+/* Creates a temporary folder in the folder of the output, or in that for temporary files if the
+ * output is a pipe. */
 static wt_status open_folder(sheets *s, const char *path, wt_error *err)
 {
     struct stat info;

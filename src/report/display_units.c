@@ -1,7 +1,6 @@
-/* Lab units.
+/* Display units.
  *
- * SPDX-License-Identifier: GPL-3.0-or-later
- */
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "report/display_units.h"
 
 #include "core/base/number.h"
@@ -12,11 +11,11 @@
 
 typedef struct lab_choice {
     const char *unit; /* SI */
-    int power;        /* of ten, of the first label; that of the next is less by three, and so on */
+    int power;        /* exponent of ten of the first label; each next one is less by three */
     const char *labels[5];
 } lab_choice;
 
-/* Smallest first. */
+/* Series of units, smallest first. */
 static const lab_choice choices[] = {
     {"m", 9, {"nm", "µm", "mm", "m"}},
     {"N", 12, {"pN", "nN", "µN", "mN", "N"}},
@@ -57,7 +56,7 @@ lab_unit lab_unit_for(wt_quantity quantity, const char *unit, double magnitude)
         (void)snprintf(lab.label, sizeof lab.label, "%s", unit);
     for (int i = 0; choice < end && i < 5 && choice->labels[i] != NULL; i++) {
         double factor = pow(10, choice->power - 3 * i);
-        // A thousandth of slack: 1 µm that rounding made 0.99999 µm is still 1 µm.
+        // A tolerance of a thousandth: 0.99999 µm by rounding is still 1 µm.
         if (i > 0 && !(isfinite(magnitude) && fabs(magnitude) * factor >= 0.999))
             continue;
         lab.factor = factor;

@@ -1,7 +1,6 @@
-/* One figure while it is made: its data.
+/* Data of one figure under construction.
  *
- * SPDX-License-Identifier: GPL-3.0-or-later
- */
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "report/drawing.h"
 
 #include <math.h>
@@ -40,7 +39,7 @@ static bool row_matches(const table_view *table, size_t row, const row_filter *r
     return true;
 }
 
-/* Name of section `i`: figure and number, as table names are written. */
+/* Creates a section table with the name of the figure and a number. */
 static wt_table *section_new(figure_drawing *d, const char *title)
 {
     char name[96];
@@ -51,7 +50,7 @@ static wt_table *section_new(figure_drawing *d, const char *title)
     return table;
 }
 
-/* Keeps a section that holds something. */
+/* Stores a section with data and returns its index; else frees it and returns NO_SECTION. */
 static int section_take(figure_drawing *d, wt_table *section, bool any)
 {
     if (d->status == WT_OK && any && d->n_sections == DRAWING_SECTIONS)
@@ -93,7 +92,7 @@ int drawing_section(figure_drawing *d, const table_view *table, const char *titl
         bool complete = true;
         for (size_t i = 0; i < n_columns; i++) {
             double value = view_number(table, table->schema, row, columns[i]);
-            // An infinite value is no place in a picture.
+            // An infinite value cannot be drawn.
             wt_table_put(section, i,
                          isfinite(value) ? number_to_digits(value, DATA_DIGITS) : (double)NAN);
             complete = complete && (i >= needed || isfinite(value));

@@ -1,7 +1,6 @@
-/* The files of a figure.
+/* Reads and writes the files of a figure.
  *
- * SPDX-License-Identifier: GPL-3.0-or-later
- */
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "report/figure_files.h"
 
 #include "report/gnuplot.h"
@@ -13,12 +12,11 @@
 #include <string.h>
 #include <zlib.h>
 
-/* A picture's unit of 8/15 point [m], as output.gnuplot has it. */
+/* Unit of a picture, 8/15 point [m], as in output.gnuplot. */
 static const double unit_length = 8.0 / 15 * 0.0254 / 72;
-/* Dots in a metre of a bitmap, 600 in an inch. */
+/* Resolution of a bitmap [1/m], 600 dpi. */
 static const double dots_per_metre = 600 / 0.0254;
-/* Figures with panels beside each other are as wide as the text of a sheet, or wider if asked for
- * [m]. */
+/* Smallest width of figures with panels side by side [m]: the text width of a page. */
 static const double text_width = 0.170;
 
 /* ---- options --------------------------------------------------------------------------------- */
@@ -61,7 +59,8 @@ wt_status figure_font_check(const void *member, wt_error *err)
     return status;
 }
 
-/* ---- before it is drawn ---------------------------------------------------------------------- */
+/* ---- before drawing ---------------------------------------------------------------------------
+ */
 
 wt_status figure_data(const figure_drawing *d, text_buffer *to, wt_error *err)
 {
@@ -72,7 +71,7 @@ wt_status figure_data(const figure_drawing *d, text_buffer *to, wt_error *err)
     if (stream == NULL)
         return wt_fail(err, WT_E_MEMORY, "out of memory");
     for (size_t i = 0; i < d->n_sections && status == WT_OK; i++) {
-        if (i > 0) // gnuplot's `index` counts what two blank lines part
+        if (i > 0) // gnuplot's `index` counts sections that two blank lines separate
             (void)fputs("\n\n", stream);
         status = wt_stream_write(stream, d->sections[i], NULL, err);
     }
@@ -96,11 +95,11 @@ static wt_status write_data(const report_folder *folder, drawn_figure *figure, w
 
 void figure_decimals(text_buffer *script, const language *l)
 {
-    if (l != NULL) // of the tics: what gnuplot reads keeps its points
+    if (l != NULL) // only for tic labels: data have decimal points
         text_format(script, "set decimalsign '%c'\n", l->decimal_mark);
 }
 
-/* What the style and what is drawn on need to know. */
+/* Writes the sizes and the font for the style. */
 static void add_sizes(text_buffer *script, const figure_drawing *d,
                       const wt_report_options *options)
 {
@@ -148,9 +147,10 @@ wt_status figure_write(const report_folder *folder, const wt_report_options *opt
     return status == WT_OK ? write_script(folder, options, figure, err) : status;
 }
 
-/* ---- behind that ----------------------------------------------------------------------------- */
+/* ---- after drawing ----------------------------------------------------------------------------
+ */
 
-/* Appends "plots/NAME.ENDING", whose name is left in `name`. */
+/* Appends the file "plots/NAME.ENDING" and stores this name in `name`. */
 static wt_status read_picture(const report_folder *folder, const drawn_figure *figure,
                               const char *ending, char name[128], text_buffer *picture,
                               wt_error *err)
@@ -170,8 +170,8 @@ static void put_word(unsigned char *at, uint32_t word)
         at[i] = (unsigned char)(word >> (24 - 8 * i));
 }
 
-/* A bitmap says how many dots it has in a metre (PNG 1.2, chunk pHYs), or a page puts it in by the
- * resolution of a screen. */
+/* Adds the resolution to a bitmap (PNG 1.2, chunk pHYs). Without it a page uses the resolution of a
+ * screen. */
 static wt_status size_bitmap(const report_folder *folder, const drawn_figure *figure, wt_error *err)
 {
     enum { HEAD = 8 + 25, WORDS = 8 + 9, CHUNK = WORDS + 4 }; // signature and IHDR; type and data

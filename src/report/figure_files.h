@@ -1,7 +1,6 @@
-/* The files of a figure: data and script before it is drawn, pictures behind that.
+/* Files of a figure: data and script before drawing, pictures after it.
  *
- * SPDX-License-Identifier: GPL-3.0-or-later
- */
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #ifndef WT_REPORT_FIGURE_FILES_H
 #define WT_REPORT_FIGURE_FILES_H
 
@@ -9,22 +8,22 @@
 #include "report/page.h"
 #include "weartrack/report.h"
 
-/* Ending of the i-th format, "svg", "pdf", "png", which is bit i of the options; NULL past the last
- * one. */
+/* Returns the suffix of the i-th format, "svg", "pdf", "png", which is bit i of the options; NULL
+ * past the last one. */
 const char *figure_format(size_t i);
-/* Reads "svg,pdf", for a record. */
+/* Parses "svg,pdf" for a parameter. */
 wt_status figure_formats_read(const char *text, void *member, wt_error *err) WT_NODISCARD;
-/* Whether a name can be that of a font: it stands in scripts and on the page. */
+/* Checks that a font name is safe in scripts and on the page. */
 wt_status figure_font_check(const void *member, wt_error *err) WT_NODISCARD;
 
-/* Has a script, behind the style, write numbers as the language does. */
+/* Sets the decimal mark of the language in a script, after the style. */
 void figure_decimals(text_buffer *script, const language *l);
 /* Appends the data of a figure: its sections, as gnuplot's `index` counts them. */
 wt_status figure_data(const figure_drawing *d, text_buffer *to, wt_error *err) WT_NODISCARD;
-/* Writes data and script, and keeps them. */
+/* Writes data and script and stores them in `figure`. */
 wt_status figure_write(const report_folder *folder, const wt_report_options *options,
                        drawn_figure *figure, wt_error *err) WT_NODISCARD;
-/* Reads the picture for the page and makes those for a paper say how large they are. */
+/* Reads the picture for the page and adds sizes to the pictures for a paper. */
 wt_status figure_take(const report_folder *folder, const wt_report_options *options,
                       drawn_figure *figure, wt_error *err) WT_NODISCARD;
 

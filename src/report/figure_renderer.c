@@ -1,7 +1,6 @@
-/* A figure drawn as its description says.
+/* Draws a figure from its description.
  *
- * SPDX-License-Identifier: GPL-3.0-or-later
- */
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "report/drawing.h"
 
 #include <math.h>
@@ -9,7 +8,7 @@
 
 /* ---- data ------------------------------------------------------------------------------------ */
 
-/* Adds a column that is one and is not there yet. */
+/* Adds a column if `is_one` and if it is not in the list yet. */
 static void add_column(unsigned columns[FIGURE_COLUMNS], size_t *n, bool is_one, unsigned column)
 {
     for (size_t i = 0; i < *n; i++)
@@ -34,7 +33,7 @@ size_t drawing_columns(const figure_description *figure, unsigned columns[FIGURE
     return n;
 }
 
-/* Place of a column in the sections as described, from 0. */
+/* Returns the index of a column in the described sections, from 0. */
 static size_t place_of(const figure_drawing *d, unsigned column)
 {
     size_t place = 0;
@@ -43,7 +42,7 @@ static size_t place_of(const figure_drawing *d, unsigned column)
     return place;
 }
 
-/* A described column of the section of a group. */
+/* Extends the range by a described column of the section of a group. */
 static void span_described(value_span *span, const figure_drawing *d, size_t group, unsigned column,
                            const figure_axis *axis)
 {
@@ -51,7 +50,7 @@ static void span_described(value_span *span, const figure_drawing *d, size_t gro
         span_add_section(span, d, d->data[group], place_of(d, column), axis->scale == AXIS_LOG);
 }
 
-/* A column plus and minus its standard error. */
+/* Extends the range by a column plus and minus its standard error. */
 static void span_errors(value_span *span, const figure_drawing *d, size_t group, unsigned column,
                         const figure_axis *axis)
 {
@@ -111,21 +110,21 @@ void drawing_axis(figure_drawing *d, const char *letter, const figure_axis *axis
         axis_linear(d, letter, label != NULL ? label : axis->label, column, span);
 }
 
-/* Whether the colour says something. */
+/* True if the colour has a meaning: different values. */
 static bool is_coloured(const figure_drawing *d)
 {
     return !span_empty(&d->colour) && d->colour.high > d->colour.low;
 }
 
-/* How far two values of the colour are apart at most that are set as one: half a kelvin, or the
- * hundredth to which a frequency is set. */
+/* Largest difference of two colour values that count as one setting: half a kelvin, or 1 % of a
+ * frequency. */
 static double setting(const figure_drawing *d, double value)
 {
     const schema_field *column = &d->figure->table->columns[d->figure->colour.column];
     return column->quantity == WT_Q_TEMPERATURE ? 0.5 : 0.01 * fabs(value);
 }
 
-/* The different values of the colour, if they are few. */
+/* Collects the different values of the colour if they are few. */
 static void find_colours(figure_drawing *d)
 {
     const size_t place = place_of(d, d->figure->colour.column);
@@ -184,13 +183,13 @@ char drawing_letter(const char *deformation)
 
 /* ---- curves ---------------------------------------------------------------------------------- */
 
-/* Adds a column with the factor to the unit of its axis: "($2*y_unit)". */
+/* Adds a column with the factor of its axis: "($2*y_unit)". */
 static void add_place(text_buffer *item, const figure_drawing *d, const char *letter,
                       const figure_axis *axis, unsigned column, bool above_zero)
 {
     size_t n = place_of(d, column) + 1;
     const bool of_temperature =
-        d->figure->table->columns[column].quantity == WT_Q_TEMPERATURE; /* drawn in degC */
+        d->figure->table->columns[column].quantity == WT_Q_TEMPERATURE; /* drawn in °C */
     if (axis->scale == AXIS_NUMBER)
         text_format(item, "%zu", n);
     else if (of_temperature && axis->scale == AXIS_LINEAR)
@@ -201,8 +200,7 @@ static void add_place(text_buffer *item, const figure_drawing *d, const char *le
         text_format(item, "($%zu*%s_unit)", n, letter);
 }
 
-/* A column plus and minus its standard error; a logarithmic axis has no place for what is below
- * zero. */
+/* Plots a band of plus and minus one standard error. A logarithmic axis has no negative values. */
 static void plot_band(figure_drawing *d, size_t group, const figure_curve *curve)
 {
     const bool titled = !d->band_titled && !d->figure->by_group && curve->title != NULL;
@@ -228,7 +226,7 @@ static bool has_key(const figure_description *figure)
     return any;
 }
 
-/* A title of the description stands in the key once for all groups. */
+/* Adds the title. A described title appears in the key once for all groups. */
 static void add_title(figure_drawing *d, size_t group, const figure_curve *curve)
 {
     bool *titled = &d->titled[curve - d->figure->curves];
@@ -284,7 +282,7 @@ static bool has_number(const figure_drawing *d, size_t group, const figure_curve
     return !span_empty(&span);
 }
 
-/* Without replicates there are no standard errors, and no band to name in the key. */
+/* True if there is a standard error. Without replicates there is none, and no band for the key. */
 static bool has_error(const figure_drawing *d, size_t group, const figure_curve *curve)
 {
     const figure_axis any = {.scale = AXIS_LINEAR};
@@ -327,7 +325,7 @@ static void draw_as_described(figure_drawing *d)
 
 /* ---- groups ---------------------------------------------------------------------------------- */
 
-/* Names of the groups, "bulk" and "track" first, then as they come. */
+/* Collects the names of the groups, "bulk" and "track" first, then in order of rows. */
 static void find_groups(figure_drawing *d)
 {
     static const char *const usual[] = {"bulk", "track"};

@@ -1,7 +1,6 @@
-/* The figures this library knows, in the order of the page.
+/* Registry of the figures of the library, in the order of the page.
  *
- * SPDX-License-Identifier: GPL-3.0-or-later
- */
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "report/figure.h"
 
 #include "weartrack/report.h"

@@ -1,7 +1,6 @@
-/* The folder of a report.
+/* Creates and replaces the folder of a report.
  *
- * SPDX-License-Identifier: GPL-3.0-or-later
- */
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "report/folder.h"
 
 #include "core/base/array.h"
@@ -21,10 +20,11 @@
 enum { REPORT_NAME = 128 };
 
 struct report_folder {
-    char *place;  /* where it goes */
-    bool is_page; /* of which only the page goes there */
-    char *made;   /* the temporary one */
-    int in_use;   /* keeps that from being swept away; -1 before it is made */
+    char *place;  /* final path */
+    bool is_page; /* only the page is written */
+    char *made;   /* temporary folder */
+    int in_use;   /* descriptor that protects the temporary folder from removal; -1 before it exists
+                   */
     char *plots;
 };
 
@@ -36,9 +36,11 @@ static wt_status io_error(wt_error *err, const char *what, const char *path)
     return status;
 }
 
-/* ---- what may be replaced -------------------------------------------------------------------- */
+/* ---- conditions for replacement ----------------------------------------------------------------
+ */
 
-/* Name of the i-th file that a report can have, with the folder "plots"; NULL past the last one. */
+/* Returns the name of the i-th possible file of a report, with the folder "plots"; NULL past the
+ * last one. */
 static const char *file_of_report(size_t i, char name[REPORT_NAME])
 {
     static const char *const common[] = {"index.html", "plots/style.gp", "plots/output.gp"},
@@ -68,7 +70,7 @@ char *wt_report_page(const char *place)
     return place_is_page(place) ? strdup(place) : wt_path_join(place, "index.html");
 }
 
-/* Whether weartrack wrote the page of a place. */
+/* True if weartrack wrote the page of a report. */
 static bool has_mark(const char *place)
 {
     enum { HEAD = 4096 };
@@ -95,13 +97,13 @@ static wt_status fail_not_replaceable(wt_error *err, const char *path, const cha
     return status;
 }
 
-/* What a file manager leaves in any folder, and what a killed run has left in this one. */
+/* True for files of a file manager, and for temporary folders of a killed run. */
 static bool is_litter(const char *name)
 {
     return name[0] == '.' || strcmp(name, "Thumbs.db") == 0 || strcmp(name, "desktop.ini") == 0;
 }
 
-/* Refuses a folder that is no report and holds something. */
+/* Rejects a folder that is no report and has other files. */
 static wt_status check_empty(const char *path, wt_error *err)
 {
     wt_status status = WT_OK;
@@ -118,16 +120,16 @@ static wt_status check_empty(const char *path, wt_error *err)
     return status;
 }
 
-/* Pictures of gnuplot's, not text like all else that is written: the mark of their folder tells
- * whose they are, and none was read. */
+/* True for binary pictures of gnuplot, which are no text and are never read. They may be replaced
+ * in a folder that is marked as a report. */
 static bool is_bitmap_or_pdf(const char *name)
 {
     const char *const ending = strrchr(name, '.');
     return ending != NULL && (strcmp(ending, ".pdf") == 0 || strcmp(ending, ".png") == 0);
 }
 
-/* A folder may be used if nothing is in it or an older report, whose files may be replaced unless
- * they were read; what else is in a report stays. */
+/* Checks that a folder is empty or an older report. Files of the report may be replaced unless they
+ * were read; other files are not touched. */
 static wt_status check_replaceable(const char *path, wt_error *err)
 {
     struct stat info;
@@ -161,7 +163,8 @@ static wt_status check_replaceable(const char *path, wt_error *err)
     return status;
 }
 
-/* ---- making ---------------------------------------------------------------------------------- */
+/* ---- creation ---------------------------------------------------------------------------------
+ */
 
 static void folder_free(report_folder *folder)
 {
@@ -173,7 +176,7 @@ static void folder_free(report_folder *folder)
     free(folder);
 }
 
-/* The place itself: without slashes at the end, symbolic links followed. */
+/* Resolves the path: removes slashes at the end and follows symbolic links. */
 static wt_status find_place(const char *path, char **place, wt_error *err)
 {
     char *plain = strdup(path), *real = NULL;
@@ -199,8 +202,8 @@ static wt_status find_place(const char *path, char **place, wt_error *err)
     return WT_OK;
 }
 
-/* The temporary folder lies in the place if that is there, else beside it: on the same file system,
- * so that all can be renamed. */
+/* Creates the temporary folder inside of an existing target, else next to it: on the same file
+ * system, so that files can be renamed. */
 static wt_status make_temporary(report_folder *folder, wt_error *err)
 {
     struct stat info;
@@ -258,8 +261,8 @@ wt_status folder_write(const report_folder *folder, const char *name, const char
     return status;
 }
 
-/* Moves one file of the report; the one it replaces gives its mode. One that this report has not is
- * removed. */
+/* Moves one file of the report; it keeps the mode of the file that it replaces. Removes a target
+ * file that this report does not have. */
 static wt_status move_file(const report_folder *folder, const char *name, wt_error *err)
 {
     wt_status status = WT_OK;
@@ -278,11 +281,11 @@ static wt_status move_file(const report_folder *folder, const char *name, wt_err
     return status;
 }
 
-/* The page alone, in the place of an older one, whose mode it gets. */
+/* Moves the page over an older one and keeps its mode. */
 static wt_status move_page(const report_folder *folder, wt_error *err)
 {
     struct stat info;
-    wt_status status = check_replaceable(folder->place, err); // again: time has passed
+    wt_status status = check_replaceable(folder->place, err); // again, as it may have changed
     if (status != WT_OK)
         return status;
     char *page = wt_path_join(folder->made, "index.html");
@@ -295,15 +298,15 @@ static wt_status move_page(const report_folder *folder, wt_error *err)
     return status;
 }
 
-/* File by file into a folder that is there, the page first: it needs no other file, and says whose
- * folder it is. One run at a time. */
+/* Moves file by file into an existing folder. The page is first, as it is self-contained and marks
+ * the folder as a report. A lock admits one run at a time. */
 static wt_status move_files(const report_folder *folder, wt_error *err)
 {
     char name[REPORT_NAME];
     const int lock = open(folder->place, O_RDONLY | O_DIRECTORY | O_CLOEXEC);
     if (lock >= 0)
         (void)flock(lock, LOCK_EX);
-    wt_status status = check_replaceable(folder->place, err); // again: time has passed
+    wt_status status = check_replaceable(folder->place, err); // again, as it may have changed
     char *plots = wt_path_join(folder->place, "plots");
     if (status == WT_OK && plots == NULL)
         status = wt_fail(err, WT_E_MEMORY, "out of memory");

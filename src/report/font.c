@@ -1,7 +1,6 @@
-/* Whether a font is there: gnuplot draws in another one without a word.
+/* Tests if a font exists, as gnuplot replaces a missing font silently.
  *
- * SPDX-License-Identifier: GPL-3.0-or-later
- */
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "core/base/utf8.h"
 #include "core/system/subprocess.h"
 #include "report/gnuplot.h"
@@ -10,12 +9,12 @@
 #include <string.h>
 #include <strings.h>
 
-/* It makes its list of all fonts first where there is none yet [s]. */
+/* Time limit of fc-match [s], which may first build its cache of fonts. */
 static const double match_time = 10;
 
-enum { FONT_LENGTH = 128 }; /* of a name; families have shorter ones */
+enum { FONT_LENGTH = 128 }; /* largest length of a name */
 
-/* A name as a pattern: what stands behind a hyphen would be a size. */
+/* Escapes a name as a pattern, where a size would follow a hyphen. */
 static void as_pattern(const char *font, char pattern[2 * FONT_LENGTH])
 {
     for (; *font != '\0'; *pattern++ = *font++)
@@ -24,7 +23,7 @@ static void as_pattern(const char *font, char pattern[2 * FONT_LENGTH])
     *pattern = '\0';
 }
 
-/* Whether it is one of the names of a family, "Noto Sans,Noto Sans Light". */
+/* True if the font is one of the names of a family, "Noto Sans,Noto Sans Light". */
 static bool is_family(const char *names, const char *font)
 {
     const size_t length = strlen(font);

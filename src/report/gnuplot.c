@@ -1,7 +1,6 @@
-/* Starting gnuplot, and its end.
+/* Runs gnuplot and reports its errors.
  *
- * SPDX-License-Identifier: GPL-3.0-or-later
- */
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "report/gnuplot.h"
 
 #include "core/system/subprocess.h"
@@ -19,8 +18,7 @@ static wt_status cannot_start(const char *program, int code, wt_error *err)
     return status;
 }
 
-/* It repeats a command before it says what is wrong with it, so that the last line is what counts.
- */
+/* Reports a failed run. gnuplot repeats a command before the message, so the last line is shown. */
 static wt_status failed(const gnuplot_call *call, const program_end *end, wt_error *err)
 {
     wt_status status = WT_E_TOOL;
@@ -40,13 +38,13 @@ static wt_status failed(const gnuplot_call *call, const program_end *end, wt_err
 
 wt_status gnuplot_run(const gnuplot_call *call, wt_error *err)
 {
-    // What changes gnuplot.
+    // Environment variables that change gnuplot.
     static const char *const hidden[] = {"GNU", "COLUMNS=", NULL};
     const program_call run = {.program = call->program,
                               .arguments = call->arguments,
                               .folder = call->folder,
                               .hidden = hidden,
-                              .limit = (double)INFINITY, // go_on knows
+                              .limit = (double)INFINITY, // go_on enforces the limit
                               .file_size = call->size,
                               .go_on = call->go_on,
                               .user = call->user};

@@ -1,7 +1,6 @@
-/* Looking up what a text is in another language.
+/* Translates texts.
  *
- * SPDX-License-Identifier: GPL-3.0-or-later
- */
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "report/language.h"
 
 #include <ctype.h>

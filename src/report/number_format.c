@@ -1,7 +1,6 @@
-/* Numbers in words.
+/* Formats numbers for display and for gnuplot.
  *
- * SPDX-License-Identifier: GPL-3.0-or-later
- */
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "report/number_format.h"
 
 #include "core/base/clocale.h"
@@ -14,7 +13,7 @@
 
 enum { MAX_DIGITS = 17, PLAIN_SIZE = MAX_DIGITS + 8 };
 
-/* A whole number as power of ten: "×10⁻⁷". */
+/* Formats an integer as a power of ten: "×10⁻⁷". */
 static void power_of_ten(int exponent, char words[PLAIN_SIZE])
 {
     static const char *const digit[] = {"⁰", "¹", "²", "³", "⁴", "⁵", "⁶", "⁷", "⁸", "⁹"};
@@ -25,13 +24,13 @@ static void power_of_ten(int exponent, char words[PLAIN_SIZE])
         (void)strcat(words, *s == '-' ? "⁻" : digit[*s - '0']);
 }
 
-/* |value| rounded to `count` significant digits; returns the exponent of the first one. */
+/* Rounds |value| to `count` significant digits; returns the exponent of the first one. */
 static int decimal_digits(double value, int count, char digits[MAX_DIGITS + 1])
 {
     char plain[MAX_DIGITS + 8];
     (void)clocale_print(plain, sizeof plain, "%.*e", count - 1, fabs(value));
     digits[0] = plain[0];
-    memcpy(digits + 1, plain + 2, (size_t)count - 1); // behind the point
+    memcpy(digits + 1, plain + 2, (size_t)count - 1); // after the point
     digits[count] = '\0';
     return atoi(strchr(plain, 'e') + 1);
 }
@@ -42,7 +41,7 @@ static void trim_zeros(char *digits)
         digits[n - 1] = '\0';
 }
 
-/* Digits with the decimal point after the one of weight 10^0; for exponents from -3 to 17. */
+/* Inserts the decimal point after the digit of weight 10^0; for exponents from -3 to 17. */
 static void plain_number(const char *digits, int exponent, char words[PLAIN_SIZE])
 {
     int count = (int)strlen(digits), n = 0;
@@ -116,7 +115,7 @@ number_text number_literal(double value)
     bool plain = exponent >= -3 && exponent <= 5;
     if (!plain)
         (void)snprintf(power, sizeof power, "e%d", exponent);
-    else if ((int)strlen(digits) <= exponent + 1) // 1/3 of whole numbers would be 0
+    else if ((int)strlen(digits) <= exponent + 1) // gnuplot divides integers as integers: 1/3 = 0
         (void)strcpy(power, ".0");
     plain_number(digits, plain ? exponent : 0, words);
     (void)snprintf(number.words, sizeof number.words, "%s%s%s", value < 0 ? "-" : "", words, power);

@@ -1,7 +1,6 @@
-/* Numbers in words of a language, independent of the locale, in plain UTF-8.
+/* Formats numbers in a language, independent of the locale, in UTF-8.
  *
- * SPDX-License-Identifier: GPL-3.0-or-later
- */
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #ifndef WT_REPORT_NUMBER_FORMAT_H
 #define WT_REPORT_NUMBER_FORMAT_H
 
@@ -9,18 +8,19 @@
 
 #include <stdbool.h>
 
-/* Returned whole, to be used within one expression: text_append_translated(text, "%s", NUMBER(l, x,
- * 3)). */
+/* A formatted number, returned by value for use within one expression: text_append_translated(text,
+ * "%s", NUMBER(l, x, 3)). */
 typedef struct number_text {
-    char words[352]; /* 309 digits before the decimal mark at most */
+    char words[352]; /* at most 309 digits before the decimal mark */
 } number_text;
 
-/* Rounded to `significant` digits (but never left of the decimal point): "12.3", "−0.0046", 1.2e-7
- * as "1.2×10⁻⁷". "not known" for NaN, "∞". Trimmed, without zeros at the end of its decimals. */
+/* Rounds to `significant` digits (but never left of the decimal point): "12.3", "−0.0046", 1.2e-7
+ * as "1.2×10⁻⁷". "not known" for NaN, "∞". `trimmed` removes zeros at the end of the decimals. */
 number_text number_rounded(const language *l, double value, int significant, bool trimmed);
-number_text number_fixed(const language *l, double value, int decimals); /* with so many decimals */
-number_text number_literal(double value);               /* as gnuplot reads it, to 10 digits */
-double number_to_digits(double value, int significant); /* the nearest of so many digits */
+number_text number_fixed(const language *l, double value,
+                         int decimals);                 /* with a fixed number of decimals */
+number_text number_literal(double value);               /* for gnuplot, 10 digits */
+double number_to_digits(double value, int significant); /* rounds to significant digits */
 
 #define NUMBER(l, value, significant) number_rounded(l, value, significant, false).words
 #define SHORT_NUMBER(l, value, significant) number_rounded(l, value, significant, true).words

@@ -1,7 +1,6 @@
-/* The page of a report: frame, answer, figures.
+/* Writes the page of a report: frame, answer and figures.
  *
- * SPDX-License-Identifier: GPL-3.0-or-later
- */
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "report/page.h"
 
 #include "core/base/array.h"
@@ -26,7 +25,7 @@ static void page_head(const page_writer *page, text_buffer *out, const char *tit
               "/>\n<title>%s</title>\n<style>\n",
               title);
     text_add(out, file_of_library("page.css"));
-    if (page->font != NULL) // letters, digits, blanks and hyphens
+    if (page->font != NULL) // only letters, digits, blanks and hyphens
         text_format(out, ":root { --figure-font: \"%s\"; }\n", page->font);
     text_html(out,
               "</style>\n</head>\n<body>\n<main>\n<header>\n<h1>%s</h1>\n"
@@ -36,7 +35,7 @@ static void page_head(const page_writer *page, text_buffer *out, const char *tit
     text_add(out, "</ul>\n</nav>\n</header>\n");
 }
 
-/* The rows that are folded, from `row` on; returns where they end. */
+/* Writes the folded rows from `row` on; returns the row after them. */
 static size_t folded_answers(page_writer *page, size_t row)
 {
     const table_view *table = &page->tables->answer;
@@ -54,8 +53,8 @@ static size_t folded_answers(page_writer *page, size_t row)
     return end;
 }
 
-/* Several answers to one question stand under it together; what must be kept in mind stands beside
- * them where there is place. */
+/* Writes the answers. Those to one question share a heading; caveats are in a second column if
+ * there is space. */
 static void page_answer(page_writer *page)
 {
     const table_view *table = &page->tables->answer;
@@ -87,7 +86,7 @@ static void page_answer(page_writer *page)
     text_add(&page->out, "</section>\n</div>\n</div>\n");
 }
 
-/* A file that the page holds. */
+/* Adds a download link with the content of a file. */
 static void add_file(page_writer *page, const char *name, const char *ending,
                      const text_buffer *file)
 {
@@ -96,7 +95,8 @@ static void add_file(page_writer *page, const char *name, const char *ending,
     text_html(&page->out, "\">%s.%s</a>", name, ending);
 }
 
-/* A page is mailed: more data of one figure than this are for the folder. */
+/* Largest data of one figure in the page [byte], as the page must be small enough to mail. Larger
+ * data are only in the folder. */
 static const size_t data_limit = (size_t)128 << 10;
 
 static void add_source(page_writer *page, const drawn_figure *drawn)
@@ -139,7 +139,7 @@ static wt_status add_figure(page_writer *page, const drawn_figure *drawn, size_t
     return WT_OK;
 }
 
-/* Those that answer, or those behind them; counts on. */
+/* Adds the main or the folded figures; *number continues counting. */
 static wt_status add_figures(page_writer *page, bool in_depth, size_t *number, wt_error *err)
 {
     wt_status status = WT_OK;
@@ -201,8 +201,8 @@ static wt_status page_figures(page_writer *page, wt_error *err)
     return status;
 }
 
-/* The title of the case if the result has one; else what was asked for last, as it holds the rest,
- * the first figure that answers, or the first table. */
+/* Returns the title of the case, or else the table that depends on all others, the first main
+ * figure, or the first table. */
 static const char *page_title(const page_writer *page)
 {
     const char *title = answer_words(&page->tables->answer, ANSWER_KEY_CASE_TITLE);
@@ -227,7 +227,7 @@ static const char *page_title(const page_writer *page)
 
 wt_status page_write(page_writer *page, wt_error *err)
 {
-    // The body first, so that the contents before it are known.
+    // The body comes first, as the table of contents depends on it.
     text_buffer body = {0};
     page_answer(page);
     page_failures(page);

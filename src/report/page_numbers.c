@@ -1,14 +1,13 @@
-/* The headline numbers of the page: the few values a reader looks for, with both errors.
+/* Writes the main numbers of the page with both errors.
  *
- * SPDX-License-Identifier: GPL-3.0-or-later
- */
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "report/page.h"
 
 #include "core/table/result_value.h"
 
 #include <math.h>
 
-/* "0.59 to 0.69 MPa" in the unit of the value. */
+/* Adds "0.59 to 0.69 MPa" in the unit of the value. */
 static void add_ends(text_buffer *text, const result_value *f, double low, double high, int digits)
 {
     lab_unit lab = lab_unit_for(f->quantity, f->number.unit, f->number.value);
@@ -18,8 +17,8 @@ static void add_ends(text_buffer *text, const result_value *f, double low, doubl
                            lab.label[0] != '\0' ? " " : "", lab.label);
 }
 
-/* An interval as statistical error, and what the choices of the model make of the number behind the
- * remark. */
+/* Writes a row with the interval as statistical error, and the range over the model choices at the
+ * end of the remark. */
 static void result_value_row(page_writer *page, const char *name, const result_value *f,
                              text_buffer *remark)
 {
@@ -87,7 +86,7 @@ static void group_rows(page_writer *page, const result_value_tables *found)
 
 enum { EVERY_KEY = SCHEMA_MOST };
 
-/* The keys of a table that are headlines; the remark belongs to one of them or to every one. */
+/* Writes the main keys of a table; the remark belongs to the key `remarked` or to every key. */
 static void headline_rows(page_writer *page, const result_value_tables *found,
                           const table_view *table, unsigned remarked, const char *remark)
 {
@@ -107,7 +106,7 @@ static void headline_rows(page_writer *page, const result_value_tables *found,
     }
 }
 
-/* At the velocity that the answer is given for. */
+/* Writes the numbers at the reference velocity. */
 static void reference_rows(page_writer *page, const result_value_tables *found)
 {
     const table_view *table = &page->tables->friction;
@@ -147,7 +146,7 @@ static void largest_row(page_writer *page)
     text_done(&remark, &page->out);
 }
 
-/* The constants of the material, and whether they mean anything. */
+/* Writes the constants of the shift law, with the verdict on superposition. */
 static void law_rows(page_writer *page, const result_value_tables *found)
 {
     const table_view *table = &page->tables->shift_factors;
@@ -184,7 +183,7 @@ void page_numbers(page_writer *page)
         return;
     result_value_tables found;
     if (result_values_bind(page->result, &found, NULL) != WT_OK)
-        return; /* figure_tables_make has said so */
+        return; /* figure_tables_make has reported this error */
     page_heading(page, "numbers", "Numbers");
     page_estimates_begin(page,
                          "Main results. Statistical error: one standard error, or the "

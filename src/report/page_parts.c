@@ -1,7 +1,6 @@
-/* What the parts of the page share: headings, tables with lab units, values with both errors.
+/* Writes headings, tables with display units, and values with both errors.
  *
- * SPDX-License-Identifier: GPL-3.0-or-later
- */
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "report/page.h"
 
 #include "core/base/array.h"
@@ -22,7 +21,7 @@ void page_heading(page_writer *page, const char *id, const char *words)
 void page_fold(page_writer *page, const char *id, const char *words, page_on_paper on_paper)
 {
     const char *const said = translate(page->language, words);
-    // The anchor is among what is folded: a browser that goes there unfolds it.
+    // The anchor is inside of the folded part, so that a browser that jumps there unfolds it.
     text_html(&page->out,
               "<details class=\"part %s\">\n<summary><h2>%s</h2></summary>\n<div id=\"%s\">\n",
               on_paper == PAGE_PRINTED ? "printed" : "unprinted", said, id);
@@ -34,13 +33,13 @@ void page_fold_end(page_writer *page)
     text_add(&page->out, "</div>\n</details>\n");
 }
 
-/* More columns than a sheet of paper has place for beside each other, in the type of the page. */
-enum { MANY_COLUMNS = 8, MOST_COLUMNS = 16 /* of small type, too: each row is a block */ };
+/* Numbers of columns that do not fit on paper in the usual type, and in small type. */
+enum { MANY_COLUMNS = 8, MOST_COLUMNS = 16 /* in small type; beyond it each row is a block */ };
 
 static void begin_table(page_writer *page, const char *caption, size_t n_columns)
 {
     const char *const said = translate(page->language, caption);
-    // The wrapper scrolls where a table is wider than the page, also with the keyboard.
+    // The wrapper scrolls if a table is wider than the page, also with the keyboard.
     text_html(&page->out,
               "<div class=\"scroll\" tabindex=\"0\" role=\"region\" aria-label=\"%s\">\n"
               "<table class=\"%s\">\n<caption>%s</caption>\n<thead><tr>",
@@ -73,18 +72,18 @@ typedef struct shown_column {
     lab_unit lab;
 } shown_column;
 
-/* Row i of those shown. */
+/* Returns the table row of displayed row i. */
 static size_t row_at(const size_t *rows, size_t i)
 {
     return rows != NULL ? rows[i] : i;
 }
 
-/* The median of the absolute values decides the unit; numbers over many decades stay in SI, and
- * moduli in MPa. */
+/* Returns the magnitude that selects the unit: the median of the absolute values. Over many decades
+ * numbers stay in SI units, and moduli in MPa. */
 static double typical_size(const table_view *table, unsigned column, const size_t *rows,
                            size_t n_rows)
 {
-    double *sizes = calloc(n_rows > 0 ? n_rows : 1, sizeof *sizes), median = 1; /* of zeros */
+    double *sizes = calloc(n_rows > 0 ? n_rows : 1, sizeof *sizes), median = 1; /* for zeros */
     size_t n = 0;
     for (size_t i = 0; sizes != NULL && i < n_rows; i++) {
         double size = fabs(view_number(table, table->schema, row_at(rows, i), column));
@@ -104,7 +103,7 @@ static double typical_size(const table_view *table, unsigned column, const size_
     return median;
 }
 
-/* Whether it is the error of another column. */
+/* True if the column is the error of another column. */
 static bool is_error(const table_schema *schema, unsigned column)
 {
     for (size_t i = 0; i < schema->n_columns; i++)
@@ -114,7 +113,7 @@ static bool is_error(const table_schema *schema, unsigned column)
     return false;
 }
 
-/* False for a column that the table does not have or that says nothing. */
+/* Prepares a column; false if the table does not have it or it is empty. */
 static bool choose_column(shown_column *shown, const table_view *table, unsigned place,
                           const size_t *rows, size_t n_rows)
 {
@@ -146,7 +145,7 @@ static bool choose_column(shown_column *shown, const table_view *table, unsigned
     return any;
 }
 
-/* The column that this one is an end of the interval of, or itself. */
+/* Returns the column whose interval this one bounds, or itself. */
 static const schema_field *middle_column(const table_schema *schema, unsigned column)
 {
     for (size_t i = 0; i < schema->n_columns && column != 0; i++)
@@ -155,7 +154,7 @@ static const schema_field *middle_column(const table_schema *schema, unsigned co
     return &schema->columns[column];
 }
 
-/* As many as the error of the row gives meaning to, of the ends of an interval, too. */
+/* Returns the digits that the interval of the row justifies, also for its bounds. */
 static int digits_at(const table_view *table, size_t row, const shown_column *shown)
 {
     const table_schema *schema = table->schema;
@@ -163,13 +162,13 @@ static int digits_at(const table_view *table, size_t row, const shown_column *sh
     if (shown->column->digits != 0 || of->low == 0)
         return shown->digits;
     const unsigned columns[] = {(unsigned)(of - schema->columns), of->low, of->high};
-    double ends[3]; /* and what is between them first */
+    double ends[3]; /* value, then bounds */
     for (size_t i = 0; i < 3; i++)
         ends[i] = lab_value(&shown->lab, view_number(table, schema, row, columns[i]));
     return result_value_digits(ends[0], ends[1], ends[2]);
 }
 
-/* What stands above a column, again in each cell of it: on a telephone a row is a block. */
+/* Begins a cell with the column heading as an attribute, as a row is a block on a small screen. */
 static void begin_cell(page_writer *page, const char *words, const char *unit, bool number)
 {
     text_add(&page->out, number ? "<td class=\"n\"" : "<td");
@@ -199,7 +198,7 @@ static void number_cell(page_writer *page, const shown_column *shown, double val
     text_add(&page->out, "</td>");
 }
 
-/* The first cell of a row names it. */
+/* Writes a cell; the first one of a row is its heading. */
 static void table_cell(page_writer *page, const table_view *table, size_t row,
                        const shown_column *shown, bool first)
 {
@@ -274,7 +273,7 @@ static void add_unit(text_buffer *text, const char *label)
         text_html(text, " %s", label);
 }
 
-/* As many decimals as the larger error has meaning, and no more than six digits in all. */
+/* Adds a value with the decimals that the larger error justifies, at most six digits. */
 static void add_value(text_buffer *text, const wt_estimate *e, const lab_unit *lab)
 {
     double value = lab_value(lab, e->value), error = 0;
@@ -334,7 +333,7 @@ void page_estimate(page_writer *page, const char *words, const wt_estimate *esti
 
 /* ---- keys ------------------------------------------------------------------------------------ */
 
-/* A key that no schema knows has its name in words. */
+/* Returns the label of a key; without a schema it is the name with blanks. */
 static void key_label(const char *name, const schema_field *key, char *label, size_t size)
 {
     const char *words = key == NULL ? NULL : key->label != NULL ? key->label : key->headline;
@@ -357,7 +356,7 @@ static const schema_field *find_key(const table_view *table, const char *name)
     return NULL;
 }
 
-/* A number without errors as the page writes numbers; a count or a text as it is. */
+/* Adds a plain key: a number is rounded, a count or a text is unchanged. */
 static void add_plain(page_writer *page, const schema_field *key, const char *text)
 {
     double value;

@@ -1,7 +1,6 @@
-/* The record on the page: inputs, what failed, notes, cost, case file, provenance.
+/* Writes inputs, failures, notes, cost, case file and provenance on the page.
  *
- * SPDX-License-Identifier: GPL-3.0-or-later
- */
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "report/page.h"
 
 #include "core/base/array.h"
@@ -35,7 +34,7 @@ void page_inputs(page_writer *page)
 
 void page_cost(page_writer *page)
 {
-    // Columns of times come last: without provenance they are left out, as they never repeat.
+    // Columns of times are last: they never repeat, so they are omitted without provenance.
     enum { N_TIMES = 2, STAGES = 64 };
     static const unsigned ran[] = {COST_STAGE,           COST_ITEMS,           COST_NODES,
                                    COST_TOLERANCE_ASKED, COST_ERROR_ESTIMATED, COST_STANDARD_ERROR,
@@ -64,7 +63,7 @@ void page_record(page_writer *page)
     size_t length = 0;
     const char *xml = wt_result_case(page->result, &length);
     if (xml != NULL && length > 0) {
-        text_buffer copy = {0}; // it need not end in zero
+        text_buffer copy = {0}; // the text need not be terminated by zero
         text_bytes(&copy, xml, length);
         page_fold(page, "case", "Case file", PAGE_UNPRINTED);
         text_html(&page->out, "<pre tabindex=\"0\"><code>%s</code></pre>\n", text_string(&copy));

@@ -1,7 +1,6 @@
-/* The tables of results on the page.
+/* Writes the result tables on the page.
  *
- * SPDX-License-Identifier: GPL-3.0-or-later
- */
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "report/page.h"
 
 #include "core/base/array.h"
@@ -9,7 +8,7 @@
 #include <math.h>
 #include <string.h>
 
-/* Columns in another order than that of the table. */
+/* Columns in another order than in the table. */
 static const unsigned group_columns[] = {
     MODULUS_GROUPS_GROUP,          MODULUS_GROUPS_N,
     MODULUS_GROUPS_N_REJECTED,     MODULUS_GROUPS_N_SPOTS,
@@ -29,7 +28,7 @@ static const unsigned shift_columns[] = {SHIFT_FACTORS_TEMPERATURE,
 
 enum { HALF = 20, DECADES = 2 * HALF + 1 }; /* 1e-20 to 1e20 m/s, rounded */
 
-/* Number of the decade nearest to a velocity, -1 beyond those above. */
+/* Returns the number of the decade nearest to a velocity, -1 outside of the range above. */
 static int nearest_decade(double velocity, double *distance)
 {
     double x = log10(velocity), decade = round(x);
@@ -37,7 +36,7 @@ static int nearest_decade(double velocity, double *distance)
     return fabs(decade) <= HALF ? (int)decade + HALF : -1;
 }
 
-/* The first and the last row, and the nearest one to each whole decade of the velocity. */
+/* Selects the first and the last row, and the row nearest to each whole decade of velocity. */
 static size_t decade_rows(const table_view *table, size_t rows[DECADES + 2])
 {
     double nearest[DECADES], distance = 0;
@@ -53,7 +52,7 @@ static size_t decade_rows(const table_view *table, size_t rows[DECADES + 2])
         int i = nearest_decade(friction_get(table, row, FRICTION_VELOCITY), &distance);
         bool is_nearest = i >= 0 && distance <= nearest[i];
         if (is_nearest)
-            nearest[i] = -1; // the first of several
+            nearest[i] = -1; // selects the first of several
         if (is_nearest || row == 0 || row + 1 == table->n_rows)
             rows[n++] = row;
     }
@@ -76,14 +75,14 @@ static void friction_table(page_writer *page)
                NULL, 0, rows, n);
 }
 
-/* What stands on the page, in this order, of the tables that there are. */
+/* Parts of the page in their order; missing tables are skipped. */
 static const struct result_part {
     size_t view;
     const char *caption;
-    bool keys;               /* of the table, else its rows */
+    bool keys;               /* true: keys of the table; false: its rows */
     const unsigned *columns; /* NULL: all */
     size_t n_columns;
-    void (*own)(page_writer *page); /* in the place of all rows */
+    void (*own)(page_writer *page); /* writes the part instead of all rows */
 } result_parts[] = {
 #define ROWS(table, words)                                                                         \
     {                                                                                              \

@@ -1,7 +1,6 @@
-/* The plot command of gnuplot.
+/* Writes the plot command of gnuplot.
  *
- * SPDX-License-Identifier: GPL-3.0-or-later
- */
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "report/drawing.h"
 
 static void next_item(figure_drawing *d)

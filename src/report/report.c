@@ -1,7 +1,6 @@
-/* Writing a report: figures, then gnuplot, then the page.
+/* Writes a report: figures, gnuplot, page.
  *
- * SPDX-License-Identifier: GPL-3.0-or-later
- */
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "weartrack/report.h"
 
 #include "core/base/param.h"
@@ -34,7 +33,7 @@ static const wt_param rows[] = {
      .unset = "",
      .help = "pictures for a paper in the folder, too, some of svg,pdf,png, parted by commas; "
              "bitmaps have 600 dots in an inch"},
-    /* narrower no key fits, wider is a poster */
+    /* The key needs the lower limit; the upper limit is a poster. */
     {PARAM("width", wt_report_options, width, WT_Q_LENGTH, FROM_TO(0.05, 1)), .value = "LENGTH",
      .unset = "as the style has it",
      .help = "width of a figure in the paper, such as 85mm, with type of 8 points (style screen: "
@@ -56,28 +55,28 @@ PARAM_TABLE(wt_report_params, wt_report_options, rows, wt_report_defaults, NO_PA
 
 /* ---- figures --------------------------------------------------------------------------------- */
 
-/* One picture to draw. */
+/* One picture: figure and format. */
 typedef struct picture {
     size_t figure;
     const char *format;
 } picture;
 
-/* One report while it is written. */
+/* One report in progress. */
 typedef struct report {
     wt_report_options options;
     figure_tables tables;
     language *language;
     text_buffer style;
     report_folder *folder;
-    drawn_figure *figures; /* one for each that this library knows */
-    picture *pictures;     /* in the order in which they are drawn */
+    drawn_figure *figures; /* one for each figure of the library */
+    picture *pictures;     /* in the order of drawing */
     size_t n_pictures, next;
-    double since; /* when the last one was begun */
-    bool late;    /* it took too long */
+    double since; /* wall time when the last one began [s] */
+    bool late;    /* the time limit was exceeded */
     const wt_progress *progress;
 } report;
 
-/* Tells which figure is being drawn, or the page, the last one; false to stop. */
+/* Reports the current figure, or the page as the last step; false if cancelled. */
 static bool notify_progress(const report *r, size_t step)
 {
     const size_t n = wt_figure_count();
@@ -86,7 +85,7 @@ static bool notify_progress(const report *r, size_t step)
                                n + 1);
 }
 
-/* A picture is there as soon as gnuplot begins it. */
+/* True if gnuplot has begun a picture: its file exists then. */
 static bool is_begun(const report *r, const picture *p)
 {
     char name[96];
@@ -108,7 +107,7 @@ static bool go_on(void *user)
     return !r->late && notify_progress(r, r->pictures[drawn].figure);
 }
 
-/* What the picture of a figure is made of; nothing if there is nothing to draw. */
+/* Writes data and script of a figure; nothing if there is nothing to draw. */
 static wt_status write_figure(report *r, size_t i, wt_error *err)
 {
     figure_drawing *d = &r->figures[i].drawing;
@@ -123,7 +122,7 @@ static wt_status write_figure(report *r, size_t i, wt_error *err)
                                  : figure_write(r->folder, &r->options, &r->figures[i], err);
 }
 
-/* What all scripts load. */
+/* Writes the files that all scripts load. */
 static wt_status write_style(const report *r, wt_error *err)
 {
     const char *const output = file_of_library("output.gnuplot");
@@ -133,7 +132,7 @@ static wt_status write_style(const report *r, wt_error *err)
                            : status;
 }
 
-/* Every figure in each format: the page's first. */
+/* Lists every figure in each format, those of the page first. */
 static void list_pictures(report *r)
 {
     const unsigned formats = r->options.figures | WT_FIGURE_SVG;
@@ -143,10 +142,10 @@ static void list_pictures(report *r)
                 r->pictures[r->n_pictures++] = (picture){i, figure_format(k)};
 }
 
-/* One gnuplot draws all: starting it takes longer than a picture. */
+/* Draws all pictures with one gnuplot, as starting it takes longer than a picture. */
 static wt_status draw_pictures(report *r, wt_error *err)
 {
-    enum { EACH = 2 + 1, NAME = 96 }; // `-e FORMAT` where that changes, and the script
+    enum { EACH = 2 + 1, NAME = 96 }; // `-e FORMAT` if it changes, and the script
     const char **arguments = calloc(EACH * r->n_pictures + 2, sizeof *arguments);
     char(*names)[NAME] = calloc(2 * r->n_pictures, sizeof *names);
     wt_status status = WT_E_MEMORY;
@@ -289,7 +288,7 @@ wt_status wt_report_write(const wt_result *result, const char *folder,
         status = folder_commit(r.folder, err);
         r.folder = NULL;
         if (status == WT_OK)
-            (void)notify_progress(&r, n + 1); // it is there: too late to cancel
+            (void)notify_progress(&r, n + 1); // the report is complete and cannot be cancelled
     }
     report_clear(&r);
     return status;

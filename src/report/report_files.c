@@ -1,7 +1,6 @@
-/* Files of a report: those of the library by name, others by path, read and written.
+/* Reads and writes files of a report: embedded ones by name, others by path.
  *
- * SPDX-License-Identifier: GPL-3.0-or-later
- */
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "report/report_files.h"
 
 #include "report/report_embedded.h"
@@ -72,7 +71,7 @@ wt_status file_put(const char *path, const text_buffer *text, wt_error *err)
     return status;
 }
 
-/* "paper, screen" */
+/* Adds the names of the built-in styles: "paper, screen". */
 static void add_style_names(text_buffer *names)
 {
     for (const embedded_text *file = report_embedded; file->name != NULL; file++) {

@@ -1,7 +1,6 @@
-/* The tables of a result, bound to their schemas.
+/* Binds the tables of a result to their schemas.
  *
- * SPDX-License-Identifier: GPL-3.0-or-later
- */
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "report/report_tables.h"
 
 #include <stdlib.h>

@@ -1,8 +1,7 @@
-/* The tables of a result that a report reads, bound to their schemas once: a result may come from
- * a file, so any of them may be absent, and one that is there may lack what it must have.
+/* Tables of a result for a report, bound to their schemas once. A result may come from a file, so
+ * tables may be missing or incomplete.
  *
- * SPDX-License-Identifier: GPL-3.0-or-later
- */
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #ifndef WT_REPORT_REPORT_TABLES_H
 #define WT_REPORT_REPORT_TABLES_H
 
@@ -20,17 +19,19 @@
 typedef struct figure_tables {
 #define BOUND_MEMBER(table) table_view table;
     BOUND_TABLES(BOUND_MEMBER)
-    table_view *indentation; /* [n_indentation], one for each group, which is the suffix; owned */
+    table_view
+        *indentation; /* [n_indentation], one for each group, whose name is the suffix; owned */
     size_t n_indentation;
 } figure_tables;
 
-/* The views borrow from the result. figure_tables_clear also after a failure. */
+/* Binds the tables. The views borrow from the result. Call figure_tables_clear also after a
+ * failure. */
 wt_status figure_tables_make(const wt_result *result, figure_tables *tables,
                              wt_error *err) WT_NODISCARD;
 void figure_tables_clear(figure_tables *tables);
-/* The view of a schema in the list above, NULL for any other. */
+/* Returns the view of a schema in the list above, NULL for any other. */
 const table_view *figure_tables_find(const figure_tables *tables, const table_schema *schema);
-/* The indentation of a group, NULL if there is none. */
+/* Returns the indentation table of a group, NULL if there is none. */
 const table_view *figure_tables_indentation(const figure_tables *tables, const char *group);
 
 #endif

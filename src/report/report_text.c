@@ -1,7 +1,6 @@
-/* A text that grows, and the ways of writing into it.
+/* Appends HTML and gnuplot text to a growing buffer.
  *
- * SPDX-License-Identifier: GPL-3.0-or-later
- */
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "report/report_text.h"
 
 #include "core/base/utf8.h"
@@ -92,7 +91,7 @@ void text_name(text_buffer *text, const char *name, size_t most)
     if (length > most) {
         text_add(text, "...");
         name += length - most;
-        while ((*name & 0xC0) == 0x80) /* within a character */
+        while ((*name & 0xC0) == 0x80) /* inside of a character */
             name++;
     }
     text_add(text, name);
@@ -113,7 +112,7 @@ void text_append_translated(text_buffer *text, const char *english, ...)
 
 #define REPLACEMENT "\xef\xbf\xbd" /* U+FFFD */
 
-/* Length of the character at s, 0 if it is not UTF-8 or not allowed in XML 1.0. */
+/* Returns the length of the character at s, 0 if it is not UTF-8 or not allowed in XML 1.0. */
 static size_t character_length(const char *s, size_t left)
 {
     size_t length = utf8_character(s, left);
@@ -125,8 +124,8 @@ static size_t character_length(const char *s, size_t left)
     return length;
 }
 
-/* What stands for a character in markup, NULL for itself. A literal carriage return would be read
- * back as a line feed. */
+/* Returns the entity of a character in markup, NULL for none. A literal carriage return would be
+ * read as a line feed. */
 static const char *entity_of(char c)
 {
     static const char marks[] = "&<>\"'\r";
@@ -184,8 +183,8 @@ void text_data_link(text_buffer *text, const char *media, const char *bytes, siz
     }
 }
 
-/* What gnuplot may take for more than itself: quotes, escapes, commands, macros. Two single quotes
- * in a row are no way to write one: gnuplot 5.4 fails on them at either end of a string. */
+/* Characters that gnuplot interprets: quotes, escapes, commands, macros. Doubling single quotes is
+ * no escape, as gnuplot 5.4 fails on it at either end of a string. */
 #define SPECIAL "'\"\\`@"
 
 void text_quoted(text_buffer *text, const char *string)
@@ -205,7 +204,7 @@ void text_quoted(text_buffer *text, const char *string)
         else if (c == '`' || c == '@')
             text_format(text, "\\%o", c);
         else if (c == '>' && s - string >= 2 && s[-1] == ']' && s[-2] == ']')
-            text_add(text, " >"); // gnuplot leaves it as it is, and XML has no place for it
+            text_add(text, " >"); // gnuplot does not escape it, and "]]>" is not allowed in XML
         else
             text_bytes(text, s, length);
         s += step;
@@ -228,7 +227,7 @@ void text_comment(text_buffer *text, const char *string)
     text_add(text, "# ");
     for (const char *s = string; *s != '\0'; s++) {
         unsigned char c = (unsigned char)*s;
-        // A backslash at the end would continue the comment, a back quote would run a command.
+        // A backslash at the end would continue the comment; a back quote would run a command.
         if (c < 0x20 || c == 0x7f || c == '\\' || c == '`')
             text_add(text, " ");
         else

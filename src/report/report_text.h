@@ -1,7 +1,6 @@
-/* A text that grows, and the ways of writing into it: HTML, gnuplot scripts.
+/* Growing text buffer with functions that append HTML and gnuplot text.
  *
- * SPDX-License-Identifier: GPL-3.0-or-later
- */
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #ifndef WT_REPORT_REPORT_TEXT_H
 #define WT_REPORT_REPORT_TEXT_H
 
@@ -9,42 +8,43 @@
 
 #include <stdarg.h>
 
-/* Zero-initialised it is empty. A write that finds no memory sets `failed` and later writes do
- * nothing, so that one check at the end is enough. */
+/* A text buffer; zero-initialised it is empty. Running out of memory sets `failed`, and later
+ * writes do nothing, so that one check at the end is enough. */
 typedef struct text_buffer {
     char *bytes; /* NULL while empty, else zero-terminated */
     size_t length, capacity;
     bool failed;
-    const language *language; /* of what is said in it; NULL: English */
+    const language *language; /* language of translated texts; NULL: English */
 } text_buffer;
 
 void text_free(text_buffer *text);                /* empty again */
 const char *text_string(const text_buffer *text); /* "" while empty; borrowed */
-/* Frees a text that was written into `whole`, which has failed if that has. */
+/* Frees a part that was appended to `whole` and passes on its failure. */
 void text_done(text_buffer *part, text_buffer *whole);
 void text_bytes(text_buffer *text, const char *bytes, size_t length);
 void text_add(text_buffer *text, const char *string);
 void text_format(text_buffer *text, const char *format, ...) WT_PRINTF(2, 3);
 void text_vformat(text_buffer *text, const char *format, va_list arguments) WT_PRINTF(2, 0);
 
-/* A name, of one that has more bytes than so many the end, behind dots: it tells files apart. */
+/* Appends a file name. If it is longer than `most` bytes, only its end, which distinguishes files,
+ * after dots. */
 void text_name(text_buffer *text, const char *name, size_t most);
 
-/* The same with a text in the language, whose English form it is. */
+/* Append the translation of an English text. */
 void text_append_phrase(text_buffer *text, const char *english);
 void text_append_translated(text_buffer *text, const char *english, ...) WT_PRINTF(2, 3);
 
-/* Markup; the arguments, all of them %s, are escaped for HTML element content and quoted
- * attributes. What is not UTF-8 or not allowed in XML becomes U+FFFD. */
+/* Appends markup. All arguments are %s and are escaped for HTML content and quoted attributes.
+ * Characters that are not UTF-8 or not allowed in XML become U+FFFD. */
 void text_html(text_buffer *text, const char *markup, ...) WT_PRINTF(2, 3);
-/* A link that holds what it leads to: "data:", type of media, the bytes. For a quoted attribute. */
+/* Appends a data URL with media type and bytes, for a quoted attribute. */
 void text_data_link(text_buffer *text, const char *media, const char *bytes, size_t length);
-/* A gnuplot string that means this text, whatever it holds; control characters become blanks, what
- * is not UTF-8 or not allowed in XML becomes U+FFFD. */
+/* Appends a text as a gnuplot string. Control characters become blanks; characters that are not
+ * UTF-8 or not allowed in XML become U+FFFD. */
 void text_quoted(text_buffer *text, const char *string);
-/* The same as the label of a tic, which gnuplot takes for a format. */
+/* Appends a gnuplot string for a tic label, which gnuplot reads as a format. */
 void text_tic(text_buffer *text, const char *string);
-/* A comment of one line for a gnuplot script, "# " and line break included. */
+/* Appends a comment line for a gnuplot script, with "# " and line break. */
 void text_comment(text_buffer *text, const char *string);
 
 #endif

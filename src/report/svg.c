@@ -1,7 +1,6 @@
-/* A picture of gnuplot's made fit to stand inside a page.
+/* Prepares SVG pictures of gnuplot for embedding in a page.
  *
- * SPDX-License-Identifier: GPL-3.0-or-later
- */
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "report/svg.h"
 
 #include "core/base/array.h"
@@ -9,21 +8,21 @@
 
 #include <string.h>
 
-/* Length of the beginning of s (n bytes left) if it is `word`, else 0. */
+/* Returns the length of `word` if s (n bytes) begins with it, else 0. */
 static size_t word_at(const char *s, size_t n, const char *word)
 {
     size_t length = strlen(word);
     return n >= length && memcmp(s, word, length) == 0 ? length : 0;
 }
 
-/* Length up to and including the next `end`, or what is left. */
+/* Returns the length up to and including the next `end`, or n. */
 static size_t up_to(const char *s, size_t n, const char *end)
 {
     const char *found = memmem(s, n, end, strlen(end));
     return found != NULL ? (size_t)(found - s) + strlen(end) : n;
 }
 
-/* Width and height of the picture in units of its own; false if it does not say them. */
+/* Reads width and height of the picture in its own units; false if it does not state them. */
 static bool canvas_size(const char *svg, size_t length, double size[2])
 {
     static const char box[] = "viewBox=\"0 0 ";
@@ -57,8 +56,8 @@ void svg_sized(text_buffer *out, const char *svg, size_t length, double unit)
     text_bytes(out, begin, (size_t)(svg + length - begin));
 }
 
-/* The type of the built-in style, 15 units, is as tall as 14 of the 16 pixels of the text of a
- * page: the same in every picture, and two of the usual width stand beside each other. */
+/* Scale of a picture: the type of the built-in style, 15 units, has 14/16 of the text size of a
+ * page. All pictures then have equal type, and two of the usual width fit side by side. */
 static const double rem_per_unit = 14.0 / 15 / 16;
 
 bool svg_inline(text_buffer *page, const char *svg, size_t length, const char *name,
@@ -66,7 +65,7 @@ bool svg_inline(text_buffer *page, const char *svg, size_t length, const char *n
 {
     static const char *const references[] = {" id='", " id=\"", "href='#", "href=\"#",
                                              "url(#", "url('#", "url(\"#"};
-    /* What holds without being said, in each of some thousand elements. */
+    /* Default attributes that gnuplot repeats in some thousand elements. */
     static const char unsaid[] = " stroke-linecap=\"butt\" stroke-linejoin=\"miter\"";
     const char *begin = memmem(svg, length, "<svg", 4);
     if (begin == NULL)
@@ -87,8 +86,7 @@ bool svg_inline(text_buffer *page, const char *svg, size_t length, const char *n
             s += sizeof unsaid - 1;
         } else {
             size_t word = 0;
-            in_tag =
-                *s == '<' || (in_tag && *s != '>'); // what stands between tags is for the reader
+            in_tag = *s == '<' || (in_tag && *s != '>'); // text between tags is not changed
             for (size_t i = 0; in_tag && i < COUNT_OF(references) && word == 0; i++)
                 word = word_at(s, left, references[i]);
             text_bytes(page, s, word > 0 ? word : 1);

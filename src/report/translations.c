@@ -1,7 +1,6 @@
-/* Catalogues: the standard PO format of gettext, with which translators have tools.
+/* Reads translations in the PO format of gettext.
  *
- * SPDX-License-Identifier: GPL-3.0-or-later
- */
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "report/translations.h"
 
 #include "report/report_files.h"
@@ -15,8 +14,7 @@ static const char english[] = "en";
 
 /* ---- parsing --------------------------------------------------------------------------------- */
 
-/* One quoted part of a text, without its quotes and escapes, goes to `to`; returns where it ends.
- */
+/* Writes one quoted part of a text without quotes and escapes to `to`; returns its end. */
 static char *unquote(const char *line, const char *end, char *to)
 {
     const char *s = memchr(line, '"', (size_t)(end - line));
@@ -33,12 +31,12 @@ static bool begins(const char *line, const char *word)
     return strncmp(line, word, strlen(word)) == 0;
 }
 
-/* The texts of a catalogue in pairs, one behind the other in `bytes`, which holds as much as the
- * file. What is left open there, or marked as doubtful, is left out. */
+/* Reads the pairs of texts of a PO file, consecutively into `bytes`, which is as large as the file.
+ * Empty or fuzzy translations are skipped. */
 static void read_pairs(language *l, const char *po)
 {
     char *to = l->bytes;
-    const char *word = NULL, *last = NULL; /* the English text, and which of the two is read */
+    const char *word = NULL, *last = NULL; /* English text, and the translation being read */
     bool fuzzy = false, next_fuzzy = false;
     for (const char *line = po; *line != '\0';) {
         const char *end = strchrnul(line, '\n');
@@ -83,7 +81,7 @@ static size_t count_pairs(const char *po)
 
 /* ---- by name --------------------------------------------------------------------------------- */
 
-/* "de.po" is the language "de". */
+/* Finds the translations of a language, "de.po" for "de". */
 static const embedded_text *find_catalogue(const char *name)
 {
     const embedded_text *file = languages_embedded;
@@ -108,7 +106,7 @@ wt_status language_check(const void *member, wt_error *err)
     return status;
 }
 
-/* They all write a comma. */
+/* All translated languages have a decimal comma. */
 static const char decimal_comma = ',';
 
 wt_status language_open(const char *name, language **l, wt_error *err)

@@ -1,4 +1,4 @@
-/* Times every method of every part at each of its settings.
+/* Timing of every method of every numerical part at each of its settings.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "study/accuracy.h"
 
@@ -28,8 +28,7 @@ static const wt_param rows[] = {
 };
 PARAM_TABLE(wt_accuracy_job_params, wt_accuracy_job, rows, wt_accuracy_job_defaults, NO_PARTS)
 
-/* Processor time of one call: so many calls that a clock of microseconds tells it to half a per
- * cent. */
+/* Shortest measured time [s]. A clock with a resolution of 1 us then has an error of 0.5 %. */
 #define LEAST_SECONDS 2e-4
 
 static wt_status time_solution(accuracy_solve *solve, void *problem, double value, double *seconds,
@@ -48,7 +47,7 @@ static wt_status time_solution(accuracy_solve *solve, void *problem, double valu
     return WT_OK;
 }
 
-/* A method that takes long is timed less often. */
+/* Longest total time [s]. A slow method is repeated less often. */
 #define MOST_SECONDS 0.2
 
 wt_status accuracy_time(accuracy_solve *solve, void *problem, double value, size_t repeats,
@@ -72,7 +71,7 @@ wt_status accuracy_time(accuracy_solve *solve, void *problem, double value, size
 
 TABLE_ROW_OF(work_precision, WORK_PRECISION, accuracy_row)
 
-/* A truth in double precision is known no better than this. */
+/* A reference in double precision is not more accurate than this. */
 static const double least_reference = DBL_EPSILON / 2;
 
 void accuracy_put(table_writer *t, accuracy_row row)

@@ -1,4 +1,4 @@
-/* Angular integrals of a material without a closed form.
+/* Accuracy of the angular integrals of a material without a closed form.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "friction/numerics/angular.h"
 #include "study/accuracy.h"
@@ -25,7 +25,7 @@ static wt_status begin_angular(void *problem, double *reference_error, wt_error 
         p->w[i] = 1e2 * pow(1e9, i / (PLACES - 1.0));
         reference_angle(&law, p->w[i], &p->truth[0][i], &p->truth[1][i]);
     }
-    *reference_error = 1e-15; /* in long double, cut where the law bends */
+    *reference_error = 1e-15; /* computed in long double, split where the integrand bends */
     return wt_material_fractional_zener(e0, glass, tau, alpha, 0.5, &p->material, err);
 }
 

@@ -1,4 +1,5 @@
-/* Contact force and contact fit. SPDX-License-Identifier: GPL-3.0-or-later */
+/* Accuracy of the contact force and of the contact fit.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "job/random_draws.h"
 #include "study/accuracy.h"
 
@@ -15,7 +16,7 @@ typedef struct force_problem {
     wt_tip tip;
     wt_contact_table *table;
     double depth[DEPTHS], truth[DEPTHS], force[DEPTHS];
-    double stated; /* as the header says */
+    double stated; /* as stated in the header */
 } force_problem;
 
 static long double cot_facets(const wt_tip *tip)
@@ -25,7 +26,8 @@ static long double cot_facets(const wt_tip *tip)
     return m / tanl((long double)tip->half_angle);
 }
 
-/* As published (Rico 2005), with int_0^a delta da in closed form: G = 2 (a delta - that). */
+/* Contact depth as published (Rico 2005). With int_0^a delta da in closed form, G = 2 (a delta -
+ * integral). */
 static long double depth_of(const wt_tip *tip, long double a)
 {
     const long double b = (long double)tip->transition_radius, r = (long double)tip->radius;
@@ -76,7 +78,7 @@ static wt_status begin_force(void *problem, double *reference_error, wt_error *e
         const long double a = bisect_radius(&p->tip, p->depth[i], STEPS);
         const long double g = force_of(&p->tip, a);
         p->truth[i] = (double)g;
-        /* dG = 2 a ddelta: what the root and the cancelling terms leave */
+        /* dG = 2 a ddelta: errors of the root and of the cancelling terms */
         const long double left = fabsl(2 * a * (depth_of(&p->tip, a) - (long double)p->depth[i])) +
                                  LDBL_EPSILON * 4 * a * (long double)p->depth[i];
         *reference_error = fmax(*reference_error, (double)(left / g));
@@ -135,11 +137,11 @@ static accuracy_errors judge_force(const void *problem)
 
 enum { CURVES = 4, MOST_SAMPLES = 4000 }; /* of the problem */
 
-/* The problem [Pa, m, N/m]. */
+/* Quantities of the problem [Pa, m, N/m]. */
 #define MODULUS 4e6
 #define CONTACT 1.2e-6
 #define SPRING_CONSTANT 0.5
-#define RESIDUAL 3e-11 /* of the force [N] */
+#define RESIDUAL 3e-11 /* noise of the force [N] */
 
 typedef struct fit_problem {
     wt_tip tip;
@@ -197,7 +199,7 @@ static wt_status solve_fit(void *problem, double value, wt_error *err)
     return status;
 }
 
-/* Every sample is tried as contact point, the modulus found by least squares behind it. */
+/* Tries every sample as contact point and finds the modulus by least squares after it. */
 static wt_status solve_scan(void *problem, double value, wt_error *err)
 {
     fit_problem *p = problem;

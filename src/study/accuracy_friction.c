@@ -1,4 +1,4 @@
-/* Hysteresis friction of each kind of material.
+/* Accuracy of hysteresis friction for each kind of material.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "study/accuracy.h"
 #include "study/reference_values.h"
@@ -6,7 +6,7 @@
 
 #include <math.h>
 
-/* Of the problems; nodes of the reference, and those that tell its error. */
+/* Sizes of the problems; Gauss order of the reference, and a lower order for its error. */
 enum { TERMS = 6, KNOTS = 107, ORDER = 20, CHECK = 16 };
 
 typedef struct friction_problem {
@@ -43,7 +43,7 @@ static void end_friction(void *problem)
     wt_roughness_free(p->roughness);
 }
 
-/* The difference of two orders is that of the lower one, which bounds that of the higher. */
+/* The difference of two orders is the error of the lower one, which bounds that of the higher. */
 static void set_reference(friction_problem *p, double *reference_error)
 {
     p->truth = reference_friction(&p->contact, ORDER);
@@ -96,7 +96,7 @@ static wt_status begin_zener(void *problem, double *reference_error, wt_error *e
     return status;
 }
 
-/* Stiffer along the normal and with more loss; the series as it is in the plane and in shear. */
+/* The normal direction is stiffer and has more loss. The plane and shear use the series. */
 static wt_status begin_transverse(void *problem, double *reference_error, wt_error *err)
 {
     friction_problem *p = problem;
@@ -137,7 +137,7 @@ static wt_status solve_kernel(friction_problem *p, double tolerance, wt_estimate
     return status;
 }
 
-/* The Prony series at its knots. */
+/* Creates a table of the Prony series at the knots. */
 static wt_status make_table(const reference_contact *c, wt_material **material, wt_error *err)
 {
     double omega[KNOTS], storage[KNOTS], loss[KNOTS];
@@ -154,7 +154,7 @@ static wt_status make_table(const reference_contact *c, wt_material **material, 
     return status;
 }
 
-/* Its reference is the kernel itself, as tight as it goes. */
+/* The reference is the kernel itself at its smallest tolerance. */
 static wt_status begin_table(void *problem, double *reference_error, wt_error *err)
 {
     friction_problem *p = problem;
@@ -180,10 +180,10 @@ static wt_status solve_weartrack(void *problem, double value, wt_error *err)
     return status;
 }
 
-/* A tenth as many angles as wavenumbers. */
+/* The number of angles is a tenth of the number of wavenumbers. */
 static wt_status solve_textbook(void *problem, double value, wt_error *err)
 {
-    enum { LEAST_ANGLES = 20 }; /* a rule that any textbook takes */
+    enum { LEAST_ANGLES = 20 }; /* a usual number for a textbook rule */
     friction_problem *p = problem;
     const size_t n = (size_t)value, angles = n / 20 * 2;
     textbook_friction result = {0, 0, 0};

@@ -1,4 +1,4 @@
-/* Balance and history of the modified layer.
+/* Accuracy of the steady-state thickness and of the growth of the modified layer.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "study/accuracy.h"
 
@@ -45,9 +45,9 @@ static accuracy_errors judge_layer(const void *problem)
     return e;
 }
 
-/* ---- balance --------------------------------------------------------------------------------- */
+/* ---- steady-state thickness ------------------------------------------------------------------ */
 
-/* Qf(z) / Qw - 1 at a depth, in long double. */
+/* Computes Qf(z) / Qw - 1 at a depth in long double. */
 static long double formation_excess(const layer_problem *p, long double z)
 {
     const wt_layer_parameters *q = &p->parameters;
@@ -107,7 +107,7 @@ static wt_status solve_bisection(void *problem, double value, wt_error *err)
     return WT_OK;
 }
 
-/* ---- history --------------------------------------------------------------------------------- */
+/* ---- growth ---------------------------------------------------------------------------------- */
 
 static wt_status begin_history(void *problem, double *reference_error, wt_error *err)
 {
@@ -128,7 +128,7 @@ static wt_status begin_history(void *problem, double *reference_error, wt_error 
         p->time[i] = pow(1e4, (double)i / (double)(p->n - 1)) / (2 * q * formation);
         p->truth[i] = wt_layer_exponential(l->start_thickness, 2 * q, formation, wear, p->time[i]);
     }
-    *reference_error = 1e-15; /* the closed form: a few roundings */
+    *reference_error = 1e-15; /* closed form: a few rounding errors */
     return WT_OK;
 }
 
@@ -154,7 +154,7 @@ static double growth_rate(const layer_problem *p, double thickness)
            l->specific_wear_rate * l->pressure * l->velocity;
 }
 
-/* Runge-Kutta of fourth order, so many steps between two times. */
+/* Fourth-order Runge-Kutta method with a number of steps between two times. */
 static wt_status solve_runge_kutta(void *problem, double value, wt_error *err)
 {
     layer_problem *p = problem;

@@ -1,4 +1,4 @@
-/* Shifting, the spectrum, and standard errors by draws.
+/* Accuracy of shift factors, relaxation spectrum and standard errors by draws.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "core/math/cholesky.h"
 #include "dma/law/prony_law.h"
@@ -12,15 +12,15 @@
 
 enum { ISOTHERMS = 12, POINTS = 16, TERMS = 64, REFERENCE = 6 }; /* of the problem */
 
-#define NOISE 0.005 /* relative, of the moduli: a good rheometer */
+#define NOISE 0.005 /* relative noise of the moduli, as of a good rheometer */
 
 typedef struct shift_problem {
     wt_sweep sweep;
     double truth[ISOTHERMS], log_a[ISOTHERMS], stated;
-    double error; /* of the moduli of the spectrum */
+    double error; /* of the moduli by the spectrum */
 } shift_problem;
 
-/* Slower and faster than all isotherms, too. */
+/* The relaxation times extend beyond all isotherms on both sides. */
 static void true_moduli(double omega, double *storage, double *loss)
 {
     *storage = 1e6;
@@ -88,7 +88,7 @@ static wt_status solve_shift(void *problem, double value, wt_error *err)
     return status;
 }
 
-/* log10 E' at log10 omega x by linear interpolation; NaN outside. */
+/* Interpolates log10 E' linearly at log10 omega = x. NaN outside the isotherm. */
 static double interpolate_storage(const wt_isotherm *iso, double x)
 {
     for (size_t j = 0; j + 1 < iso->n; j++) {
@@ -101,7 +101,7 @@ static double interpolate_storage(const wt_isotherm *iso, double x)
     return (double)NAN;
 }
 
-/* The best of so many shifts by the mean square of log E' where both have points. */
+/* Returns the best of a number of shifts by the mean square of log E' in the overlap. */
 static double pair_shift(const wt_isotherm *from, const wt_isotherm *to, int trials)
 {
     double best = 0, least = (double)INFINITY;
@@ -147,9 +147,9 @@ static accuracy_errors judge_shift(const void *problem)
     return (accuracy_errors){M_LN10 * sqrt(sum / ISOTHERMS), p->stated};
 }
 
-/* ---- the spectrum ---------------------------------------------------------------------------- */
+/* ---- relaxation spectrum --------------------------------------------------------------------- */
 
-/* Where all isotherms together tell the moduli, off the points. */
+/* Test frequencies between the points, within the range of all isotherms. */
 enum { JUDGED = 200 };
 
 static double judged_frequency(const shift_problem *p, int i)
@@ -184,9 +184,9 @@ static wt_status solve_spectrum(void *problem, double value, wt_error *err)
     return status;
 }
 
-enum { MOST_TERMS = 64 }; /* more than the problem asks for */
+enum { MOST_TERMS = 64 }; /* more than the problem needs */
 
-/* What a term with a modulus of 1, the first one without relaxation, gives to E' and E''. */
+/* Contribution of a term with a modulus of 1 to E' and E''. The first term does not relax. */
 static void term_at(double omega, size_t j, double first, double density, double part[2])
 {
     part[0] = j == 0 ? 1 : 0;
@@ -195,12 +195,13 @@ static void term_at(double omega, size_t j, double first, double density, double
         prony_add(1, pow(10, first + ((double)j - 1) / density), omega, &part[0], &part[1]);
 }
 
-/* Terms at fixed times, so many a decade, by linear least squares of the relative residuals, with
- * the shifts that the isotherms truly have. */
+/* Terms at fixed times with a given density per decade, by linear least squares of the relative
+ * residuals. The shifts are the true ones. */
 static wt_status solve_collocation(void *problem, double value, wt_error *err)
 {
     shift_problem *p = problem;
-    static double a[MOST_TERMS][MOST_TERMS]; /* too large for the stack of a thread */
+    static double a[MOST_TERMS][MOST_TERMS]; /* static because it is too large for the stack of a
+                                                thread */
     double x[MOST_TERMS] = {0}, part[2];
     const double first = -(p->truth[0] + 2), decades = p->truth[0] - p->truth[ISOTHERMS - 1] + 3;
     const size_t n = 2 + (size_t)(decades * value);
@@ -234,7 +235,7 @@ static wt_status solve_collocation(void *problem, double value, wt_error *err)
             storage += x[j] * part[0];
             loss += x[j] * part[1];
         }
-        /* a modulus below zero is off by all of it */
+        /* a modulus below zero counts with its full error */
         sum += squares_of(log(fmax(storage, 1)), log(fmax(loss, 1)), omega);
     }
     p->error = solved ? sqrt(sum / (2 * JUDGED)) : (double)NAN;
@@ -250,7 +251,7 @@ static accuracy_errors judge_spectrum(const void *problem)
 
 /* ---- draws ----------------------------------------------------------------------------------- */
 
-#define SCATTER 0.1 /* of the logarithm */
+#define SCATTER 0.1 /* standard deviation of the logarithm */
 
 typedef struct draw_problem {
     double value[4096], truth, error, stated;
@@ -283,7 +284,7 @@ static wt_status solve_draws(void *problem, double value, wt_error *err)
     return WT_OK;
 }
 
-/* The law of propagation: half of what one standard error to each side does. */
+/* Law of error propagation: half the difference between one standard error to each side. */
 static wt_status solve_propagation(void *problem, double value, wt_error *err)
 {
     draw_problem *p = problem;

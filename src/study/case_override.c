@@ -1,4 +1,5 @@
-/* Friction and layer of one setting. SPDX-License-Identifier: GPL-3.0-or-later */
+/* Friction and layer thickness of a case variant.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "study/case_override.h"
 #include "friction/sliding_contact.h"
 
@@ -60,7 +61,7 @@ wt_status setting_make(const wt_sliding *sliding, const wt_layer_job *layer,
 static wt_status compute_layer(const setting *s, const wt_job *work, wt_layer_observation *known,
                                wt_error *err)
 {
-    static const double start = 0; /* the balance alone is asked for */
+    static const double start = 0; /* only the steady-state thickness is requested */
     wt_layer_job job = s->layer;
     wt_layer_tables tables = {0};
     job.time = &start;
@@ -107,8 +108,8 @@ wt_status setting_compute(setting *s, const wt_job *work, wt_estimate *number, w
     if (status == WT_OK && s->has_layer)
         number[SETTING_THICKNESS] = known.thickness;
     if (isnan(known.thickness.standard_error))
-        known.thickness.standard_error = 0; /* not known, so nothing to draw */
-    /* a layer that grows without end has no friction */
+        known.thickness.standard_error = 0; /* an unknown error is not drawn */
+    /* a layer that grows without limit has no friction */
     const bool layered = s->has_known && isfinite(known.thickness.value);
     return status == WT_OK ? compute_friction(s, layered ? &known : NULL, work, number, err)
                            : status;

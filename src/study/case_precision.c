@@ -1,6 +1,7 @@
-/* Error against run time of a case's own numbers: as the tolerance is swept, beside the textbook
- * method; their standard errors, as the number of replicates is; and the numbers, with fewer
- * isotherms. SPDX-License-Identifier: GPL-3.0-or-later */
+/* Error against run time of the numbers of a case: numerical error as the tolerance is swept, with
+ * the textbook method; standard error against the number of replicates; values with fewer
+ * isotherms.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "dma/master.h"
 #include "friction/numerics/angular_weight.h"
 #include "friction/sliding_contact.h"
@@ -20,18 +21,18 @@
 
 typedef enum swept { BY_TOLERANCE, BY_WAVENUMBERS, BY_REPLICATES, BY_ISOTHERMS, SWEEPS } swept;
 
-/* Standard errors are judged by so many sets of replicates, against that of as many as these. */
+/* Number of sets of replicates for the standard error, and size of the reference set. */
 enum { SETS = 4, REFERENCE_SET = 2400, MOST_REPLICATES = 400 };
 enum { ALL_DRAWS = REFERENCE_SET + SETS * MOST_REPLICATES };
-/* Of the reference of the tolerances. */
+/* Tolerance of the reference. */
 static const double tightest = 1e-13;
-/* Shifts, a law and its misfit need that many. */
+/* Fewest isotherms for shifts, a law and its lack of fit. */
 enum { LEAST_ISOTHERMS = 4 };
 
 static const struct {
-    const char *before, *after; /* the words of the number, in the name of the part */
+    const char *before, *after; /* text before and after the name of the number */
     const char *method, *setting, *words;
-    double values[ACCURACY_VALUES]; /* of isotherms: shares of what there are; end with 0 */
+    double values[ACCURACY_VALUES]; /* for isotherms: fractions of their number; ends with 0 */
 } sweeps[SWEEPS] = {
     [BY_TOLERANCE] = {"",
                       " by tolerance",
@@ -63,7 +64,7 @@ static const struct {
 };
 
 typedef struct cell {
-    double value; /* of the setting; 0: nothing was computed */
+    double value; /* of the setting; 0 if not computed */
     accuracy_errors errors;
     accuracy_timing time;
 } cell;
@@ -71,22 +72,22 @@ typedef struct cell {
 typedef struct own_case {
     const setting *given;
     const wt_job *asked;
-    setting now; /* what is computed, */
-    wt_job work; /* and how */
+    setting now; /* inputs of the current computation */
+    wt_job work; /* options of the current computation */
     size_t repeats;
     bool timed;
-    unsigned first, last; /* the numbers that `now` is computed for */
+    unsigned first, last; /* numbers that are computed now */
     wt_estimate number[SETTING_NUMBERS];
-    sliding_contact contact; /* for the textbook */
+    sliding_contact contact; /* for the textbook method */
     wt_rubber more;          /* the material with ALL_DRAWS draws, if it was fitted */
-    const wt_rubber *drawn;  /* that, or as given */
-    size_t n_isotherms;      /* of those to be fitted */
+    const wt_rubber *drawn;  /* the same, or as stated */
+    size_t n_isotherms;      /* number of isotherms to be fitted */
     cell cells[SETTING_NUMBERS][SWEEPS][ACCURACY_VALUES];
     double reference_error[SETTING_NUMBERS][SWEEPS];
-    double standard_error[SETTING_NUMBERS]; /* relative, by the most replicates */
+    double standard_error[SETTING_NUMBERS]; /* relative, with the most replicates */
 } own_case;
 
-/* Once, or as often as it takes to time it. */
+/* Solves once, or repeatedly if it is timed. */
 static wt_status solve(own_case *o, accuracy_solve *one, double value, accuracy_timing *time,
                        wt_error *err)
 {
@@ -94,7 +95,7 @@ static wt_status solve(own_case *o, accuracy_solve *one, double value, accuracy_
     return o->timed ? accuracy_time(one, o, value, o->repeats, time, err) : one(o, value, err);
 }
 
-/* A number that is not known has no cell. */
+/* Skips a number that is unknown. */
 static void put_cell(own_case *o, unsigned k, swept by, size_t i, cell c)
 {
     if (isfinite(c.errors.true_error))
@@ -114,7 +115,7 @@ static void put_cells(own_case *o, swept by, size_t i, double value, const wt_es
     }
 }
 
-/* As the case is, but for what is not computed. */
+/* Resets the inputs to those of the case without the parts that are not computed. */
 static void begin_sweep(own_case *o)
 {
     const setting *full = o->given;
@@ -139,7 +140,7 @@ static wt_status solve_tolerance(void *problem, double value, wt_error *err)
 
 static wt_status solve_textbook(void *problem, double value, wt_error *err)
 {
-    enum { LEAST_ANGLES = 20 }; /* a rule that any textbook takes */
+    enum { LEAST_ANGLES = 20 }; /* a usual number for a textbook rule */
     own_case *o = problem;
     const sliding_contact *c = &o->contact;
     const size_t n = (size_t)value, angles = n / 20 * 2;
@@ -182,7 +183,7 @@ static wt_status sweep_tolerance(own_case *o, wt_error *err)
             reference[k].numerical_error / fabs(reference[k].value);
     if (status == WT_OK)
         status = sweep_values(o, BY_TOLERANCE, solve_tolerance, reference, err);
-    /* the textbook knows neither softening nor directions nor gamma, and no layer */
+    /* the textbook method has no softening, anisotropy, gamma or layer */
     if (status != WT_OK || o->first > 0 || o->now.has_softness || o->now.sliding.gamma < 1 ||
         anisotropy_is_any(&o->now.sliding.anisotropy))
         return status;
@@ -204,7 +205,7 @@ static wt_status solve_replicates(void *problem, double value, wt_error *err)
     return setting_compute(&o->now, &o->work, o->number, err);
 }
 
-/* Draws of the material that no other set has, if there are so many, and a seed of its own for the
+/* Selects draws of the material that no other set has, if enough exist, and a separate seed for the
  * other inputs. Set 0 is the reference. */
 static void take_set(own_case *o, size_t set, size_t n)
 {
@@ -218,13 +219,13 @@ static void take_set(own_case *o, size_t set, size_t n)
     }
 }
 
-/* What a standard error of so many draws is off by, of a normal number. */
+/* Relative error of the standard deviation of n draws of a normal number. */
 static double error_of_draws(double n)
 {
     return 1 / sqrt(2 * (n - 1));
 }
 
-/* rms: [SETTING_NUMBERS] what n replicates are off by, over the sets. */
+/* rms: [SETTING_NUMBERS] error of the standard error of n replicates, over the sets. */
 static wt_status spread_of_sets(own_case *o, size_t n, const wt_estimate *reference, double *rms,
                                 wt_error *err)
 {
@@ -271,8 +272,8 @@ static wt_status sweep_replicates(own_case *o, wt_error *err)
 
 /* ---- isotherms ------------------------------------------------------------------------------- */
 
-/* n of the isotherms as evenly as there are, with the one that the shifts are relative to; the
- * isotherms stay those of the sweep. */
+/* Selects n isotherms at even spacing, with the reference isotherm. The arrays stay owned by the
+ * sweep. */
 static void take_isotherms(const wt_sweep *all, size_t n, double reference, wt_isotherm *taken)
 {
     size_t near = 0;
@@ -315,7 +316,8 @@ static wt_status solve_isotherms(void *problem, double value, wt_error *err)
     return status;
 }
 
-/* Fewer may tell no law that reaches the temperature of sliding: those are left out. */
+/* Too few isotherms may not determine a shift law that reaches the sliding temperature. They are
+ * skipped. */
 static wt_status sweep_isotherms(own_case *o, wt_error *err)
 {
     const double *shares = sweeps[BY_ISOTHERMS].values, all = (double)o->n_isotherms;
@@ -345,7 +347,7 @@ static wt_status sweep_isotherms(own_case *o, wt_error *err)
     return status;
 }
 
-/* ---- the job --------------------------------------------------------------------------------- */
+/* ---- job ------------------------------------------------------------------------------------- */
 
 static wt_status text_append(const own_case *o, const char *what, wt_error *err)
 {
@@ -355,7 +357,7 @@ static wt_status text_append(const own_case *o, const char *what, wt_error *err)
     return WT_OK;
 }
 
-/* The friction, or what the layer adds to it. */
+/* Sweeps the numbers of friction, or those that the layer adds. */
 static wt_status sweep_numbers(own_case *o, unsigned first, unsigned last, wt_error *err)
 {
     o->first = first;
@@ -404,10 +406,10 @@ static void put_rows(const own_case *o, table_writer *t)
             }
 }
 
-/* What stands in the sentence: places in the lists of values. */
+/* Indices of the values that the summary line reports. */
 enum { LOOSE = 0, TIGHT = 4, USUAL_REPLICATES = 3, HALF_THE_ISOTHERMS = 2 };
 
-/* " in 37 µs", or nothing. */
+/* Returns " in 37 us", or an empty text without a time. */
 static const char *in_time(const cell *c, char text[48])
 {
     char time[32];
@@ -419,7 +421,8 @@ static const char *in_time(const cell *c, char text[48])
     return text;
 }
 
-/* Of the number that a case is about: the last one that is known, but for the thickness. */
+/* Writes the summary line about the main number of the case: the last known one except the
+ * thickness. */
 static void put_answer(const own_case *o, table_writer *t)
 {
     static const setting_number about[] = {SETTING_WITH_LAYER, SETTING_FRICTION,
@@ -463,11 +466,11 @@ wt_status wt_case_precision_make(const wt_sliding *sliding, const wt_layer_job *
         return wt_fail(err, WT_E_ARG, "no numbers to time");
     setting given;
     wt_job asked = *work;
-    asked.threads = 1; /* what is timed is the processor time of one */
+    asked.threads = 1; /* the processor time of a single thread is measured */
     asked.left_out = WT_EXTRAS & ~(unsigned)WT_EXTRA_DRAWS;
-    asked.drawn = NULL; /* of another material */
-    asked.log = NULL;   /* what is to be said of these numbers has been said */
-    asked.cost = NULL;  /* how often they are computed is a matter of the clock */
+    asked.drawn = NULL; /* the stored draws are for another material */
+    asked.log = NULL;   /* warnings about these numbers exist already */
+    asked.cost = NULL;  /* the number of computations depends on the clock */
     wt_status status = param_check(wt_accuracy_job_params(), job, err);
     if (status == WT_OK)
         status = setting_make(sliding, layer, known, work, &given, err);

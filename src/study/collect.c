@@ -1,4 +1,4 @@
-/* Results of cases side by side, by sample and condition.
+/* Collection of the results of cases by sample and condition.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "study/collect.h"
 #include "core/base/equivalence_margin.h"
@@ -11,8 +11,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Half as much again: a wear rate is hardly known better than to a fifth, and a margin that no
- * error allows is none. */
+/* A wear rate is hardly known to better than 20 %. A margin below the usual errors would never give
+ * a positive verdict. */
 static const double constant_margin = 0.5;
 
 wt_collect_job wt_collect_job_defaults(void)
@@ -109,7 +109,7 @@ static wt_interval interval_of(const result_value *f)
     return (wt_interval){f->number.value, f->number.standard_error, f->low, f->high};
 }
 
-/* "yes", "no" or "cannot say" of what the verdict says at length. */
+/* Reduces the text of a verdict to "yes", "no" or "cannot say". */
 static const char *short_verdict(const char *verdict)
 {
     static const char *const words[] = {"yes", "no", "cannot say"};
@@ -150,9 +150,9 @@ static wt_status list_cases(const collected_case *cases, size_t n, wt_table **ta
     return table_end(&w, table);
 }
 
-/* Relative standard error of what all curves of a group share (lever, tip and their like), by the
- * budget of its modulus: 0 where nothing is stated, NaN where what is stated has an unknown effect.
- * Between groups of one case it cancels, between cases it does not. */
+/* Relative standard error that all curves of a group share (cantilever, tip), from the budget of
+ * its modulus. 0 if nothing is stated; NaN if the effect of a stated error is unknown. It cancels
+ * between groups of one case, but not between cases. */
 static double shared_error(const result_value_tables *tables, const char *group)
 {
     const table_view *budget = &tables->budget;
@@ -170,7 +170,7 @@ static double shared_error(const result_value_tables *tables, const char *group)
     return sqrt(variance);
 }
 
-/* The interval of a rate, which has the scatter of the spots, with what they share. */
+/* Interval of a rate: the scatter of the spots, widened by the shared errors. */
 static wt_interval modulus_at(const collected_case *c, const char *group, size_t row)
 {
     const table_view *rates = &c->tables.rates;
@@ -182,7 +182,7 @@ static wt_interval modulus_at(const collected_case *c, const char *group, size_t
                          value * exp(hypot(up, shared))};
 }
 
-/* Rows of a rate, or one for all of a case that has none. */
+/* Lists the rows of all rates. The table is NULL if no case has a rate. */
 static wt_status list_moduli(const collected_case *cases, size_t n, wt_table **table, wt_error *err)
 {
     size_t n_rows = 0;
@@ -240,7 +240,7 @@ static wt_status list_friction(const collected_case *cases, size_t n, wt_table *
     return table_end(&w, table);
 }
 
-/* Cases, those of one sample together; behind them, in `beside`, what is none. */
+/* Reads the cases, sorted by sample. Results that are not cases go to the second array. */
 static wt_status take_all(const wt_collected *from, size_t n, collected_case *cases,
                           size_t *n_cases, wt_collected *beside, wt_error *err)
 {

@@ -1,5 +1,5 @@
-/* Force against indentation of all cases, and of groups beside them: bulk, wear tracks and what was
- * indented for comparison, such as a particle of the filler, in one.
+/* Force against indentation of all cases and of paired groups: bulk, wear tracks and comparison
+ * measurements such as a filler particle.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "study/collect.h"
 
@@ -25,7 +25,7 @@ static wt_status bind_force(const wt_result *result, const char *file, table_vie
     return status;
 }
 
-/* What stands beside the cases, and of that the one that is added. */
+/* Groups that belong to no case, with the index of the group that is added. */
 typedef struct paired_force {
     const collected_case *cases;
     const wt_collected *of;
@@ -43,7 +43,7 @@ static bool has_group(const wt_collected *of, const char *group)
     return false;
 }
 
-/* Is there another place of that name? Without --group all that is indented is "bulk". */
+/* True if the name is used by another group. Without --group every indented sample is "bulk". */
 static bool is_taken(const paired_force *b, const char *group)
 {
     bool taken = strcmp(group, "bulk") == 0 || strcmp(group, "track") == 0;
@@ -65,7 +65,7 @@ static void name_place(const paired_force *beside, const collected_case *c, cons
         (void)snprintf(place, size, "%s", group);
 }
 
-/* The curve of each group; of no case (`beside`) under the sample that it stands beside. */
+/* Adds the curve of each group. A paired group is listed under each sample. */
 static void add_curves(table_writer *w, const collected_case *c, const table_view *force,
                        const paired_force *beside)
 {

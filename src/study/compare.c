@@ -1,5 +1,5 @@
-/* The comparison job: its groups, their rates, each against the rate and against the DMA modulus at
- * the equivalent frequency.
+/* Comparison job: groups, their indentation rates, the modulus against the rate and against the DMA
+ * modulus at the equivalent frequency.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "study/compare.h"
 #include "core/base/equivalence_margin.h"
@@ -34,7 +34,7 @@ static void group_row(table_writer *t, const char *name, const wt_group *group)
     TABLE_ADD(modulus_groups, t, name, *group, s, mean_of(&s));
 }
 
-/* The name of the group of an indentation table. */
+/* Returns the group name of an indentation table. */
 static const char *group_of(const wt_table *indentation)
 {
     const char *name = wt_table_name(indentation);
@@ -81,7 +81,7 @@ wt_status wt_modulus_budget(const wt_table *const *indentation, size_t n, wt_tab
     return status;
 }
 
-/* Called bulk and track whatever their tables are called. */
+/* The groups are named bulk and track, whatever the names of their tables. */
 static wt_status make_groups(const compare_pair *p, wt_table **table, wt_error *err)
 {
     table_writer t = table_begin(&modulus_groups_schema, err);
@@ -91,7 +91,7 @@ static wt_status make_groups(const compare_pair *p, wt_table **table, wt_error *
     return table_end(&t, table);
 }
 
-/* ---- against rate and against DMA ------------------------------------------------------------ */
+/* ---- comparison by rate and with DMA --------------------------------------------------------- */
 
 static wt_status point_of(compare_pair *p, int g, size_t bin, rate_point *point, wt_error *err)
 {
@@ -129,7 +129,7 @@ TABLE_ROW(modulus_rate, MODULUS_RATE, const char *group; rate_point point; wt_in
 TABLE_ROW(dma_comparison, DMA_COMPARISON, const char *group;
           double frequency, storage, ratio, extrapolated; wt_interval modulus; wt_estimate dma;)
 
-/* error: relative, of |E*|; material: NULL where the DMA does not reach. */
+/* error: relative, of |E*|. material: NULL if the DMA does not reach the temperature. */
 static void dma_row(table_writer *t, int g, const rate_point *point, const wt_material *material,
                     double error)
 {
@@ -149,7 +149,7 @@ static void dma_row(table_writer *t, int g, const rate_point *point, const wt_ma
     dma_comparison_add_row(t, &row);
 }
 
-/* A block for each group. */
+/* Each group is a block. */
 static wt_status make_rate_table(const compare_pair *p, wt_table **table, wt_error *err)
 {
     table_writer t = table_begin(&modulus_rate_schema, err);
@@ -163,7 +163,7 @@ static wt_status make_rate_table(const compare_pair *p, wt_table **table, wt_err
     return table_end(&t, table);
 }
 
-/* The rows of a group, at its temperature. */
+/* Adds the rows of a group at its temperature. */
 static wt_status dma_rows(table_writer *t, const compare_pair *p, int g, const wt_rubber *rubber,
                           wt_estimate given, const wt_job *work, char statement[256], bool *lacks,
                           wt_error *err)
@@ -201,7 +201,7 @@ static wt_status dma_rows(table_writer *t, const compare_pair *p, int g, const w
 TABLE_KEYS(dma_comparison, DMA_COMPARISON, wt_estimate temperature, track_temperature;
            const char *ratio_of, *lacks, *statement;)
 
-/* A block for each group that has a temperature of its own. */
+/* Each group with a separate temperature is a block. */
 static wt_status make_dma_table(const compare_pair *p, const wt_compare_job *job,
                                 const wt_job *work, wt_table **table, wt_error *err)
 {

@@ -1,5 +1,5 @@
-/* Inside the comparison job: the two groups with their rates, what is known of their ratio beside
- * the difference, the rows and the verdict. Internal to study.
+/* Parts of the comparison job: the two groups with their rates, the known contributions to their
+ * ratio, the rows and the verdict. Internal to study.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #ifndef WT_STUDY_COMPARE_H
 #define WT_STUDY_COMPARE_H
@@ -10,7 +10,7 @@
 
 extern const char *const compare_group_name[2];
 
-/* In the place of a bin: a curve whose rate is not known; the curves of all bins. */
+/* Values in place of a bin: a curve with an unknown rate; the curves of all bins. */
 #define COMPARE_NO_BIN SIZE_MAX
 #define COMPARE_ALL_BINS SIZE_MAX
 
@@ -25,54 +25,54 @@ typedef struct rate_point {
 typedef struct compare_pair {
     wt_group_data data[2];
     bool present[2];
-    bool by_rate;   /* both groups know rates: they are compared by them */
-    bool by_factor; /* what is compared is not the modulus but the factor on the spectrum */
-    size_t *bin[2]; /* [n]; COMPARE_NO_BIN = rate unknown */
+    bool by_rate;   /* both groups have rates, which are compared separately */
+    bool by_factor; /* the factors on the spectrum are compared instead of the moduli */
+    size_t *bin[2]; /* [n]; COMPARE_NO_BIN for an unknown rate */
     size_t n_bins;
-    double *low, *high;     /* [n_bins] smallest and largest rate */
+    double *low, *high;     /* [n_bins] smallest and largest rate [m/s] */
     rate_point *point[2];   /* [n_bins] */
-    double *modulus, *rate; /* scratch for a part of a group, one after the other */
+    double *modulus, *rate; /* scratch for selected curves, bulk before track */
     long *spot, *rate_class;
 } compare_pair;
 
 wt_status compare_make_bins(compare_pair *p, wt_error *err) WT_NODISCARD;
 void compare_pair_clear(compare_pair *p);
-/* The part of a group that lies in a bin, copied to scratch from `offset` on, with moduli or
- * factors. */
+/* Copies the curves of a bin to scratch from `offset` on, with moduli or factors. */
 wt_group compare_part(const compare_pair *p, int g, size_t bin, size_t offset, bool factors);
 
-/* What ln(E_track / E_bulk) holds beside the difference. */
+/* Known contributions to ln(E_track / E_bulk) other than the difference of the rubber. */
 typedef struct comparison_inputs {
     wt_estimate offset;
-    double shown; /* of it: by loss and bent baselines, which the curves show */
+    double shown; /* error by loss and baseline curvature, which the curves show */
     bool two_levers;
-    bool lever_not_stated;      /* two, and the error of a spring constant is not known */
-    bool temperature_not_known; /* they differ, and nothing says what that does */
-    bool loss_not_known;        /* curves lose work, and what that does to a modulus nothing says */
-    bool rates_by_dma;          /* the curves do not say what their rates do; the DMA does */
-    char out_of_reach[160];     /* a temperature to which no law takes the DMA, which was asked */
-    double temperature[2];      /* [K]; NaN = not known */
-    char includes[256];         /* in words: what the interval has beside the scatter */
-    char lacks[160];            /* what belongs into it, and its size is not known */
-    char cancels[128];          /* and what it loses, but for what the gains differ by */
+    bool lever_not_stated;      /* two cantilevers, and the error of a spring constant is unknown */
+    bool temperature_not_known; /* the temperatures differ, with an unknown effect */
+    bool loss_not_known;        /* the curves have a hysteresis loss with an unknown effect on
+                                   the modulus */
+    bool rates_by_dma;          /* the DMA corrects for different rates, as the curves cannot */
+    char out_of_reach[160];     /* requested temperature that no shift law reaches */
+    double temperature[2];      /* [K]; NaN if unknown */
+    char includes[256];         /* errors in the interval besides the scatter */
+    char lacks[160];            /* errors of unknown size that are missing */
+    char cancels[128];          /* errors that cancel except for different gains */
 } comparison_inputs;
 
 wt_status comparison_find_inputs(const compare_pair *p, const wt_compare_job *job,
                                  const wt_job *work, bool rates_by_dma, comparison_inputs *known,
                                  wt_error *err) WT_NODISCARD;
 
-/* Where a modulus is asked of the material. */
+/* Temperature [K] and angular frequency [rad/s] of a modulus. */
 typedef struct condition {
     double temperature, frequency;
 } condition;
 
-/* ln |E*| at one condition, or of the second over the first, with its error by draws; NaN if the
- * material states none. */
+/* Returns ln |E*| at one condition, or of the second over the first, with its error by draws. The
+ * error is NaN if the material states none. */
 wt_status compare_material(const wt_rubber *rubber, const condition *at, int n, const wt_job *work,
                            wt_estimate *value, wt_error *err) WT_NODISCARD;
 
-/* What a standard error of the temperature makes of ln |E*|: half of what lies between both ends of
- * it; 0 if none is stated, NaN where no law takes the DMA there. */
+/* Returns the error of ln |E*| due to the error of the temperature: half the difference between its
+ * limits. 0 if no error is stated; NaN if no shift law reaches a limit. */
 wt_status compare_temperature_error(const wt_rubber *rubber, condition at, double error,
                                     const wt_job *work, double *relative,
                                     wt_error *err) WT_NODISCARD;
@@ -84,52 +84,53 @@ static inline const char *compare_missing_inputs(bool material, bool temperature
                                    : "temperature";
 }
 
-/* The temperature of a group with its error: its own, that of the bulk, that of the DMA. */
+/* Returns the temperature of a group with its error: stated for the group, else that of the bulk,
+ * else that of the DMA. */
 wt_estimate compare_temperature(const wt_compare_job *job, int group);
 
-/* One row of "comparison" before Holm's correction is known. */
+/* One row of "comparison" before Holm's correction. */
 typedef struct compare_row {
-    double low, high; /* rate; NaN = all */
+    double low, high; /* rate [m/s]; NaN for all rates */
     size_t n[2];
     bool valid;
     wt_comparison c;
     double holm;
 } compare_row;
 
-/* What else than the rubber would make the ratio. */
+/* Causes other than the rubber that would produce the ratio. */
 typedef struct unstated_errors {
-    double log_ratio, least; /* what is to be explained, and what of it takes the answer away */
-    char would_explain[640]; /* in words: what each cause would have to be */
-    char plausible[480];     /* those that may well be so, "" = none */
-    double lower, higher; /* by how much they may make ln(ratio) differ from that of the rubber */
-    char settled_by[400]; /* and what would show */
+    double log_ratio, least; /* ln of the ratio to be explained, and the part that would change
+                                the verdict */
+    char would_explain[640]; /* required size of each cause */
+    char plausible[480];     /* causes of plausible size; "" if none */
+    double lower, higher;    /* limits of their effect on ln(ratio) */
+    char settled_by[400];    /* how to decide */
 } unstated_errors;
 wt_status compare_find_unsaid(const compare_pair *p, const wt_compare_job *job, const wt_job *work,
                               const compare_row *row, unstated_errors *unsaid,
                               wt_error *err) WT_NODISCARD;
-/* Of ln |E*| of the DMA against temperature, at the mean frequency of the bulk [1/K]; 0 where that
- * or the DMA are not known there. */
+/* Returns d ln |E*| / dT of the DMA [1/K] at the mean frequency of the bulk. 0 if unknown. */
 wt_status compare_temperature_slope(const compare_pair *p, const wt_compare_job *job,
                                     const wt_job *work, double *slope, wt_error *err) WT_NODISCARD;
 
-/* The answer to "does the track differ?", and what would give one. */
+/* Verdict on the difference between track and bulk, and how to decide it. */
 typedef struct compare_verdict {
     char differs[640], settled_by[480];
     bool twisted; /* the ratio depends on the rate */
-    bool silent;  /* there is no ratio to be told */
+    bool silent;  /* no ratio can be reported */
 } compare_verdict;
 
-/* `row` is that of all rates, `rates` those of one each. */
+/* Assesses the difference. `row` has all rates; `rates` has one row per rate. */
 compare_verdict compare_assess(const compare_pair *p, const wt_compare_job *job,
                                const comparison_inputs *known, const unstated_errors *unsaid,
                                const compare_row *row, const compare_row *rates, size_t n_rates);
 
-/* Both groups of a job, with their rates. */
+/* Reads both groups of a job with their rates. The caller clears `p`, also after a failure. */
 wt_status compare_read(const wt_compare_job *job, compare_pair *p, wt_error *err) WT_NODISCARD;
 
-/* ln of the ratio of what was fitted, by all rates, with its error by scatter, calibration and
- * temperature, without what the contact law misses; degrees of freedom of the error, infinite: it
- * is normal. NaN where the comparison does not tell it. */
+/* Returns ln of the ratio as fitted over all rates. Its error includes scatter, calibration and
+ * temperature, but not the lack of fit. Infinite degrees of freedom mean a normal error. NaN if the
+ * comparison does not determine it. */
 wt_status compare_as_fitted(const wt_compare_job *job, const wt_job *work, wt_estimate *log_ratio,
                             double *df, wt_error *err) WT_NODISCARD;
 

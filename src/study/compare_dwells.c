@@ -1,4 +1,4 @@
-/* Moduli of dwells against those of the DMA, at the same frequency and temperature.
+/* Comparison of dwell moduli with those of the DMA at the same frequency and temperature.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "dma/rubber.h"
 #include "indentation/dwell.h"
@@ -12,15 +12,15 @@
 #include <math.h>
 #include <stdlib.h>
 
-/* Draws of the material behind its errors: they are then known to 9 %. */
+/* Draws of the material for its errors, which are then known to 9 %. */
 enum { DRAWS = 64 };
 
-/* Of the DMA at the frequencies of a group: values and variances. */
+/* Moduli of the DMA at the frequencies of a group, with their variances. */
 typedef struct dma_moduli {
     double storage, loss, storage_variance, loss_variance;
 } dma_moduli;
 
-/* Of one replicate, or as fitted. */
+/* Adds one replicate, or sets the fitted moduli. */
 static wt_status add_draw(const wt_rubber *rubber, double temperature, const wt_job *work,
                           size_t replicate, const dwell_mean *at, size_t n, dma_moduli *to,
                           double frequencies[2], char statement[256], wt_error *err)
@@ -54,8 +54,8 @@ static bool is_reached(const wt_rubber *rubber, double temperature)
     return temperature > 0 && flow_rubber_reaches(rubber, temperature, &why);
 }
 
-/* Adds half of what lies between both ends of the error of the temperature; *lacks where no law
- * takes the DMA to one of them. */
+/* Adds half of the difference between the limits of the temperature. Sets *lacks if no shift law
+ * reaches a limit. */
 static wt_status add_temperature(const wt_rubber *rubber, wt_estimate at, const wt_job *work,
                                  const dwell_mean *means, size_t n, dma_moduli *to, bool *lacks,
                                  wt_error *err)
@@ -89,7 +89,7 @@ TABLE_ROW(dwell_dma, DWELL_DMA, const char *group; dwell_mean mean; double extra
 TABLE_KEYS(dwell_dma, DWELL_DMA, wt_estimate temperature, track_temperature;
            const char *lacks, *material_statement, *track_statement;)
 
-/* The interval of a ratio of two numbers with errors. */
+/* Interval of a ratio of two numbers with errors. */
 static wt_interval ratio_of(const wt_interval *of, double by, double by_variance)
 {
     const double value = of->value / by,
@@ -117,7 +117,7 @@ static void put_row(table_writer *t, int g, const dwell_mean *m, const dma_modul
     dwell_dma_add_row(t, &row);
 }
 
-/* The rows of a group, at its temperature. */
+/* Adds the rows of a group at its temperature. */
 static wt_status put_group(table_writer *t, int g, const wt_table *moduli, const wt_rubber *rubber,
                            wt_estimate at, const wt_job *work, char statement[256], bool *lacks,
                            wt_error *err)

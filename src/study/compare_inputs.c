@@ -1,5 +1,5 @@
-/* What the ratio of track and bulk holds beside their difference: levers, tip and temperature. What
- * both groups share cancels in it; what each has of its own enters its error.
+/* Contributions to the ratio of track and bulk by calibration and temperature. Errors shared by
+ * both groups cancel; separate errors enter the interval.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "dma/rubber.h"
 #include "study/compare.h"
@@ -9,8 +9,8 @@
 #include <math.h>
 #include <string.h>
 
-/* Draws of the material behind the error of its change with temperature and rate, which is then
- * known to 9 %. */
+/* Draws of the material for the error of its change with temperature and rate, which is then known
+ * to 9 %. */
 enum { DRAWS = 64 };
 
 static double square_of(double x)
@@ -24,7 +24,7 @@ static void include_error(comparison_inputs *k, const char *sign, const char *wo
     snprintf(k->includes + used, sizeof k->includes - used, "%s%s", sign, words);
 }
 
-/* Adds a variance to that of the offset; one that is not known is named. */
+/* Adds a variance to that of the offset. An unknown error is named. */
 static void add_error(comparison_inputs *k, double error, const char *words)
 {
     if (isnan(error)) {
@@ -46,13 +46,13 @@ static bool are_two(const compare_pair *p, wt_cantilever_sharing levers)
     const char *const tip[2] = {p->data[0].tip, p->data[1].tip};
     if (tip[0] != NULL && tip[1] != NULL && strcmp(tip[0], tip[1]) != 0)
         return true;
-    if (p->data[0].several_tips || p->data[1].several_tips) /* even if both say the same ones */
+    if (p->data[0].several_tips || p->data[1].several_tips) /* even if both lists are equal */
         return true;
     return p->data[0].several_levers || p->data[1].several_levers ||
            fabs(track - bulk) > 1e-9 * fabs(bulk);
 }
 
-/* What an error of one source makes of ln E of a group; NaN where none is stated. */
+/* Relative error of one source and the gain of ln E; NaN if not stated. */
 typedef struct calibration {
     double error, gain;
 } calibration;
@@ -87,8 +87,8 @@ static void cancel_error(comparison_inputs *k, const char *words)
     snprintf(k->cancels + used, sizeof k->cancels - used, "%s%s", used > 0 ? ", " : "", words);
 }
 
-/* One lever and tip: their errors are those of both groups, and what is left is what the gains
- * differ by. The force of a lever is in both moduli to the same power. */
+/* With one cantilever and tip their errors apply to both groups, and the difference of the gains
+ * remains. The spring constant enters both moduli with the same power and cancels. */
 static void add_source(const compare_pair *p, const wt_compare_job *job,
                        wt_shared_law_source source, bool separate, const char *words,
                        comparison_inputs *k)
@@ -113,7 +113,7 @@ static void add_calibration(const compare_pair *p, const wt_compare_job *job, co
 {
     const wt_group_data *bulk = &p->data[0], *track = &p->data[1];
     k->two_levers = are_two(p, job->levers);
-    /* a lever that was mounted anew has been calibrated anew */
+    /* a remounted cantilever was calibrated again */
     const double s[2] = {bulk->sensitivity.value, track->sensitivity.value};
     const bool anew = bulk->several_sensitivities || track->several_sensitivities ||
                       (!isnan(s[0]) && !isnan(s[1]) && s[0] != s[1]);
@@ -135,8 +135,8 @@ static void add_calibration(const compare_pair *p, const wt_compare_job *job, co
             k->lever_not_stated = true;
 }
 
-/* What the curves themselves show and no scatter does. One piezo goes on bending in contact in both
- * groups or in none, and one tip is as wrong in both; the spectra of bulk and track may differ. */
+/* Adds errors that the curves show, but that the scatter does not. The piezo curvature and the tip
+ * shape are shared by both groups. The spectra of bulk and track may differ. */
 static void add_shown(const compare_pair *p, comparison_inputs *k)
 {
     double loss[2], bend[2], misfit[2];
@@ -159,7 +159,7 @@ static void add_shown(const compare_pair *p, comparison_inputs *k)
 
 /* ---- temperature and rate -------------------------------------------------------------------- */
 
-/* Geometric mean of the equivalent frequencies; NaN if they are not known. */
+/* Geometric mean of the equivalent frequencies; NaN if unknown. */
 static double mean_frequency(const wt_group_data *d)
 {
     double sum = 0;
@@ -240,7 +240,7 @@ static bool law_reaches(const wt_rubber *rubber, double temperature, comparison_
     return false;
 }
 
-/* By the DMA: from the condition of the bulk to that of the track. */
+/* Corrects by the DMA from the condition of the bulk to that of the track. */
 static wt_status add_dma(const compare_pair *p, const wt_compare_job *job, const wt_job *work,
                          bool by_temperature, double step_error, comparison_inputs *k,
                          wt_error *err)
@@ -262,7 +262,7 @@ static wt_status add_dma(const compare_pair *p, const wt_compare_job *job, const
     wt_status status = WT_OK;
     if (job->rubber != NULL)
         status = compare_material(job->rubber, at, 2, work, &change, err);
-    k->offset.value += p->by_factor ? 0 : change.value; /* which the factors are free of */
+    k->offset.value += p->by_factor ? 0 : change.value; /* the factors do not depend on it */
     add_error(k, change.standard_error, "material");
     if (status != WT_OK || !near_too)
         return status;

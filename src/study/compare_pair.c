@@ -7,8 +7,8 @@
 #include <math.h>
 #include <stdlib.h>
 
-/* Width of a rate bin [decade]: rates of one nominal piezo rate differ by less, since the softer
- * group indents a little faster; see indentation/numerics/group_units.c. */
+/* Width of a rate bin [decade]. Rates of one nominal piezo rate differ by less, because the softer
+ * group indents slightly faster; see indentation/numerics/group_units.c. */
 #define BIN_DECADES 0.5
 
 const char *const compare_group_name[2] = {"bulk", "track"};
@@ -28,8 +28,8 @@ void compare_pair_clear(compare_pair *p)
     free(p->rate_class);
 }
 
-/* Bins start at the lowest rate that is not in one yet, so a nominal rate is never cut in two by a
- * border that happens to lie in its scatter. */
+/* A bin starts at the lowest rate outside the previous bin. The border therefore never divides a
+ * nominal rate. */
 wt_status compare_make_bins(compare_pair *p, wt_error *err)
 {
     size_t total = p->data[0].group.n + p->data[1].group.n, n = 0;
@@ -97,9 +97,9 @@ wt_group compare_part(const compare_pair *p, int g, size_t bin, size_t offset, b
     return part;
 }
 
-/* ---- both groups ---------------------------------------------------------------------------- */
+/* ---- both groups ----------------------------------------------------------------------------- */
 
-/* A curve in both groups is a file that was given twice. */
+/* A curve in both groups comes from a file that was given twice. */
 static wt_status check_copies(const compare_pair *p, wt_error *err)
 {
     const wt_group_data *a = &p->data[0], *b = &p->data[1];
@@ -119,8 +119,8 @@ static wt_status check_copies(const compare_pair *p, wt_error *err)
     return WT_E_RANGE;
 }
 
-/* Whether all curves tell their factor on the spectrum, in which no rate is left, and nobody says
- * otherwise how temperature acts. */
+/* True if all curves have a factor on the spectrum, which does not depend on the rate, and no
+ * temperature slope is stated. */
 static bool compares_factors(const wt_compare_job *job, const compare_pair *p)
 {
     bool all = p->present[0] && p->present[1] && isnan(job->temperature_slope.value);

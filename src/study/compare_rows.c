@@ -1,4 +1,4 @@
-/* The table "comparison": all rates together, then rate by rate.
+/* The table "comparison": all rates together, then each rate.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "study/compare.h"
 
@@ -19,7 +19,7 @@ typedef struct comparison_task {
     size_t n_rates;
 } comparison_task;
 
-/* A rate with one unit or without scatter leaves its row without numbers. */
+/* A rate with a single unit or without scatter leaves its row without numbers. */
 static wt_status compare_bin(comparison_task *task, size_t bin, compare_row *r, wt_error *err)
 {
     compare_pair *p = task->p;
@@ -66,7 +66,7 @@ static wt_status holm_rows(compare_row *rows, size_t n, wt_error *err)
     return WT_OK;
 }
 
-/* Without a curve in a group: a row that says how many the other has. */
+/* Without a curve in one group, the row has only the counts. */
 static wt_status count_units(const comparison_task *task, compare_row *r, wt_error *err)
 {
     const double none = (double)NAN;
@@ -91,7 +91,7 @@ static wt_status count_units(const comparison_task *task, compare_row *r, wt_err
     return status;
 }
 
-/* Where the curves do not say what their rates do, the DMA may. */
+/* If the curves do not determine the dependence on the rate, the DMA may. */
 static wt_status compare_rows(comparison_task *task, wt_error *err)
 {
     compare_pair *p = task->p;
@@ -147,9 +147,9 @@ static void warn_copies(const comparison_task *task)
     }
 }
 
-/* Welch's test at 5 % of normal deviates is wrong in 10 of 100 trials where two spots scatter five
- * times as much as six, in 7 where they scatter alike, and in 6 of three spots against six: by two,
- * Satterthwaite's degrees of freedom are known too badly. */
+/* Error rate of Welch's test at 5 % with normal deviates: 10 % for two spots with five times the
+ * scatter of six, 7 % with equal scatter, 6 % for three spots against six. Two spots determine
+ * Satterthwaite's degrees of freedom too poorly. */
 static void warn_two_spots(const comparison_task *task)
 {
     const wt_comparison *c = &task->rows[0].c;
@@ -163,7 +163,7 @@ static void warn_two_spots(const comparison_task *task)
                compare_group_name[g], compare_group_name[!g]);
 }
 
-/* What a single spot does not tell is taken from the others (compare_lone in fit). */
+/* The scatter of a single spot is taken from the other group; see compare_lone in indentation. */
 static void warn_one_spot(const comparison_task *task)
 {
     const wt_comparison *c = &task->rows[0].c;
@@ -183,7 +183,7 @@ static void warn_one_spot(const comparison_task *task)
                compare_group_name[g], compare_group_name[!g]);
 }
 
-/* Rates in one group only are left out if there are others. */
+/* Rates in one group only are excluded if there are others. */
 static void warn_rates(const comparison_task *task)
 {
     const compare_pair *p = task->p;
@@ -207,11 +207,11 @@ static void warn_rates(const comparison_task *task)
                    "%zu curves tell no indentation rate; the comparison leaves them out", left_out);
 }
 
-/* ---- the table ------------------------------------------------------------------------------- */
+/* ---- table ----------------------------------------------------------------------------------- */
 
 TABLE_ROW_OF(comparison, COMPARISON, compare_row)
 
-/* The interval has room for what the ratio would be without the causes that may well be so. */
+/* Widens the interval by the effect of plausible other causes. */
 static void add_rows(table_writer *t, const compare_row *rows, size_t n, bool silent, bool interval,
                      const unstated_errors *unsaid)
 {
@@ -225,7 +225,7 @@ static void add_rows(table_writer *t, const compare_row *rows, size_t n, bool si
             c->ratio_low = c->ratio_high = c->t = c->df = c->p = row.holm = c->mann_whitney_p =
                 c->mann_whitney_smallest_p = c->effect_size = (double)NAN;
         if (isinf(c->df))
-            c->df = (double)NAN; /* a normal error */
+            c->df = (double)NAN; /* normal error */
         c->ratio_low *= exp(-unsaid->lower);
         c->ratio_high *= exp(unsaid->higher);
         comparison_add_row(t, &row);
@@ -260,8 +260,7 @@ static const char *rates_words(const comparison_task *task)
                                              : "those that both groups have";
 }
 
-/* Half of what the ratios of the rates are apart, in ln; it goes on as an error of the one ratio.
- */
+/* Half the range of ln(ratio) over the rates. It becomes an error of the single ratio. */
 static double spread_of_rates(const compare_row *rates, size_t n)
 {
     double low = (double)INFINITY, high = -(double)INFINITY;
@@ -278,7 +277,8 @@ TABLE_KEYS(comparison, COMPARISON, const char *differs, *settled_by, *would_expl
            wt_estimate margin, rate_slope, ratio;
            double interaction_p, ratio_df, calibration_share, spot_scatter;)
 
-/* The error that goes on to friction: in ln, as Student's t; not known without an interval. */
+/* Sets the ratio and its error for friction: a Student's t error of the logarithm, unknown without
+ * an interval. */
 static void find_ratio(const comparison_task *task, bool twisted, bool interval,
                        comparison_keys *keys)
 {
@@ -286,12 +286,12 @@ static void find_ratio(const comparison_task *task, bool twisted, bool interval,
     double error = interval ? c->log_ratio.standard_error : (double)NAN;
     if (twisted)
         error = hypot(error, spread_of_rates(task->rows + 1, task->p->n_bins));
-    /* any share of what else may make it is as likely */
+    /* uniform distribution over the effect of plausible causes */
     error = hypot(error, hypot(task->unsaid.lower, task->unsaid.higher) / sqrt(3));
     keys->ratio = (wt_estimate){c->ratio, c->ratio * error, 0, NULL};
     if (interval && isfinite(c->df))
         keys->ratio_df = c->df;
-    /* of the variance above: spring constants, sensitivities, tips, temperatures */
+    /* share of spring constants, sensitivities, tips and temperatures in this variance */
     const double known = c->known_share * pow(c->log_ratio.standard_error / error, 2);
     if (interval && known > 0)
         keys->calibration_share = known;

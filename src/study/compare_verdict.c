@@ -1,5 +1,6 @@
-/* Does the track differ from the bulk? Yes, no within a margin, or: cannot say, and what would
- * settle it. SPDX-License-Identifier: GPL-3.0-or-later */
+/* Verdict on the difference between wear track and bulk: yes, no within a margin, or cannot say
+ * with a remedy.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "study/compare.h"
 
 #include "core/base/clocale.h"
@@ -8,10 +9,10 @@
 #include <math.h>
 #include <string.h>
 
-/* Scatter of ln E between spots where none is measured, for the number of spots that is advised.
- * Chosen: twice as much asks for four times the spots. */
+/* Assumed scatter of ln E between spots for the advised number of spots if none is measured. Twice
+ * the scatter requires four times the spots. */
 static const double scatter_assumed = 0.15;
-/* The customary one, and that of the intervals. */
+/* Significance level of the tests and of the intervals. */
 static const double level = 0.05;
 
 typedef struct verdict_text {
@@ -34,8 +35,8 @@ static verdict_text format_rate(double rate)
 
 #define SAY(field, ...) clocale_print((field), sizeof(field), __VA_ARGS__)
 
-/* How many spots: at the scatter there is, for the difference there seems to be, but none smaller
- * than the margin. */
+/* Advises a number of spots for the present scatter and the apparent difference, which is at least
+ * the margin. */
 static void ask_for_spots(const wt_compare_job *job, const wt_comparison *c, compare_verdict *v)
 {
     const double least = log1p(job->margin);
@@ -96,7 +97,7 @@ static void say_rates_apart(const compare_pair *p, bool twisted, compare_verdict
         twisted ? "" : ", or at several rates on each spot, or a DMA of the rubber");
 }
 
-/* What would have a modulus, where curves were rejected for this. */
+/* Returns a remedy for curves that were rejected for this reason. */
 static const char *better_curves(wt_curve_verdict rejected_for)
 {
     switch (rejected_for) {
@@ -122,7 +123,7 @@ static const char *better_curves(wt_curve_verdict rejected_for)
     }
 }
 
-/* A group has no curve with a modulus: the other one is told by itself. */
+/* Assesses groups without a usable curve; each group is assessed separately. */
 static bool judge_empty(const compare_pair *p, compare_verdict *v)
 {
     const bool empty[2] = {p->data[0].group.n == 0, p->data[1].group.n == 0};
@@ -156,7 +157,7 @@ static bool judge_empty(const compare_pair *p, compare_verdict *v)
     return true;
 }
 
-/* What keeps the ratio itself from being known. */
+/* Assesses conditions that leave the ratio unknown. */
 static bool judge_conditions(const compare_pair *p, const comparison_inputs *k,
                              const compare_row *row, compare_verdict *v)
 {
@@ -181,7 +182,7 @@ static bool judge_conditions(const compare_pair *p, const comparison_inputs *k,
     return v->silent;
 }
 
-/* What leaves it without an interval. */
+/* Assesses missing information that leaves the ratio without an interval. */
 static bool judge_error(const compare_pair *p, const wt_compare_job *job,
                         const comparison_inputs *k, const compare_row *row, compare_verdict *v)
 {
@@ -210,7 +211,7 @@ static bool judge_error(const compare_pair *p, const wt_compare_job *job,
     return false;
 }
 
-/* A ratio for each rate: each is judged by itself, with p corrected for their number. */
+/* Assesses a ratio that depends on the rate: each rate separately, with corrected p values. */
 static void judge_twist(const compare_row *rates, size_t n, double interaction, compare_verdict *v)
 {
     bool softer = false, stiffer = false;
@@ -237,7 +238,7 @@ static void judge_twist(const compare_row *rates, size_t n, double interaction, 
         number_chance(interaction).text);
 }
 
-/* An interval that lacks something shows no difference to be small. */
+/* An interval without a known error source does not show that the difference is small. */
 static void say_lacking(const wt_compare_job *job, const comparison_inputs *k, compare_verdict *v)
 {
     SAY(v->differs,
@@ -252,7 +253,7 @@ static void say_lacking(const wt_compare_job *job, const comparison_inputs *k, c
         SAY(v->settled_by, "the error or the effect of: %s", k->lacks);
 }
 
-/* What else may well make the ratio keeps the answer back. */
+/* Plausible other causes prevent a verdict. */
 static void say_unsaid(const unstated_errors *unsaid, const char *seems, compare_verdict *v)
 {
     SAY(v->differs, "cannot say: the wear track %s, but this may be as well: %s", seems,

@@ -1,5 +1,6 @@
-/* Coverage: the case drawn anew from its own fit many times, and how often the intervals that it
- * then states hold what it was drawn from. SPDX-License-Identifier: GPL-3.0-or-later */
+/* Coverage: the case is simulated many times from its own fit, and the trials count how often the
+ * stated intervals contain the true values.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "dma/master.h"
 #include "dma/rubber.h"
 #include "indentation/curve_set.h"
@@ -31,7 +32,7 @@ static const wt_param rows[] = {
 };
 PARAM_TABLE(wt_coverage_job_params, wt_coverage_job, rows, wt_coverage_job_defaults, NO_PARTS)
 
-/* Whose intervals are judged; the numbers of a setting come first. */
+/* Numbers whose intervals are tested. The results of a case come first. */
 enum { OF_SHIFTS = SETTING_NUMBERS, OF_C1, OF_C2, OF_CURVES, OF_CONTACT, OF_RATIO, N_JUDGED };
 static const char *judged_words(size_t k)
 {
@@ -44,24 +45,26 @@ static const char *judged_words(size_t k)
     return k < SETTING_NUMBERS ? setting_words[k] : others[k];
 }
 
-/* One trial of one number: whether the truth lies within, as a share where there are several. */
+/* Result of one trial of one number: true if the truth is within, as a share for several
+ * numbers. */
 typedef struct hit {
-    double one, both, deviation, variance; /* squares of the last two; `one` NaN: none was stated */
+    double one, both, deviation, variance; /* squares of the last two; `one` NaN if no interval
+                                              was stated */
 } hit;
 
 typedef struct coverage {
     const wt_coverage_job *job;
-    wt_job work; /* of one trial */
+    wt_job work; /* options of one trial */
     setting setting;
     wt_estimate truth[SETTING_NUMBERS];
-    wt_master fit;       /* n_shifts 0: the material is held */
-    wt_master layer_fit; /* likewise, of the layer's own */
+    wt_master fit;       /* n_shifts 0 if the material is fixed */
+    wt_master layer_fit; /* fit of the layer material, likewise */
     wt_group_data data[2];
     scattered_group group[2];
     bool has_groups, has_curves;
     double log_ratio;
-    wt_contact_table *contact[2]; /* of the curves, as the next two */
-    wt_prony spectrum[2];         /* without terms: none */
+    wt_contact_table *contact[2]; /* of the curves; [2] for bulk and track */
+    wt_prony spectrum[2];         /* no terms if there is none */
     curve_scratch **scratch;      /* [n_workers] */
     unsigned n_workers;
     hit *hits; /* [trials * N_JUDGED] */
@@ -80,14 +83,14 @@ static hit judge_interval(wt_interval x, double truth)
     return hit_of(x.value, x.standard_error, x.low, x.high, truth);
 }
 
-/* Of a normal number whose truth is 0. */
+/* Tests a normal number whose true value is 0. */
 static hit judge_estimate(wt_estimate e)
 {
     const double half = NORMAL_95 * e.standard_error;
     return hit_of(e.value, e.standard_error, e.value - half, e.value + half, 0);
 }
 
-/* Of several alike: their sum with its number, and their mean. */
+/* Sum over several numbers of one kind, with their count. */
 typedef struct hit_sum {
     hit of;
     double n;
@@ -108,7 +111,7 @@ static hit mean_hit(hit_sum sum)
                  sum.of.variance / sum.n};
 }
 
-/* Whether what the groups of a trial say goes into its friction. */
+/* True if the groups of a trial determine its friction. */
 static bool takes_ratio(const coverage *c)
 {
     return c->has_groups && c->job->ratio_of_groups && c->setting.has_known &&
@@ -125,7 +128,7 @@ static hit judge_shifts(const wt_master *m, const double *truth)
     return mean_hit(sum);
 }
 
-/* What a trial finds of the shifts and the law. */
+/* Tests the shifts and the shift law of a trial. */
 static void judge_law(const wt_master *fit, const wt_master *truth, const double *shift, hit *hits)
 {
     if (fit->n_shifts == truth->n_shifts)
@@ -136,7 +139,8 @@ static void judge_law(const wt_master *fit, const wt_master *truth, const double
     }
 }
 
-/* Isotherms drawn anew and fitted as the case fits its own; hits NULL: of the layer. */
+/* Simulates isotherms and fits them with the options of the case. hits: NULL for the material of
+ * the layer. */
 static wt_status try_material(const coverage *c, const wt_rubber *own, const wt_master *truth,
                               uint64_t seed, wt_rubber *rubber, hit *hits, wt_error *err)
 {
@@ -161,7 +165,7 @@ static wt_status try_material(const coverage *c, const wt_rubber *own, const wt_
     return status;
 }
 
-/* The materials of a trial; those without isotherms are as given. */
+/* Simulates the materials of a trial. A material without isotherms stays fixed. */
 static wt_status try_materials(const coverage *c, uint64_t seed, setting *s, wt_rubber *bulk,
                                wt_rubber *layer, hit *hits, wt_error *err)
 {
@@ -179,8 +183,8 @@ static wt_status try_materials(const coverage *c, uint64_t seed, setting *s, wt_
     return status;
 }
 
-/* The force curves of a group drawn anew about moduli that scatter, fitted with the spectrum of the
- * trial. The accepted ones follow one another. */
+/* Simulates the force curves of a group about scattering moduli and fits them with the spectrum of
+ * the trial. Moduli of accepted curves are stored contiguously. */
 static wt_status try_curves(const coverage *c, unsigned g, const wt_rubber *rubber, uint64_t seed,
                             unsigned worker, double *modulus, long *spot, size_t *n, hit_sum *sums,
                             wt_error *err)
@@ -211,7 +215,7 @@ static wt_status try_curves(const coverage *c, unsigned g, const wt_rubber *rubb
     return status;
 }
 
-/* rubber: of the trial, NULL where the material is held. */
+/* rubber: material of the trial; NULL if it is fixed. */
 static wt_status try_groups(const coverage *c, const wt_rubber *rubber, uint64_t seed,
                             unsigned worker, hit *hits, wt_comparison *comparison, wt_error *err)
 {
@@ -247,8 +251,8 @@ static wt_status try_groups(const coverage *c, const wt_rubber *rubber, uint64_t
     return status;
 }
 
-/* The ratio that the friction with the layer takes is that of the trial: of its spots, and of its
- * calibration, which another time would have been off by another share of its error. */
+/* Sets the modulus ratio of the friction with the layer to that of the trial: its spots, and a
+ * calibration error drawn anew. */
 static void take_ratio(const coverage *c, const wt_comparison *found, uint64_t seed, setting *s)
 {
     const wt_layer_observation *truth = &c->setting.known;
@@ -261,7 +265,7 @@ static void take_ratio(const coverage *c, const wt_comparison *found, uint64_t s
     known->modulus_ratio.value = truth->modulus_ratio.value * exp(off);
     known->modulus_ratio.standard_error = spread * known->modulus_ratio.value;
     known->calibration_share = pow(calibration / spread, 2);
-    if (!(calibration > 0)) /* else both have a part in it, as they had */
+    if (!(calibration > 0)) /* otherwise both contribute, as in the case */
         known->modulus_ratio_df = found->df;
 }
 
@@ -270,7 +274,7 @@ static wt_status try_once(const coverage *c, size_t trial, unsigned worker, hit 
 {
     const uint64_t seed = splitmix64(splitmix64(c->work.seed) + 1 + trial);
     wt_estimate number[SETTING_NUMBERS];
-    wt_comparison found = {.df = (double)NAN}; /* no ratio is taken without groups */
+    wt_comparison found = {.df = (double)NAN}; /* no ratio is used without groups */
     wt_rubber rubber = {0}, layer = {0};
     wt_job work = c->work;
     setting s = c->setting;
@@ -296,7 +300,7 @@ static wt_status try_once(const coverage *c, size_t trial, unsigned worker, hit 
     return status;
 }
 
-/* A trial without an answer counts in no row. */
+/* A trial without a result does not count. */
 static wt_status try_one(void *user, size_t trial, unsigned worker)
 {
     const coverage *c = user;
@@ -353,7 +357,7 @@ static size_t lost_trials(const coverage *c)
     return n;
 }
 
-/* All numbers with their shares, or those of one verdict. */
+/* Lists all numbers with their shares, or those of one verdict. */
 static void list_shares(const coverage *c, const char *verdict, char *text, size_t size)
 {
     size_t n = 0;
@@ -425,9 +429,9 @@ static wt_status make_table(const coverage *c, wt_table **table, wt_error *err)
     return table_end(&t, table);
 }
 
-/* ---- the job --------------------------------------------------------------------------------- */
+/* ---- job ------------------------------------------------------------------------------------- */
 
-/* The groups as they were compared: factors on the spectrum if all curves have one. */
+/* Reads the groups as they were compared: factors on the spectrum if all curves have one. */
 static wt_status find_groups(coverage *c, wt_error *err)
 {
     const wt_table *const tables[2] = {c->job->bulk, c->job->track};
@@ -465,7 +469,7 @@ static wt_status find_groups(coverage *c, wt_error *err)
     return WT_OK;
 }
 
-/* What the curves are made and fitted with. */
+/* Prepares contact tables, spectra and scratch memory of the curves. */
 static wt_status prepare_curves(coverage *c, unsigned threads, wt_error *err)
 {
     char ignored[256];
@@ -489,7 +493,7 @@ static wt_status prepare_curves(coverage *c, unsigned threads, wt_error *err)
                                                  : status;
 }
 
-/* The isotherms that a material is drawn anew from; none: its fit stays empty. */
+/* Fits the isotherms that a material is simulated from. Without isotherms the fit stays empty. */
 static wt_status fit_isotherms(const wt_rubber *rubber, wt_master *fit, wt_error *err)
 {
     return rubber->kind == WT_RUBBER_SERIES && rubber->sweep.n_isotherms > 0
@@ -497,7 +501,7 @@ static wt_status fit_isotherms(const wt_rubber *rubber, wt_master *fit, wt_error
                : WT_OK;
 }
 
-/* A material of the layer without isotherms is taken as known. */
+/* A layer material without isotherms is fixed. */
 static wt_status prepare_layer_rubber(coverage *c, wt_error *err)
 {
     wt_rubber *const rubber = &c->setting.layer_rubber;
@@ -511,19 +515,19 @@ static wt_status prepare_layer_rubber(coverage *c, wt_error *err)
     return status;
 }
 
-/* What the case says as it is: the truth from now on. */
+/* Computes the results of the case as stated, which are the true values of the trials. */
 static wt_status take_truth(coverage *c, const wt_job *work, wt_error *err)
 {
     const wt_coverage_job *job = c->job;
     wt_status status = setting_make(job->sliding, job->layer, job->known, work, &c->setting, err);
     if (status != WT_OK)
         return status;
-    /* taken as known: no sweeps are made anew */
+    /* fixed: strain sweeps are not simulated */
     c->setting.softness.storage_error = c->setting.softness.loss_error = NULL;
     c->work = *work;
-    c->work.threads = 1; /* the trials take the threads */
+    c->work.threads = 1; /* the trials use the threads */
     c->work.left_out = work->replicates < 2 ? WT_EXTRAS : WT_EXTRAS & ~(unsigned)WT_EXTRA_DRAWS;
-    c->work.drawn = NULL; /* of another material */
+    c->work.drawn = NULL; /* the stored draws are for another material */
     c->work.log = NULL;
     c->work.progress = (wt_progress){0};
     status = fit_isotherms(&c->setting.rubber, &c->fit, err);

@@ -1,4 +1,5 @@
-/* What trials tell of a share. SPDX-License-Identifier: GPL-3.0-or-later */
+/* Verdict on a share of trials.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "study/coverage_share.h"
 
 #include "core/math/normal_quantile.h"
@@ -6,13 +7,14 @@
 #include <math.h>
 #include <string.h>
 
-/* What intervals are said to hold; less than the second, twice as many misses, does not pass. A
- * share within the last two is what is promised of them (tests/study): with enough trials any is
- * off, and by so little it is no fault. */
+/* Nominal coverage; smallest share that passes (twice the nominal misses); promised range
+ * (tests/study). With enough trials any deviation is significant. Within the promised range it is
+ * not an error. */
 static const double stated = 0.95, least_held = 0.9, promised_low = 0.92, promised_high = 0.98;
-/* To each side: there are some ten numbers, and a false alarm among them is to be rare, 5 %. */
+/* One-sided level. The probability of a false alarm among about ten numbers is then 5 %. */
 static const double alarm = 0.0025;
-/* More than these are not run: days of computing, to tell 95.0 from 95.2 %. */
+/* Largest number of trials that is advised. More would take days and distinguish 95.0 % from 95.2
+ * %. */
 static const size_t most_trials = 100000;
 
 static void set_interval(coverage_share *s, double share, double n)
@@ -23,7 +25,7 @@ static void set_interval(coverage_share *s, double share, double n)
     s->high = fmin(1, centre + half);
 }
 
-/* Chance of at most `most` misses in n trials. */
+/* Probability of at most `most` misses in n trials (binomial). */
 static double at_most(double most, double n)
 {
     double sum = 0;
@@ -35,7 +37,7 @@ static double at_most(double most, double n)
 
 static const char *verdict_of(double share, double n, double low)
 {
-    /* a part of a miss counts for neither alarm; what rounding makes of a whole one is one */
+    /* fractional misses count for neither alarm, except for rounding errors */
     const double misses = n * (1 - share), most = ceil(misses - 1e-9), least = floor(misses + 1e-9);
     if (share < promised_low && 1 - at_most(least - 1, n) < alarm)
         return "too narrow";
@@ -57,7 +59,7 @@ coverage_share coverage_assess(double share, size_t n)
     coverage_share s = verdict_of_share(share, n);
     if (strcmp(s.verdict, "cannot say") != 0)
         return s;
-    /* to a tenth: what the trials will find is not known better */
+    /* to 10 %: the outcome of the trials is not known better */
     for (size_t more = n + 1; more < most_trials; more += more / 10 + 1)
         if (strcmp(verdict_of_share(share, more).verdict, "cannot say") != 0) {
             s.trials = (double)more;

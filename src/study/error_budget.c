@@ -1,5 +1,5 @@
-/* The error budget: the standard errors again with one source drawn at a time, beside what the
- * arithmetic, the number of replicates and the choices of the model leave open.
+/* Error budget: standard errors with one drawn source at a time, the numerical error, the error due
+ * to the number of replicates, and the range over the model choices.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "dma/strain_softening.h"
 #include "job/cost.h"
@@ -13,13 +13,13 @@
 #include <stdio.h>
 #include <string.h>
 
-/* ---- what is measured or stated -------------------------------------------------------------- */
+/* ---- measured or stated sources -------------------------------------------------------------- */
 
 typedef struct source {
     const char *words, *remedy;
     bool (*applies)(const setting *s);
     bool (*stated)(const setting *s);
-    void (*hold)(setting *s); /* takes its error away */
+    void (*hold)(setting *s); /* removes the error of the source */
 } source;
 
 static bool applies_always(const setting *s)
@@ -58,7 +58,7 @@ OF_ESTIMATE(observed, layer.observed_thickness)
 OF_ESTIMATE(thickness, known.thickness)
 OF_ESTIMATE(slope, known.ratio_slope)
 
-/* As stated, or of a measured surface what its places, its modes and its law scatter by. */
+/* Stated error of the density, or scatter of a measured surface over sites, modes and law. */
 static bool stated_roughness(const setting *s)
 {
     return s->surface.c0.standard_error > 0 || s->surface.modes_error != NULL;
@@ -71,7 +71,7 @@ static void hold_roughness(setting *s)
     s->surface.n_sizes = 0;
 }
 
-/* What the spots tell, and what is known beside them: parts of one variance. */
+/* Scatter of the spots and calibration are components of one variance. */
 static bool stated_ratio(const setting *s)
 {
     return s->known.modulus_ratio.standard_error > 0 && s->known.calibration_share < 1;
@@ -154,13 +154,13 @@ static bool has_ratio(const setting *s)
     return s->has_known && !s->has_layer_rubber;
 }
 
-/* Else the ratio does not go with the frequency. */
+/* False if the ratio does not depend on the frequency. */
 static bool has_slope(const setting *s)
 {
     return has_ratio(s) && (s->known.ratio_slope.value != 0 || stated_slope(s));
 }
 
-/* Else there is none, or it cancels. */
+/* False if there is no calibration error or if it cancels. */
 static bool has_calibration(const setting *s)
 {
     return has_ratio(s) && s->known.calibration_share > 0;
@@ -198,7 +198,7 @@ static const source sources[] = {
 };
 enum { SOURCES = COUNT_OF(sources) };
 
-/* ---- the work -------------------------------------------------------------------------------- */
+/* ---- computation ----------------------------------------------------------------------------- */
 
 typedef struct outcome {
     wt_estimate number[SETTING_NUMBERS];
@@ -208,14 +208,14 @@ typedef struct outcome {
 
 typedef struct budget {
     setting setting;
-    wt_job work; /* of one setting */
+    wt_job work; /* options of one case variant */
     outcome values, all, of[SOURCES];
-    bool sensitivities; /* are asked for */
+    bool sensitivities; /* true if requested */
     double by[SENSITIVITIES];
     char lacks[256];
 } budget;
 
-/* `s` keeps what it is computed by. */
+/* Computes one outcome. `s` receives the results of the computation. */
 static wt_status compute_outcome(const budget *b, setting *s, size_t replicates, outcome *o,
                                  wt_error *err)
 {
@@ -257,7 +257,7 @@ static wt_status compute_all(budget *b, wt_error *err)
     return status;
 }
 
-/* ---- choices of the model -------------------------------------------------------------------- */
+/* ---- model choices --------------------------------------------------------------------------- */
 
 static const struct {
     what_if_column column;
@@ -271,18 +271,18 @@ static const struct {
 
 typedef struct choice_range {
     const char *words;
-    double low, high, half; /* of the number; half of what it is apart */
+    double low, high, half; /* limits of the number, and half its range */
 } choice_range;
 
-/* The rows of one choice follow one another, and the first row of all is as used. Returns where the
- * next choice begins. */
+/* Finds the range of one choice, whose rows are adjacent. The first row of the table is the case as
+ * used. Returns the first row of the next choice. */
 static size_t range_of(const table_view *t, size_t row, what_if_column column, choice_range *range)
 {
     double low = what_if_get(t, 0, column), high = low;
     range->words = what_if_text(t, row, WHAT_IF_CHOICE);
     for (; row < t->n_rows && strcmp(what_if_text(t, row, WHAT_IF_CHOICE), range->words) == 0;
          row++) {
-        low = fmin(low, what_if_get(t, row, column)); /* fmin and fmax leave out NaN */
+        low = fmin(low, what_if_get(t, row, column)); /* fmin and fmax skip NaN */
         high = fmax(high, what_if_get(t, row, column));
     }
     *range = (choice_range){range->words, low, high, (high - low) / 2};
@@ -293,7 +293,7 @@ static size_t range_of(const table_view *t, size_t row, what_if_column column, c
 
 typedef struct row {
     const char *source, *kind, *remedy;
-    double error; /* of the number, absolute */
+    double error; /* absolute error of the number */
     double share, seconds;
 } row;
 
@@ -301,7 +301,7 @@ TABLE_ROW(error_budget, ERROR_BUDGET, const char *number; row of;)
 
 static void put_row(const char *number, double value, row r, table_writer *t)
 {
-    r.error /= fabs(value); /* 0 of 0 is not known */
+    r.error /= fabs(value); /* NaN for 0 over 0 */
     TABLE_ADD(error_budget, t, number, r);
 }
 
@@ -310,9 +310,9 @@ static void put_number_row(const budget *b, setting_number k, row r, table_write
     put_row(setting_words[k], b->values.number[k].value, r, t);
 }
 
-/* What a number rests on most. */
+/* Dominant contributions to a number. */
 typedef struct verdict {
-    const source *largest; /* NULL = none is known */
+    const source *largest; /* NULL if none is known */
     double share, together, numerical;
     choice_range widest;
 } verdict;
@@ -358,7 +358,7 @@ static void put_model(const budget *b, setting_number k, const table_view *what_
     }
 }
 
-/* Of what no error is stated, too: it says how well that must be known. */
+/* Adds inputs without a stated error, too: the row shows how accurate they must be. */
 static void put_sensitivities(const budget *b, table_writer *t)
 {
     const double value = b->values.number[SETTING_HYSTERESIS].value;
@@ -383,7 +383,7 @@ static void put_advice(const budget *b, setting_number k, const verdict *v, tabl
     else
         SAY("%.0f %% of its variance is the %s: %s.", 100 * v->share, v->largest->words,
             v->largest->remedy);
-    if (v->widest.half > 0 && !(v->widest.half <= v->together)) /* together may be unknown */
+    if (v->widest.half > 0 && !(v->widest.half <= v->together)) /* the total may be unknown */
         SAY(" The choice of the %s moves it by %+.*f %% to %+.*f %%, %s: more of the same "
             "measurements do not settle that.",
             v->widest.words, decimals, 100 * (v->widest.low / value - 1), decimals,
@@ -428,8 +428,8 @@ static void put_number(const budget *b, setting_number k, const table_view *what
     put_advice(b, k, &v, t);
 }
 
-/* The ratio itself: nothing has to be drawn, for what its spots and the calibration do to it is
- * known. The time is that of the curves. */
+/* Adds the modulus ratio itself. Its components are known without draws. The time is that of the
+ * curves. */
 static void put_ratio(const budget *b, table_writer *t)
 {
     static const char number[] = "modulus ratio";
@@ -478,8 +478,8 @@ wt_status wt_error_budget_make(const wt_sliding *sliding, const wt_layer_job *la
     budget b = {.work = *work, .sensitivities = sliding != NULL && sliding->sensitivities};
     table_view moved = {0};
     b.work.left_out = WT_EXTRAS;
-    b.work.drawn = NULL; /* of another material */
-    b.work.log = NULL;   /* what is to be said of these numbers has been said */
+    b.work.drawn = NULL; /* the stored draws are for another material */
+    b.work.log = NULL;   /* warnings about these numbers exist already */
     b.work.progress = (wt_progress){0};
     wt_status status = setting_make(sliding, layer, known, work, &b.setting, err);
     if (status == WT_OK && what_if != NULL)

@@ -1,14 +1,13 @@
-/* Figures of error: against run time, and by where it comes from.
+/* Figures of errors: against run time, and by source.
  *
- * SPDX-License-Identifier: GPL-3.0-or-later
- */
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "report/drawing.h"
 
 #include <math.h>
 #include <string.h>
 
-/* What stands once for all panels, in a strip on top: curves without a point. Drawn last, for
- * nothing of a panel is left. */
+/* Begins the common legend in a strip at the top. It is drawn last and consists of curves without
+ * points. */
 static void begin_legend(figure_drawing *d, double height)
 {
     text_format(&d->script,
@@ -19,8 +18,8 @@ static void begin_legend(figure_drawing *d, double height)
                 LITERAL(height), LITERAL(1 - height));
 }
 
-/* Of a figure, in the height of one panel of the style: two lines of it, or four where it is as
- * narrow as one panel. A number of the budget, with title and axis, and each of its bars. */
+/* Heights relative to one panel of the style: legend of two lines, legend of four lines for a
+ * narrow figure, a number of the budget with title and axis, and each of its bars. */
 static const double legend_height = 0.12, narrow_legend = 0.24, number_height = 0.31,
                     bar_height = 0.055;
 
@@ -28,7 +27,7 @@ static const double legend_height = 0.12, narrow_legend = 0.24, number_height = 
 
 enum { PARTS = 28, METHODS = 3, ACROSS = 3 };
 
-/* Texts of a column in their order, each once, of rows that were timed. */
+/* Lists the distinct texts of a column of timed rows in their order. */
 static size_t list_texts(const table_view *t, work_precision_column column, const char *part,
                          const char *texts[], size_t most)
 {
@@ -120,13 +119,13 @@ static void draw_work_precision(figure_drawing *d)
     text_add(&d->script, "unset multiplot\n");
 }
 
-/* ---- where an error comes from --------------------------------------------------------------- */
+/* ---- error sources --------------------------------------------------------------------------- */
 
 enum { NUMBERS = 6 };
-/* Smaller than any that matters beside a measurement. */
+/* Smallest shown relative error, which is negligible for a measurement. */
 static const double least_error = 1e-5;
 
-/* The rows of a number, which follow one another. */
+/* Adjacent rows of one number. */
 typedef struct number_panel {
     const char *number;
     size_t first, n;
@@ -168,7 +167,7 @@ static void draw_bars(figure_drawing *d, const number_panel *p, size_t from, con
               style_of(kind));
 }
 
-/* A line at the largest error of a kind: what no work on the others takes the number below. */
+/* Draws a line at the largest error of a kind, which improvements of other kinds cannot reduce. */
 static void draw_floor(figure_drawing *d, const number_panel *p, const char *kind)
 {
     double largest = 0;
@@ -182,7 +181,7 @@ static void draw_floor(figure_drawing *d, const number_panel *p, const char *kin
                     LITERAL(largest), LITERAL(largest), style_of(kind));
 }
 
-/* The source with the time that it takes to know it, where that is known. */
+/* Adds the label of a source with its computation time, if known. */
 static void put_source(figure_drawing *d, size_t row)
 {
     const double seconds = error_budget_get(d->table, row, ERROR_BUDGET_SECONDS);
@@ -281,7 +280,7 @@ static size_t name_stages(figure_drawing *d)
     return n;
 }
 
-/* The k-th stage that ran lies at -k; those that did not have no line. */
+/* Position of a stage: -k for the k-th stage that ran. Other stages have no line. */
 #define AT_STAGE "($2>0 ? -(k=k+1) : NaN)"
 
 static void draw_cost(figure_drawing *d)
@@ -326,7 +325,7 @@ static void draw_cost(figure_drawing *d)
     text_add(&d->script, "unset multiplot\n");
 }
 
-/* ---- how often intervals hold ---------------------------------------------------------------- */
+/* ---- coverage of the intervals --------------------------------------------------------------- */
 
 static void draw_coverage(figure_drawing *d)
 {

@@ -1,9 +1,7 @@
-/* Figures of cases side by side: a panel for each sample with the moduli of its bulk and tracks
- * against the rate, and with their force curves; a panel for each condition with the friction of
- * the samples; a panel for each constant that cases may have in common.
+/* Figures of collected cases: a panel per sample with moduli against the rate and with force
+ * curves, a panel per condition with friction, and a panel per shared constant.
  *
- * SPDX-License-Identifier: GPL-3.0-or-later
- */
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "report/drawing.h"
 
 #include "core/base/array.h"
@@ -11,7 +9,7 @@
 #include <math.h>
 #include <string.h>
 
-/* In each of which all groups may have a section. */
+/* All groups may have a section in each panel. */
 enum { PANELS = 9 };
 
 typedef struct panels {
@@ -20,7 +18,7 @@ typedef struct panels {
     bool too_many;
 } panels;
 
-/* The texts of a column, in the order of the table, which is that of the samples. */
+/* Collects the distinct texts of a column in the order of the table, which is sorted by sample. */
 static panels find_panels(const table_view *table, const char *(*text)(const table_view *, size_t))
 {
     panels found = {.n = 0};
@@ -46,14 +44,14 @@ static const char *condition_of(const table_view *table, size_t row)
     return collected_friction_text(table, row, COLLECTED_FRICTION_CONDITION);
 }
 
-/* What is the same in all figures: panels beside one another with one scale. */
+/* Common layout of all figures: adjacent panels with one scale. */
 typedef struct grid {
     panels of;
     unsigned panel, group; /* columns of the table */
     unsigned data[4];
     size_t n_data;
-    bool joined;   /* points with their intervals, joined */
-    bool signed_x; /* a linear axis */
+    bool joined;   /* points with intervals, connected by lines */
+    bool signed_x; /* linear x axis */
     int section[PANELS][DRAWING_GROUPS];
 } grid;
 
@@ -79,15 +77,15 @@ static void begin_grid(figure_drawing *d, const grid *g)
     const size_t lines = (g->of.n + columns - 1) / columns;
     d->width = columns == 1 ? 1 : columns == 2 ? 1.6 : 2;
     d->height = 0.95 * (double)lines;
-    /* room for the key above the first, two names in a line, and as much above the others, so that
-     * all are of one size */
+    /* margin for the legend above the first panel, two names in a line; the other panels have the
+     * same size */
     text_format(&d->script, "set tmargin %zu\nset multiplot layout %zu,%zu\n",
                 3 + (d->n_groups + 1) / 2, lines, columns);
     drawing_axis(d, "x", &d->figure->x, NULL, d->x);
     drawing_axis(d, "y", &d->figure->y[0], NULL, d->y[0]);
 }
 
-/* A group that the first panel lacks stands in its key all the same. */
+/* Draws a panel. The legend of the first panel also lists groups that it does not contain. */
 static void draw_panel(figure_drawing *d, const grid *g, size_t i)
 {
     if (g->of.name[i][0] != '\0')
@@ -165,9 +163,9 @@ static void draw_force(figure_drawing *d)
     draw_grid(d, &g);
 }
 
-/* ---- constants in common --------------------------------------------------------------------- */
+/* ---- shared constants ------------------------------------------------------------------------ */
 
-/* A constant of one name: the rows of a panel. */
+/* Rows of one constant and one name, shown in a panel. */
 typedef struct constant_panel {
     const char *constant, *of;
     int section;
@@ -199,7 +197,7 @@ static size_t find_constants(figure_drawing *d, constant_panel shown[PANELS], bo
     return n;
 }
 
-/* Bytes of a name that have room below or above a panel of three in a row. */
+/* Longest names below and above a panel of three in a row [bytes]. */
 enum { NAME = 22, HEADING = 32 };
 
 static void name_members(figure_drawing *d, const constant_panel *panel)

@@ -1,29 +1,28 @@
-/* Figures of critical energy and wear rate together: the region of 95 % of each way to know them,
- * of one layer or of the cases beside one another.
+/* Figures of critical energy and wear rate: the 95 % region of each method of determination, for
+ * one layer or for collected cases.
  *
- * SPDX-License-Identifier: GPL-3.0-or-later
- */
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "report/drawing.h"
 
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
 
-/* Radius that holds 95 % of a normal law of two numbers: sqrt(-2 ln 0.05). */
+/* Radius that contains 95 % of a bivariate normal distribution: sqrt(-2 ln 0.05). */
 static const double radius_95 = 2.4477;
-/* Points of a region, and regions: more are not told apart. */
+/* Points of a region, and the largest number of distinguishable regions. */
 enum { POINTS = 73, REGIONS = 36, PANELS = 3 };
-/* Line styles of groups, and what is added for those that are dashed. */
+/* Number of line styles, and offset of the dashed styles. */
 enum { STYLES = 6, DASHED = 30 };
 
-/* A row of a table of pairs. */
+/* Row of a table of pairs. */
 typedef struct known_pair {
     double energy, energy_error, wear, wear_error, correlation;
     const char *by, *name;
-    char room[128]; /* of the name */
+    char room[128]; /* storage of the name */
 } known_pair;
 
-/* What tells the ways apart, at the end of their words. */
+/* Returns the distinguishing end of the name of a method. */
 static const char *heading_of(const char *by)
 {
     static const char *const ends[] = {"wear rate", "balance of rates", "transport of damage"};
@@ -65,7 +64,7 @@ static void read_collected(const table_view *t, size_t row, known_pair *p)
 
 typedef void read_pair(const table_view *t, size_t row, known_pair *p);
 
-/* Points of the region in which both are; NO_SECTION: there is none. */
+/* Adds the points of the joint region. NO_SECTION if there is none. */
 static int add_region(figure_drawing *d, const known_pair *p)
 {
     static const char *const columns[] = {"critical_energy", "specific_wear_rate", NULL},
@@ -140,7 +139,8 @@ static void draw_panel(figure_drawing *d, read_pair *read, const regions *r, siz
     plot_end(d);
 }
 
-/* A panel for each way to know them, which may be decades apart; the key of all above the first. */
+/* Draws a panel for each method, as their regions may be decades apart. The common legend is above
+ * the first panel. */
 static void draw_regions(figure_drawing *d, read_pair *read)
 {
     regions r;

@@ -1,7 +1,7 @@
-/* The figure of the choices of the model: how far each moves the numbers, beside what chance does.
+/* Figure of the model choices: the range of each number over each choice, with its standard
+ * error.
  *
- * SPDX-License-Identifier: GPL-3.0-or-later
- */
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "report/drawing.h"
 
 #include <math.h>
@@ -10,7 +10,7 @@
 
 enum { MOST_BARS = 16, TRIED = 256, PANELS = 3 };
 
-/* What a choice does to a number. */
+/* Range of a number over a choice. */
 typedef struct bar {
     const char *choice;
     char tried[TRIED];
@@ -32,7 +32,7 @@ static int by_width(const void *a, const void *b)
     return more > 0 ? 1 : more < 0 ? -1 : strcmp(q->choice, p->choice);
 }
 
-/* "2e5; 2e7 rad/m": the unit once. */
+/* Appends "2e5; 2e7 rad/m": the unit appears once. */
 static void add_tried(bar *b, const char *tried)
 {
     size_t length = strlen(b->tried);
@@ -43,8 +43,8 @@ static void add_tried(bar *b, const char *tried)
     (void)snprintf(b->tried + length, TRIED - length, "%s%s", length > 0 ? "; " : "", tried);
 }
 
-/* The rows of a choice follow one another; one that moves nothing is no bar. The widest comes
- * last, which is on top. */
+/* Collects the adjacent rows of each choice. A choice without an effect has no bar. The widest bar
+ * comes last, at the top. */
 static void fill_panel(panel *p, const table_view *table)
 {
     for (size_t row = 1; row < table->n_rows; row++) {
@@ -68,7 +68,8 @@ static void fill_panel(panel *p, const table_view *table)
     p->n -= still;
 }
 
-/* Friction, or its hysteresis part where nothing else is known, and what the layer adds. */
+/* Finds the panels: friction, or its hysteresis part if friction is unknown, and the effects of the
+ * layer. */
 static size_t find_panels(const figure_drawing *d, panel panels[PANELS])
 {
     const table_view *friction = &d->tables->friction, *layer = &d->tables->layer;
@@ -94,7 +95,7 @@ static size_t find_panels(const figure_drawing *d, panel panels[PANELS])
     return n;
 }
 
-/* Two lines at a place of the y axis, the second one may be empty. */
+/* Adds two lines of text at a position of the y axis. The second may be empty. */
 static void name_place(figure_drawing *d, size_t place, const char *first, const char *second)
 {
     text_add(&d->script, place > 0 ? ", " : "");
@@ -153,7 +154,7 @@ static void draw_panel(figure_drawing *d, const panel *p)
     plot_end(d);
 }
 
-/* In sizes of one panel of the style. */
+/* Height relative to one panel of the style. */
 static double height_of(const panel *p)
 {
     return 0.25 + 0.11 * (double)(p->n + 1);
@@ -167,7 +168,8 @@ static void draw_what_if(figure_drawing *d)
         return;
     }
     const size_t n = find_panels(d, panels);
-    double margin = 26, top = 0; /* the margin in characters, which are wider than a letter */
+    double margin = 26, top = 0; /* the margin is in character cells, which are wider than an
+                                    average letter */
     d->height = 0;
     for (size_t i = 0; i < n; i++) {
         d->height += height_of(&panels[i]);

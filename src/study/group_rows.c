@@ -1,4 +1,4 @@
-/* The accepted part of an indentation table as a group.
+/* Conversion of the accepted rows of an indentation table to a group.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "weartrack/flow.h"
 
@@ -12,7 +12,7 @@
 
 typedef struct named {
     const char *spot;
-    double x, y; /* the place, where that counts as a spot; else 0 */
+    double x, y; /* position, if it identifies a spot; else 0 */
     size_t item;
 } named;
 
@@ -36,8 +36,8 @@ static int by_name(const void *a, const void *b)
     return order != 0 ? order : (x->item > y->item) - (x->item < y->item);
 }
 
-/* Numbers the spots in the order of their first appearance. There may be one for each curve, so
- * equal ones are found by sorting. */
+/* Numbers the spots in the order of their first appearance. A sort finds equal spots, as each curve
+ * may have its own. */
 static void number_spots(named *names, size_t n, long *spot)
 {
     long next = 0;
@@ -47,14 +47,14 @@ static void number_spots(named *names, size_t n, long *spot)
             first = i;
         spot[names[i].item] = (long)names[first].item;
     }
-    /* The first of a name comes before the others, and has its number when they ask for it. */
+    /* The first row of a spot precedes the others, and its number is then known. */
     for (size_t i = 0; i < n; i++)
         spot[i] = spot[i] == (long)i ? next++ : spot[spot[i]];
 }
 
 /* ---- copies ---------------------------------------------------------------------------------- */
 
-/* A digest of what was measured on a curve; 0 if that is the modulus alone, which two curves may
+/* Digest of the measured values of a curve. 0 if only the modulus exists, which two curves may
  * share. */
 static uint64_t digest_of(const table_view *t, size_t row)
 {
@@ -84,7 +84,7 @@ static int by_digest(const void *a, const void *b)
     return (x->item > y->item) - (x->item < y->item);
 }
 
-/* Curves that are in the group twice are taken once. `row_of` of the curves taken is their row. */
+/* Removes copies of curves. `row_of`: row of each remaining curve. */
 static void drop_copies(const table_view *t, wt_group_data *d, size_t *row_of)
 {
     wt_curve_digest *const all = d->digest;
@@ -107,9 +107,9 @@ static void drop_copies(const table_view *t, wt_group_data *d, size_t *row_of)
     d->n_digests = kept;
 }
 
-/* ---- a table --------------------------------------------------------------------------------- */
+/* ---- table ----------------------------------------------------------------------------------- */
 
-/* The rows of the curves with a modulus, accepted or doubtful, each one once. */
+/* Finds the rows of curves with a modulus, accepted or doubtful, without copies. */
 static wt_status find_rows(const table_view *t, wt_group_data *d, size_t *row_of, wt_error *err)
 {
     size_t n = 0;
@@ -151,7 +151,8 @@ static void count_rejected(const table_view *t, wt_group_data *d)
         }
 }
 
-/* How its spots were found: the words of the table; one without is not of this program. */
+/* Determines if the spots were named, from the text of the table. A table without this text comes
+ * from another program. */
 static void note_spots(const table_view *t, wt_group_data *d)
 {
     const char *spots = indentation_words(t, INDENTATION_KEY_SPOTS);
@@ -159,8 +160,8 @@ static void note_spots(const table_view *t, wt_group_data *d)
         spots != NULL ? strncmp(spots, "named", 5) == 0 : indentation_has(t, INDENTATION_SPOT);
 }
 
-/* The spot of an accepted curve; with `each_place` a place in it, unless the user named the spots.
- */
+/* Returns the spot of an accepted curve. With `each_place` its position is part of the spot, unless
+ * the user named the spots. */
 static named name_of(const table_view *t, size_t row, size_t item, bool each_place,
                      const wt_group_data *d)
 {
@@ -169,14 +170,14 @@ static named name_of(const table_view *t, size_t row, size_t item, bool each_pla
         return n;
     n.x = indentation_get(t, row, INDENTATION_X);
     n.y = indentation_get(t, row, INDENTATION_Y);
-    if (!isfinite(n.x) || !isfinite(n.y)) { /* a place that is not known is its own */
+    if (!isfinite(n.x) || !isfinite(n.y)) { /* an unknown position is unique */
         n.x = indentation_get(t, row, INDENTATION_CURVE);
         n.y = 0;
     }
     return n;
 }
 
-/* What curves show; none where they were not asked, NaN where it is there and not known. */
+/* Error that the curves show: 0 if it was not requested, NaN if it is unknown. */
 static double shown_error(const table_view *t, indentation_key key)
 {
     return indentation_words(t, key) == NULL ? 0 : indentation_value(t, key).value;
@@ -195,7 +196,7 @@ static void read_misfits(const table_view *t, bool each_place, named *names, wt_
     number_spots(names, d->n_fitted, d->fitted_spot);
 }
 
-/* What a curve shows of a pull, and how far it was pressed. */
+/* Reads adhesion, largest force and largest indentation of a curve. */
 static void read_signs(const table_view *t, size_t row, size_t i, wt_group_data *d)
 {
     d->pull[i] = fmax(indentation_get(t, row, INDENTATION_ADHESION_FORCE),
@@ -204,7 +205,7 @@ static void read_signs(const table_view *t, size_t row, size_t i, wt_group_data 
     d->max_indentation[i] = indentation_get(t, row, INDENTATION_MAX_INDENTATION);
 }
 
-/* NaN where it is not there. */
+/* Returns NaN if the key is missing. */
 static double plain_number(const table_view *t, indentation_key key)
 {
     double value = (double)NAN;
@@ -214,7 +215,7 @@ static double plain_number(const table_view *t, indentation_key key)
     return value;
 }
 
-/* What its curves share. */
+/* Reads quantities that all curves of the group share. */
 static void read_common(const table_view *t, wt_group_data *d)
 {
     d->sensitivity = indentation_value(t, INDENTATION_KEY_SENSITIVITY);

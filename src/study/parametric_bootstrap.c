@@ -1,4 +1,5 @@
-/* A case drawn anew from its own fit. SPDX-License-Identifier: GPL-3.0-or-later */
+/* Parametric bootstrap of a case.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "study/parametric_bootstrap.h"
 #include "dma/sweep_input.h"
 #include "job/random_draws.h"
@@ -20,8 +21,8 @@ static const wt_master_shift *shift_at(const wt_master *fit, double temperature,
     return NULL;
 }
 
-/* log10 a_T that the isotherm truly has: by the law at another temperature, for an oven holds its
- * temperature no better; without a law as fitted, and as given where it is given. */
+/* log10 a_T of the simulated isotherm: by the shift law at a scattered temperature, because an oven
+ * has this scatter. Without a law it is the fitted value, and a stated shift stays fixed. */
 static double true_shift(const wt_isotherm *measured, const wt_master *fit, size_t k, uint64_t seed)
 {
     const wt_master_shift *s = &fit->shifts[k];
@@ -61,7 +62,7 @@ static wt_status add_isotherm(const wt_isotherm *measured, const wt_master *fit,
                                   exp(fit->noise_storage * s->noise_factor * noise[0]);
         iso->loss_modulus[j] =
             loss * pow(10, -s->log_b.value) * exp(fit->noise_loss * s->noise_factor * noise[1]);
-        if (isnan(measured->storage_modulus[j])) /* what was not measured is not known */
+        if (isnan(measured->storage_modulus[j])) /* a missing measurement stays missing */
             iso->storage_modulus[j] = (double)NAN;
         if (isnan(measured->loss_modulus[j]))
             iso->loss_modulus[j] = (double)NAN;
@@ -85,7 +86,7 @@ wt_status bootstrap_sweep(const wt_sweep *measured, const wt_master *fit, uint64
             continue;
         shift[k] = true_shift(iso, fit, k, seed);
         status = add_isotherm(iso, fit, k, shift[k], seed, sweep);
-        if (!(s->log_a.standard_error > 0)) /* the reference isotherm: 0 by definition */
+        if (!(s->log_a.standard_error > 0)) /* reference isotherm: 0 by definition */
             at_reference = shift[k];
     }
     for (size_t i = 0; i < fit->n_shifts && !isnan(at_reference); i++)
@@ -158,7 +159,7 @@ static const struct {
     {"slope of the modulus ratio", offsetof(setting, known.ratio_slope), FLOW_DRAW_RATIO_SLOPE},
 };
 
-/* Of the layer only where there is one. */
+/* Returns input i if it has an error and applies, else NULL. */
 static wt_estimate *input_of(setting *s, size_t i)
 {
     wt_estimate *e = (wt_estimate *)((char *)s + inputs[i].offset);

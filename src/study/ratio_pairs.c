@@ -1,5 +1,5 @@
-/* Is the track of one condition, or of one sample, more different from its bulk than that of
- * another? SPDX-License-Identifier: GPL-3.0-or-later */
+/* Test of the difference between the modulus ratios of two conditions or of two samples.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "study/collect.h"
 
 #include "core/base/array.h"
@@ -10,7 +10,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* The customary one, and that of the intervals. */
+/* Significance level of the tests and of the intervals. */
 static const double level = 0.05;
 
 TABLE_ROW(ratio_pairs, RATIO_PAIRS, const char *of, *first, *second; wt_interval ratio;
@@ -21,7 +21,7 @@ TABLE_KEYS(ratio_pairs, RATIO_PAIRS, double pairs, different, undecided;
 typedef struct pair {
     const char *of;
     const collected_case *a, *b;
-    bool of_sample; /* both have it, and their conditions differ */
+    bool of_sample; /* true if both share the sample, and the conditions differ */
     wt_log_ratio_difference difference;
     double holm_p;
     const char *differ;
@@ -53,8 +53,8 @@ static wt_status add_pair(pair_list *list, const collected_case *a, const collec
     return WT_OK;
 }
 
-/* "Yes" after the correction for how many were looked at; "no" needs the whole interval within the
- * margin. */
+/* Assesses all pairs. "yes" requires significance after Holm's correction; "no" requires the whole
+ * interval within the margin. */
 static wt_status judge(pair_list *list, double margin, wt_error *err)
 {
     double *p = malloc(2 * list->n * sizeof *p);
@@ -80,8 +80,8 @@ static const char *own_name(const pair *q, const collected_case *c)
     return q->of_sample ? c->condition : c->sample;
 }
 
-/* By how much narrower the interval of a pair must be, its middle as it is: within the margin, or
- * beside 0. */
+/* Factor by which the interval of a pair must shrink, with the same centre, to lie within the
+ * margin or to exclude 0. */
 static double required_shear_of(const pair *q, double margin)
 {
     const double half = (q->difference.high - q->difference.low) / 2,
@@ -89,7 +89,7 @@ static double required_shear_of(const pair *q, double margin)
     return fmin(room > 0 ? half / room : (double)INFINITY, half / off);
 }
 
-/* How many times the spots of today. */
+/* Advises a multiple of the present number of spots. */
 static void ask_for_more(const pair_list *list, double margin, char *text, size_t size)
 {
     const pair *nearest = NULL;

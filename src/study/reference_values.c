@@ -1,4 +1,5 @@
-/* Friction in long double. SPDX-License-Identifier: GPL-3.0-or-later */
+/* Reference values of friction in long double arithmetic.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "study/reference_values.h"
 
 #include <complex.h>
@@ -14,8 +15,8 @@ static real pi(void)
 
 /* ---- angle ----------------------------------------------------------------------------------- */
 
-/* The isotropic modulus that the surface of a transversely isotropic solid feels like: the
- * compliances of plane strain, as in the theory. */
+/* Equivalent isotropic modulus of the surface of a transversely isotropic solid, from the
+ * plane-strain compliances. */
 static complex_real surface_modulus(const reference_material *m, complex_real e)
 {
     const real nu = (real)m->poisson_ratio;
@@ -44,17 +45,17 @@ typedef struct integrals {
     real j1, j2;
 } integrals;
 
-/* 4 int sin(u) E''(w sin u) du and 4 int |E|^2 du from a to b, u = pi/2 - phi; tanh-sinh, which
- * does not mind an end where the integrand has no slope. */
+/* 4 int sin(u) E''(w sin u) du and 4 int |E|^2 du from a to b, with u = pi/2 - phi, by a tanh-sinh
+ * rule. It tolerates singular derivatives at the limits. */
 static integrals integrate_segment(const reference_material *m, real w, real a, real b)
 {
-    enum { HALF = 40 }; /* nodes of tanh-sinh to each side */
+    enum { HALF = 40 }; /* nodes on each side */
     const real step = 3.2L / HALF, middle = (a + b) / 2, half = (b - a) / 2;
     integrals sum = {0, 0};
     for (int i = -HALF; i <= HALF; i++) {
         const real t = step * i, s = pi() / 2 * sinhl(t), c = coshl(s);
         const real weight = 4 * half * step * pi() / 2 * coshl(t) / (c * c);
-        /* from the nearer end, so that a small u keeps its digits */
+        /* measured from the nearer limit, so that a small u keeps its digits */
         const real from_end = half * expl(-fabsl(s)) / c;
         const real u = i < 0 ? a + from_end : i > 0 ? b - from_end : middle;
         const complex_real e = modulus_at(m, w * sinl(u));
@@ -64,7 +65,7 @@ static integrals integrate_segment(const reference_material *m, real w, real a, 
     return sum;
 }
 
-/* Cut where w sin(u) is a relaxation frequency. */
+/* Splits the integral where w sin(u) is a relaxation frequency. */
 static integrals integrate_angle(const reference_material *m, real w)
 {
     integrals sum = {0, 0};
@@ -91,14 +92,14 @@ void reference_angle(const reference_material *material, double w, double *j1, d
 
 /* ---- wavenumber ------------------------------------------------------------------------------ */
 
-enum { MOST_ORDER = 24 }; /* as the header says */
+enum { MOST_ORDER = 24 }; /* as stated in the header */
 
 typedef struct rule {
     int n;
     real node[MOST_ORDER], weight[MOST_ORDER];
 } rule;
 
-/* Gauss-Legendre on [0, 1], by Newton's method. */
+/* Gauss-Legendre rule on [0, 1] by Newton's method. */
 static rule gauss_legendre(int n)
 {
     rule r = {.n = n};
@@ -127,7 +128,7 @@ typedef struct state {
     real variance, hysteresis;
 } state;
 
-/* q^4 C and the angular integrals at q0 exp(t). */
+/* Returns q^4 C times the angular integrals at q0 exp(t). */
 static integrals integrand_at(const state *s, real t)
 {
     const reference_contact *c = s->c;
@@ -158,8 +159,8 @@ static void add_panel(state *s, real a, real b)
     s->variance += variance_between(s, a, b);
 }
 
-/* Panels that grow by this factor from the beginning, where the area changes fastest, up to the
- * widest. How good they are is told by two orders. */
+/* Subintervals that grow by this factor from the start, where the area changes fastest, up to the
+ * largest width. Two orders determine their accuracy. */
 #define GROWTH 3
 #define FIRST 1e-9L
 #define WIDEST 0.7L

@@ -1,6 +1,6 @@
-/* Constants that cases have in common: of a compound, of a severity, or of all cases. One weighted
- * fit of each, and whether one value suffices: by chi-squared, corrected for how many are looked
- * at, it differs; it is one where all that it is of lies within the margin.
+/* Constants shared by the cases of a compound, of a condition, or by all cases. Each constant has a
+ * weighted fit. It differs by a chi-squared test with Holm's correction; one value suffices if all
+ * deviations are within the margin.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "study/collect.h"
 
@@ -14,7 +14,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* The customary one, and that of the intervals. */
+/* Significance level of the tests and of the intervals. */
 static const double level = 0.05;
 
 TABLE_ROW(shared_constants, SHARED_CONSTANTS, const char *constant, *over, *of; wt_interval value;
@@ -27,7 +27,8 @@ TABLE_ROW(shared_members, SHARED_MEMBERS, const char *constant, *over, *of, *mem
 typedef enum common_to { OF_SAMPLE, OF_CONDITION, OF_ALL, COMMONS } common_to;
 static const char *const common_words[COMMONS] = {"sample", "condition", "all cases"};
 
-/* What it is a constant of, as far as the theory goes, and of all cases. */
+/* Unit of each constant, and the level at which the theory shares it. All constants are also tested
+ * over all cases. */
 static const struct {
     const char *unit;
     common_to of;
@@ -35,7 +36,7 @@ static const struct {
                          [SHARED_SHEAR] = {"Pa", OF_ALL},
                          [SHARED_RATE] = {"1", OF_SAMPLE}};
 
-/* Values that may be one. */
+/* Values that are tested for equality. */
 typedef struct shared_row {
     shared_constant constant;
     common_to common;
@@ -56,9 +57,9 @@ typedef struct shared_rows {
 
 static const char one[] = "one", differs[] = "differs", open_[] = "cannot say";
 
-/* ---- which ----------------------------------------------------------------------------------- */
+/* ---- selection ------------------------------------------------------------------------------- */
 
-/* What the case of a value has in common with others; NULL: nothing is said of it. */
+/* Returns the name that the case of a value shares with others; NULL if it is not stated. */
 static const char *name_of(const case_value *v, common_to common)
 {
     const char *name = common == OF_SAMPLE      ? v->of->sample
@@ -76,8 +77,8 @@ static void free_rows(shared_rows *list)
     free(list->rows);
 }
 
-/* The row of all values that have the name of this one; none if it is not the first of them, or
- * alone. */
+/* Adds the row of all values that share the name of this one. Adds none unless this value is the
+ * first of several. */
 static wt_status add_row(shared_rows *list, const case_values *values, size_t first,
                          common_to common, wt_error *err)
 {
@@ -100,7 +101,7 @@ static wt_status add_row(shared_rows *list, const case_values *values, size_t fi
     const bool room = row.members != NULL && row.deviation != NULL && grown != NULL;
     const shared_row *last = list->n > 0 ? &list->rows[list->n - 1] : NULL;
     const bool again = common == OF_ALL && last != NULL && last->constant == v->constant &&
-                       last->n == row.n; /* all cases are of one sample or condition */
+                       last->n == row.n; /* all cases belong to one sample or condition */
     if (room && row.n > 1 && row.members[0] == v && !again) {
         list->rows[list->n++] = row;
         return WT_OK;
@@ -110,7 +111,7 @@ static wt_status add_row(shared_rows *list, const case_values *values, size_t fi
     return room ? WT_OK : wt_fail(err, WT_E_MEMORY, "out of memory");
 }
 
-/* Of each constant those of what it is a constant of, then all. */
+/* Lists the rows of each constant at its own level, then over all cases. */
 static wt_status find_rows(shared_rows *list, const case_values *values, wt_error *err)
 {
     wt_status status = WT_OK;
@@ -144,8 +145,7 @@ static wt_status fit_row(shared_row *row, wt_error *err)
     return status;
 }
 
-/* The first of them whose error is not whole, which makes any verdict one of part of it; or NULL.
- */
+/* Returns the first value with an incomplete error, which prevents a verdict, or NULL. */
 static const case_value *partly_known(const shared_row *row)
 {
     for (size_t i = 0; i < row->n; i++)
@@ -154,7 +154,7 @@ static const case_value *partly_known(const shared_row *row)
     return NULL;
 }
 
-/* Is all that it is of within the margin? */
+/* True if all values are within the margin. */
 static bool is_within(const shared_row *row, double margin)
 {
     const double least = log1p(margin);
@@ -186,8 +186,8 @@ static wt_status judge(shared_rows *list, wt_error *err)
 
 /* ---- tables ---------------------------------------------------------------------------------- */
 
-/* By how much smaller errors would settle a row, its values as they are: all of them within the
- * margin, or one beside 0. */
+/* Factor by which the errors of a row must shrink, with the same values, for a verdict: all within
+ * the margin, or one that excludes 0. */
 static double required_shear_of(const shared_row *row, double margin)
 {
     double within = 0, beside = (double)INFINITY;
@@ -248,7 +248,7 @@ static void say_left_out(const case_values *values, char *text, size_t size)
 static wt_status list_constants(const shared_rows *list, const case_values *values,
                                 wt_table **table, wt_error *err)
 {
-    char left_out[sizeof values->left_out + 32] = ""; /* and how many more */
+    char left_out[sizeof values->left_out + 32] = ""; /* plus the number of further values */
     char settled_by[900] = "";
     double different = 0, undecided = 0;
     table_writer w = table_begin(&shared_constants_schema, err);

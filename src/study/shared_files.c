@@ -1,4 +1,4 @@
-/* Files that cases have in common: by them errors are one, and what was measured counts once.
+/* Input files that cases share: their errors are shared, and a shared measurement counts once.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "study/collect.h"
 
@@ -43,7 +43,7 @@ static bool inputs_of(const collected_case *c, table_view *inputs)
            inputs->table != NULL;
 }
 
-/* A result that names no files may be of any. */
+/* A result without a list of files may share any. */
 files_common files_in_common(const collected_case *a, const collected_case *b,
                              const char *const *roles, size_t n_roles)
 {
@@ -58,7 +58,8 @@ files_common files_in_common(const collected_case *a, const collected_case *b,
     return most;
 }
 
-/* Sources as the table of them begins (NULL: it has none of that), and the roles of their files. */
+/* Prefix of the sources of each category (NULL if the table has none), and the roles of their
+ * files. */
 static const struct {
     const char *source;
     const char *roles[5];

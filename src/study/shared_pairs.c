@@ -1,7 +1,7 @@
-/* Critical energy and specific wear rate that cases have in common, together: what fixes one of
- * them moves the other, so that each alone may agree where the pair does not. Cases are set side by
- * side by what is known of their layers in the same way. SPDX-License-Identifier: GPL-3.0-or-later
- */
+/* Critical energy and specific wear rate that cases share as a pair. Their errors are correlated,
+ * so that each number may agree where the pair does not. Only values by the same method are
+ * compared.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "study/collect.h"
 
 #include "core/base/arena.h"
@@ -17,7 +17,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* The customary one, and that of the intervals. */
+/* Significance level of the tests and of the intervals. */
 static const double level = 0.05;
 
 TABLE_ROW(collected_constants, COLLECTED_CONSTANTS, const char *sample, *condition, *by;
@@ -28,14 +28,14 @@ TABLE_ROW(shared_pairs, SHARED_PAIRS, const char *by, *over, *of; double n;
 TABLE_KEYS(shared_pairs, SHARED_PAIRS, const char *one_of_all; double tests;
            const char *left_out, *settled_by; double margin;)
 
-/* What a case knows in one way, a row of its table "identification". */
+/* Pair of a case by one method: a row of its table "identification". */
 typedef struct reported_pair {
     const collected_case *of;
-    const char *by, *lacks; /* lacks: "" where its error is whole */
+    const char *by, *lacks; /* lacks: missing errors, or "" */
     constant_pair pair;
     wt_interval energy, wear;
     constant_axes axes;
-    bool fixed; /* there is a covariance */
+    bool fixed; /* the covariance is known */
 } reported_pair;
 
 typedef struct reported_pairs {
@@ -48,7 +48,7 @@ typedef enum common_to { OF_SAMPLE, OF_CONDITION, OF_ALL, COMMONS } common_to;
 static const char *const common_words[COMMONS] = {"sample", "condition", "all cases"};
 static const char one[] = "one", differs[] = "differs", open_[] = "cannot say";
 
-/* The tests of a row. */
+/* Tests of a row. */
 enum { OF_ENERGY, OF_WEAR, OF_PAIR_, TESTS };
 
 typedef struct pair_row {
@@ -58,7 +58,7 @@ typedef struct pair_row {
     size_t n;
     shared_pair found;
     double p[TESTS], holm_p[TESTS];
-    double off[OF_PAIR_]; /* the farthest end of what a case is off the shared value */
+    double off[OF_PAIR_]; /* largest deviation from the shared value, as a limit of its interval */
     const char *says[TESTS];
 } pair_row;
 
@@ -67,11 +67,11 @@ typedef struct pair_rows {
     size_t n;
 } pair_rows;
 
-/* ---- what the cases tell --------------------------------------------------------------------- */
+/* ---- pairs of the cases ---------------------------------------------------------------------- */
 
 static pair_covariance covariance_of(double energy, double wear, double correlation)
 {
-    /* what does not scatter has no correlation */
+    /* a number without scatter has no correlation */
     return (pair_covariance){energy * energy, wear * wear,
                              isnan(correlation) ? 0 : correlation * energy * wear};
 }
@@ -104,7 +104,8 @@ static reported_pair pair_at(const collected_case *c, const table_view *v, size_
         covariance_of(identification_get(v, row, IDENTIFICATION_ENERGY_INPUTS),
                       identification_get(v, row, IDENTIFICATION_WEAR_INPUTS),
                       identification_get(v, row, IDENTIFICATION_CORRELATION_INPUTS))};
-    /* correlation 1 leaves no pair, and a result that lacks these columns no part in common */
+    /* a correlation of 1 determines no pair, and results without these columns have no shared
+     * component */
     t.fixed = of_energy > 0 && of_wear > 0 && fabs(correlation) < 1 - 1e-6 &&
               !isnan(t.pair.inputs.energy + t.pair.inputs.wear);
     return t;
@@ -146,7 +147,7 @@ static wt_status list_told(const reported_pairs *told, wt_table **table, wt_erro
     return table_end(&w, table);
 }
 
-/* ---- which are set side by side -------------------------------------------------------------- */
+/* ---- selection ------------------------------------------------------------------------------- */
 
 static const char *name_of(const reported_pair *t, common_to common)
 {
@@ -163,7 +164,8 @@ static bool same(const reported_pair *a, const reported_pair *b, common_to commo
            strcmp(of_a, of_b) == 0;
 }
 
-/* The row of which this is the first; none if it is alone, or all cases are of one name. */
+/* Adds the row of which this pair is the first. Adds none if it is the only pair, or if all cases
+ * share one name. */
 static wt_status add_row(const reported_pairs *told, size_t first, common_to common,
                          pair_rows *rows, arena *memory, wt_error *err)
 {
@@ -193,7 +195,7 @@ static double part_of(pair_covariance c, int which)
     return which == OF_ENERGY ? c.energy : c.wear;
 }
 
-/* One of the two constants by itself. */
+/* Fits one of the two constants. */
 static wt_status fit_one(pair_row *row, const bool *common, int which, arena *memory, wt_error *err)
 {
     const size_t n = row->n;
@@ -239,8 +241,7 @@ static wt_status fit_row(pair_row *row, arena *memory, wt_error *err)
     return status;
 }
 
-/* The first of them whose error is not whole, which makes any verdict one of part of it; or NULL.
- */
+/* Returns the first pair with an incomplete error, which prevents a verdict, or NULL. */
 static const reported_pair *partly_known(const pair_row *row)
 {
     for (size_t i = 0; i < row->n; i++)
@@ -282,8 +283,8 @@ static wt_interval shared_interval(double value, double variance)
                          exp(value + NORMAL_95 * error)};
 }
 
-/* Across the combination that is known least the pair is known well, and only what moves that
- * combination tells more of the two. */
+/* The pair is known well across its least-known combination. Only data that change this combination
+ * determine both constants. */
 static void say_settled_by(const pair_rows *rows, char *text, size_t size)
 {
     for (size_t i = 0; i < rows->n; i++) {
@@ -304,7 +305,7 @@ static void say_settled_by(const pair_rows *rows, char *text, size_t size)
     }
 }
 
-/* Of all cases, by every way to know them: where one differs the layers do. */
+/* Overall verdict over all cases and all methods: "differs" if any method differs. */
 static const char *say_all(const pair_rows *rows)
 {
     const char *said = NULL;

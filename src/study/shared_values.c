@@ -1,6 +1,6 @@
-/* What each case tells of the constants that cases may have in common: the specific wear rate as
- * measured, the shear stress that its record asks for, and the factor of its moduli over a decade
- * of the indentation rate. SPDX-License-Identifier: GPL-3.0-or-later */
+/* Values of the constants that cases may share: measured specific wear rate, required shear stress
+ * of the record, and change of the modulus over a decade of the indentation rate.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "study/collect.h"
 
 #include "core/base/array.h"
@@ -47,7 +47,7 @@ static void leave_out(case_values *from, const case_value *v, const char *why)
                  shared_words[v->constant], name, why);
 }
 
-/* Is it of what was measured for a value that was taken before? Then it counts once. */
+/* True if the value uses the measurement of an earlier value. It is then excluded. */
 static bool counts_already(case_values *to, const case_value *value)
 {
     const char *const roles[SHARED_N] = {
@@ -74,7 +74,8 @@ static bool counts_already(case_values *to, const case_value *value)
     return false;
 }
 
-/* Known of its logarithm; one that is not above 0, or whose interval reaches it, has none. */
+/* Adds a value by its logarithm. A value that is not above 0, or whose interval includes 0, is
+ * excluded. */
 static wt_status add_value(case_values *to, case_value value, wt_error *err)
 {
     const char *why = NULL;
@@ -98,7 +99,7 @@ static wt_status add_value(case_values *to, case_value value, wt_error *err)
     return WT_OK;
 }
 
-/* Infinite: there is none. */
+/* Infinite if the value is not positive. */
 static double logarithm(double value)
 {
     return isnan(value) || value > 0 ? log(value) : (double)INFINITY;
@@ -119,7 +120,7 @@ static wt_status add_wear(const collected_case *c, case_values *to, wt_error *er
         err);
 }
 
-/* The variance of the shear stress by files, which other cases may have, too. */
+/* Components of the variance of the shear stress by category of input files. */
 static wt_status find_parts(const collected_case *c, double variance, double parts[SHARED_FILES_N],
                             wt_error *err)
 {
@@ -135,7 +136,8 @@ static wt_status find_parts(const collected_case *c, double variance, double par
     return status;
 }
 
-/* What the error of the shear stress lacks; that of the one used is no part of it. */
+/* Names the missing errors of the required shear stress. The stated shear stress does not
+ * contribute. */
 static const char *lacks_of(const collected_case *c)
 {
     const char *lacks = friction_words(&c->tables.friction, FRICTION_KEY_ERROR_LACKS);
@@ -160,26 +162,26 @@ static wt_status add_shear(const collected_case *c, case_values *to, wt_error *e
     return status == WT_OK ? add_value(to, v, err) : status;
 }
 
-/* ---- moduli against rate --------------------------------------------------------------------- */
+/* ---- modulus against rate -------------------------------------------------------------------- */
 
-/* Sums over the curves of a spot, of x = lg rate and y = ln E. */
+/* Sums over the curves of a spot, with x = lg rate and y = ln E. */
 typedef struct spot_line {
     const char *spot;
     double n, x, y, xx, xy;
 } spot_line;
 
-/* The curves that were taken: of lg rate and angular frequency of equal loading. */
+/* Range of the used curves: lg rate, and angular frequency of equal loading. */
 typedef struct rate_ends {
     double low, high, slow, fast;
 } rate_ends;
 
-/* What a fit by the spectrum of the DMA takes from it is the modulus at 1/(loading time) over what
- * the whole way in sees. Where |E*| is as omega^n and the force as depth^m that is
- * Gamma(m + 1 - n) but for a factor, so that an error of n goes into ln E with the digamma function
- * there: at m = 2 and n = 0, of cones and pyramids, the largest of all tips and rubbers. */
+/* Effect of an error of the exponent n of |E*| ~ omega^n on ln E of a fit with the DMA spectrum.
+ * The fit takes the modulus at 1/(loading time) over the response to the whole loading. With force
+ * ~ depth^m this factor is Gamma(m + 1 - n). The error of n enters ln E by the digamma function.
+ * Its largest value is at m = 2 and n = 0 (cones, pyramids). */
 static const double per_exponent = 0.9228;
 
-/* The error of n at a frequency, by that of tan delta = tan(pi n / 2) of the nearest point; NaN: no
+/* Error of n at a frequency, from that of tan delta = tan(pi n / 2) at the nearest point. NaN if no
  * point has one. */
 static double exponent_error(const table_view *master, double frequency)
 {
@@ -198,11 +200,10 @@ static double exponent_error(const table_view *master, double frequency)
     return error;
 }
 
-/* Of the slope, by the spectrum that all curves have in common, which no scatter of spots shows: 0
- * where the curves are without it, or the result does not hold what it was made of; NaN where that
- * has no errors. At another
- * temperature frequencies are reduced ones, of which the shift is not known here: then the largest
- * error of all. */
+/* Variance of the slope due to the spectrum that all curves share, which the scatter of the spots
+ * does not show. 0 without a spectrum or if the result lacks its source; NaN if the spectrum has no
+ * errors. At another temperature the frequencies are reduced, with an unknown shift. The largest
+ * error is used then. */
 static wt_status find_spectrum_variance(const collected_case *c, const table_view *curves,
                                         const rate_ends *ends, double *variance, wt_error *err)
 {
@@ -213,7 +214,8 @@ static wt_status find_spectrum_variance(const collected_case *c, const table_vie
     *variance = 0;
     if (status != WT_OK || isnan(temperature) || master.n_rows == 0 || !(ends->high > ends->low))
         return status;
-    const double close = 0.01, /* K, of temperatures that are written in both scales */
+    const double close = 0.01, /* [K] tolerance of temperatures that were converted between
+                                  scales */
         reference = master_curve_value(&master, MASTER_CURVE_KEY_REFERENCE_TEMPERATURE).value;
     double slow = exponent_error(&master, ends->slow), fast = exponent_error(&master, ends->fast);
     if (!(fabs(temperature - reference) < close))
@@ -276,8 +278,8 @@ static wt_status add_curve(const table_view *curves, size_t row, spot_line **lin
     return WT_OK;
 }
 
-/* The spots are the units: the line of each by least squares, and how these scatter. Rates that
- * differ by less than this (decades, standard deviation) make no line. */
+/* Mean slope over the spots, which are the units. Each slope is fitted by least squares. A spread
+ * of rates below this standard deviation [decade] determines no slope. */
 static wt_log_ratio slope_of(const spot_line *lines, size_t n)
 {
     const double least = 0.05;

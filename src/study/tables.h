@@ -1,9 +1,10 @@
-/* The columns and keys of the tables that compare groups of curves. Included by tables.h alone.
+/* Columns and keys of the tables that compare groups of curves. Only the table registry includes
+ * this file.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #ifndef WT_STUDY_TABLES_H
 #define WT_STUDY_TABLES_H
 
-/* A group without an accepted curve has its numbers of curves alone. */
+/* A group without an accepted curve has only its numbers of curves. */
 #define MODULUS_GROUPS_COLUMNS(X)                                                                  \
     X(MODULUS_GROUPS_GROUP, AS(group), "group of curves", TEXT, LABEL("Group"))                    \
     X(MODULUS_GROUPS_N, IN(data, n), "accepted curves", NUMBER, LABEL("Curves n"))                 \
@@ -25,7 +26,7 @@
                      SPARSE)
 #define MODULUS_GROUPS_KEYS(X)
 
-/* What the standard error of a group consists of. All errors are relative ones of the modulus, so
+/* Components of the standard error of a group. All errors are relative errors of the modulus, so
  * that their squares add. */
 #define MODULUS_BUDGET_COLUMNS(X)                                                                  \
     X(MODULUS_BUDGET_GROUP, AS(group), "group of curves", TEXT, LABEL("Group"))                    \
@@ -48,7 +49,7 @@
       NUMBER, SHOWS(part.error), LABEL("Error of the modulus"), MISSING("not known"))              \
     X(MODULUS_BUDGET_SHARE, AS(share), "of the variance of all together", NUMBER,                  \
       LABEL("Share of the variance"))
-/* One of each for every group. */
+/* Each key exists once for every group. */
 #define MODULUS_BUDGET_KEYS(X)                                                                     \
     X(MODULUS_BUDGET_KEY_MODULUS, "modulus_", SI(MODULUS), SHOWS(modulus), OPTIONAL)               \
     X(MODULUS_BUDGET_KEY_DF, "df_", NUMBER, SHOWS(df), OPTIONAL)                                   \
@@ -56,7 +57,7 @@
     X(MODULUS_BUDGET_KEY_HIGH, "high_", SI(MODULUS), SHOWS(high), OPTIONAL)                        \
     X(MODULUS_BUDGET_KEY_SAYS, "says_", TEXT, SHOWS(says), OPTIONAL)
 
-/* A row that cannot be compared has its numbers of curves and spots alone. */
+/* A row that cannot be compared has only its numbers of curves and spots. */
 #define COMPARISON_COLUMNS(X)                                                                      \
     X(COMPARISON_RATE_LOW, "rate_low", "smallest indentation rate of the row; nan = all rates",    \
       SI(VELOCITY), SHOWS(low), LABEL("Indentation rate from"), LIKE(COMPARISON_RATE_HIGH),        \
@@ -89,8 +90,7 @@
     X(COMPARISON_EFFECT_SIZE, IN(c, effect_size), "Hedges' g of ln E", NUMBER,                     \
       LABEL("Effect size"), SPARSE)
 
-/* What the ratio of all rates is has a key too, if there is one; the degrees of freedom of its
- * error are missing where it is normal. */
+/* The ratio of all rates also has a key, if it exists. A normal error has no degrees of freedom. */
 #define COMPARISON_KEYS(X)                                                                         \
     X(COMPARISON_KEY_DIFFERS, AS(differs), TEXT, LABEL("Does the wear track differ"))              \
     X(COMPARISON_KEY_SETTLED_BY, AS(settled_by), TEXT, LABEL("What would settle it"), OPTIONAL)    \
@@ -119,7 +119,8 @@
     X(COMPARISON_KEY_SPOT_SCATTER, AS(spot_scatter), NUMBER,                                       \
       LABEL("Scatter from spot to spot, as given"), OPTIONAL)
 
-/* Measured, and of layers that have the ratio of the moduli at the depth of the curves. */
+/* Measured moduli, and those of layers with the same ratio of the moduli at the depth of the
+ * curves. */
 #define TRACK_LAYER_COLUMNS(X)                                                                     \
     X(TRACK_LAYER_CURVE, AS(curve), "bulk, track, or a layer of which thickness", TEXT,            \
       LABEL("Curve"))                                                                              \
@@ -129,7 +130,7 @@
       LABEL("Modulus at this depth"), INTERVAL(TRACK_LAYER_LOW, TRACK_LAYER_HIGH))                 \
     INTERVAL_COLUMNS(X, TRACK_LAYER, "", SI(MODULUS))
 
-/* Ends are there where there is one. */
+/* A limit is missing if it does not exist. */
 #define TRACK_LAYER_KEYS(X)                                                                        \
     X(TRACK_LAYER_KEY_ALLOWED, AS(allowed), TEXT, LABEL("Thickness that the curves allow"))        \
     X(TRACK_LAYER_KEY_AGREE, AS(agree), TEXT, LABEL("Do curves and theory agree on it"), OPTIONAL) \
@@ -171,7 +172,7 @@
     INTERVAL_COLUMNS(X, MODULUS_RATE, "", SI(MODULUS))
 #define MODULUS_RATE_KEYS(X)
 
-/* Without a frequency there is no DMA modulus to compare with. */
+/* Without a frequency there is no DMA modulus for the comparison. */
 #define DMA_COMPARISON_COLUMNS(X)                                                                  \
     X(DMA_COMPARISON_GROUP, AS(group), "bulk or track", TEXT, LABEL("Group"))                      \
     X(DMA_COMPARISON_EQUIVALENT_FREQUENCY, "equivalent_frequency",                                 \

@@ -1,6 +1,6 @@
-/* The columns and keys of the table "work_precision": the error that a method makes and the time it
- * takes, as its setting is swept. Included by tables.h alone. SPDX-License-Identifier:
- * GPL-3.0-or-later */
+/* Columns and keys of the table "work_precision": error and time of each method as its setting is
+ * swept. Only the table registry includes this file.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #ifndef WT_STUDY_TABLES_ACCURACY_H
 #define WT_STUDY_TABLES_ACCURACY_H
 

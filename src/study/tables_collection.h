@@ -1,5 +1,5 @@
-/* The columns and keys of the tables that set the results of cases side by side, by sample and
- * condition. Included by tables.h alone. SPDX-License-Identifier: GPL-3.0-or-later */
+/* Columns and keys of the tables of collected cases. Only the table registry includes this file.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #ifndef WT_STUDY_TABLES_COLLECTION_H
 #define WT_STUDY_TABLES_COLLECTION_H
 
@@ -7,7 +7,7 @@
     X(ID##_SAMPLE, AS(sample), "rubber", TEXT, LABEL("Sample"))                                    \
     X(ID##_CONDITION, AS(condition), "what made the wear track", TEXT, LABEL("Condition"))
 
-/* A row for each case. */
+/* Each row is a case. */
 #define COLLECTION_COLUMNS(X)                                                                      \
     OF_CASE(X, COLLECTION)                                                                         \
     VALUE_AND_INTERVAL(X, COLLECTION_RATIO, "modulus_ratio",                                       \
@@ -27,7 +27,7 @@
     X(COLLECTION_KEY_SAMPLES, AS(samples), NUMBER, LABEL("Samples"))                               \
     X(COLLECTION_KEY_CONDITIONS, AS(conditions), NUMBER, LABEL("Conditions"))
 
-/* A block for each group of each case. */
+/* Each block is a group of a case. */
 #define COLLECTED_MODULUS_COLUMNS(X)                                                               \
     OF_CASE(X, COLLECTED_MODULUS)                                                                  \
     X(COLLECTED_MODULUS_PLACE, AS(place), "bulk, or the condition of the track", TEXT)             \
@@ -37,7 +37,7 @@
                        SI(MODULUS), SHOWS(modulus))
 #define COLLECTED_MODULUS_KEYS(X)
 
-/* A block for each case. */
+/* Each block is a case. */
 #define COLLECTED_FRICTION_COLUMNS(X)                                                              \
     OF_CASE(X, COLLECTED_FRICTION)                                                                 \
     X(COLLECTED_FRICTION_VELOCITY, AS(velocity), "sliding velocity", SI(VELOCITY))                 \
@@ -50,7 +50,7 @@
       "friction coefficient with the modified layer", NUMBER, SPARSE)
 #define COLLECTED_FRICTION_KEYS(X) X(COLLECTED_FRICTION_KEY_PART, AS(part), TEXT)
 
-/* A block for each group of each case, and for each sample one of every group beside the cases. */
+/* Each block is a group of a case, or a paired group of a sample. */
 #define COLLECTED_FORCE_COLUMNS(X)                                                                 \
     OF_CASE(X, COLLECTED_FORCE)                                                                    \
     X(COLLECTED_FORCE_PLACE, AS(place),                                                            \
@@ -66,7 +66,7 @@
       LABEL("Common to"))                                                                          \
     X(ID##_OF, AS(of), "its name", TEXT, LABEL("Of"))
 
-/* A constant that cases may have in common in each row. */
+/* Each row is a constant that cases may share. */
 #define SHARED_CONSTANTS_COLUMNS(X)                                                                \
     OF_CONSTANT(X, SHARED_CONSTANTS)                                                               \
     VALUE_AND_INTERVAL(X, SHARED_CONSTANTS_VALUE, "value", "shared value, weighted by the errors", \
@@ -97,7 +97,7 @@
     X(SHARED_CONSTANTS_KEY_MARGIN, "constant_margin", PLAIN, SHOWS(margin),                        \
       LABEL("Margin within which they are alike"))
 
-/* What it is the shared value of: a block for each. */
+/* Each block has the values behind one shared value. */
 #define SHARED_MEMBERS_COLUMNS(X)                                                                  \
     OF_CONSTANT(X, SHARED_MEMBERS)                                                                 \
     X(SHARED_MEMBERS_MEMBER, AS(member), "case, and bulk or track where it has both", TEXT,        \
@@ -111,7 +111,7 @@
                        NUMBER, SHOWS(ratio), LABEL("Over the shared one"), SPARSE)
 #define SHARED_MEMBERS_KEYS(X)
 
-/* Critical energy and wear rate, and how they hang together. */
+/* Critical energy and wear rate with their correlation. */
 #define OF_PAIR(X, ID)                                                                             \
     NUMBER_AND_INTERVAL(X, ID##_ENERGY, "critical_energy", "critical energy U_c",                  \
                         SI(ENERGY_DENSITY), "Critical energy", SHOWS(energy))                      \
@@ -126,14 +126,14 @@
     X(ID##_TIGHT_ERROR, IN(axes, tight_error), "standard deviation across it, of the logarithms",  \
       NUMBER, DIGITS(2), LABEL("Across it"), SPARSE)
 
-/* A way to know them of each case in each row. */
+/* Each row is one method of determination for one case. */
 #define COLLECTED_CONSTANTS_COLUMNS(X)                                                             \
     OF_CASE(X, COLLECTED_CONSTANTS)                                                                \
     X(COLLECTED_CONSTANTS_BY, AS(by), "what they are known by", TEXT, LABEL("By"))                 \
     OF_PAIR(X, COLLECTED_CONSTANTS)
 #define COLLECTED_CONSTANTS_KEYS(X)
 
-/* What cases may have in common, known in one way, in each row. */
+/* Each row is a pair that cases may share, by one method. */
 #define SHARED_PAIRS_COLUMNS(X)                                                                    \
     X(SHARED_PAIRS_BY, AS(by), "what they are known by", TEXT, LABEL("By"))                        \
     X(SHARED_PAIRS_OVER, AS(over),                                                                 \
@@ -167,8 +167,7 @@
     X(SHARED_PAIRS_KEY_MARGIN, "constant_margin", PLAIN, SHOWS(margin),                            \
       LABEL("Margin within which they are alike"))
 
-/* Of every two cases of one sample or of one condition: by how much more the track of the first
- * differs from its bulk. */
+/* Each row is a pair of cases of one sample or condition: the ratio of their modulus ratios. */
 #define RATIO_PAIRS_COLUMNS(X)                                                                     \
     X(RATIO_PAIRS_OF, AS(of), "sample or condition that both have", TEXT, LABEL("Of"))             \
     X(RATIO_PAIRS_FIRST, AS(first), "condition or sample of the first", TEXT, LABEL("First"))      \

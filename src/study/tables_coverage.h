@@ -1,5 +1,6 @@
-/* The columns and keys of the table "coverage": how often the intervals that are stated hold where
- * the truth is known. Included by tables.h alone. SPDX-License-Identifier: GPL-3.0-or-later */
+/* Columns and keys of the table "coverage": share of stated intervals that contain the true value.
+ * Only the table registry includes this file.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #ifndef WT_STUDY_TABLES_COVERAGE_H
 #define WT_STUDY_TABLES_COVERAGE_H
 

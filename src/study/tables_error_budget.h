@@ -1,5 +1,6 @@
-/* The columns and keys of the table "error_budget": what each error costs a number, and what it
- * takes to know it. Included by tables.h alone. SPDX-License-Identifier: GPL-3.0-or-later */
+/* Columns and keys of the table "error_budget": contribution of each error to a number, and its
+ * computation time. Only the table registry includes this file.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #ifndef WT_STUDY_TABLES_ERROR_BUDGET_H
 #define WT_STUDY_TABLES_ERROR_BUDGET_H
 

@@ -1,9 +1,10 @@
-/* The columns and keys of the table "what_if": each choice of the model moved, one at a time.
- * Included by tables.h alone. SPDX-License-Identifier: GPL-3.0-or-later */
+/* Columns and keys of the table "what_if": one model choice changed at a time. Only the table
+ * registry includes this file.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #ifndef WT_STUDY_TABLES_WHAT_IF_H
 #define WT_STUDY_TABLES_WHAT_IF_H
 
-/* A number with its change against that of the first row. */
+/* A number with its change relative to the first row. */
 #define WHAT_IF_NUMBER(X, ID, name, words, unit, heading)                                          \
     X(ID, name, words, unit, LABEL(heading))                                                       \
     X(ID##_CHANGE, name "_change", "its relative change", NUMBER, LABEL("change"))

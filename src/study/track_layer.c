@@ -1,6 +1,5 @@
-/* The thickness of the layer that the curves of bulk and track allow, beside that of the theory or
- * one that is given: what the tables of indentation hold of depth, the test of each thickness, and
- * the modulus against depth of bulk, track and such layers.
+/* Thickness of the layer that the curves of bulk and track allow, compared with that of the theory
+ * or a stated one. The result includes the modulus against depth of bulk, track and such layers.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "study/track_layer.h"
 
@@ -15,9 +14,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* ---- what the tables hold -------------------------------------------------------------------- */
+/* ---- input tables ---------------------------------------------------------------------------- */
 
-/* The curves of a group that tell of depth, with what all share. */
+/* Curves of a group with depth information, and their common quantities. */
 typedef struct depth_group {
     wt_depth_curve *curve; /* [n] */
     size_t n;
@@ -43,7 +42,8 @@ static void read_curve(const table_view *t, size_t row, double k, wt_depth_curve
             indentation_get(t, row, (indentation_column)(INDENTATION_MISFIT_WAVE_1 + i));
 }
 
-/* A table may be of any hand: a curve without all of it tells nothing. */
+/* True if all quantities exist. A table may come from another program; its incomplete curves are
+ * skipped. */
 static bool is_whole(const wt_depth_curve *c)
 {
     bool whole = c->modulus > 0 && c->depth > 0 && c->baseline > 0 && c->window > 0 &&
@@ -75,12 +75,13 @@ static wt_status read_curves(const table_view *t, double k, depth_group *g, wt_e
     return WT_OK;
 }
 
-/* The law of a layer is that of incompressible rubber. At 0.45 a thin sample on a rigid base is 8 %
- * less stiff by the base than at 0.5 (Dimitriadis et al., Biophys. J. 82 (2002) 2798), a layer on
- * rubber of less contrast less. */
+/* Smallest Poisson's ratio. The law of a layer holds for incompressible rubber. At 0.45, a thin
+ * sample on a rigid base is 8 % less stiff than at 0.5 (Dimitriadis et al., Biophys. J. 82 (2002)
+ * 2798). A layer on rubber has less contrast and a smaller error. */
 static const double least_poisson_ratio = 0.45;
 
-/* tip: in words; NULL: none that is understood. */
+/* Finds the reason why the curves cannot be used. tip: its description; NULL if it is not
+ * understood. */
 static track_obstacle obstacle_of(const depth_group *g, const char *tip, double k)
 {
     if (!g->there)
@@ -133,7 +134,8 @@ static void group_clear(depth_group *g)
     wt_contact_table_free(g->contact);
 }
 
-/* The one given, with an error of which normal ones have 95 %, else that of the theory. */
+/* Finds the thickness from another source: the stated one with a normal 95 % interval, else that of
+ * the theory. */
 static wt_status find_other(const wt_compare_job *job, const wt_table *layer, track_other *to,
                             wt_error *err)
 {
@@ -163,7 +165,7 @@ static wt_status find_other(const wt_compare_job *job, const wt_table *layer, tr
     return WT_OK;
 }
 
-/* ---- the table ------------------------------------------------------------------------------- */
+/* ---- table ----------------------------------------------------------------------------------- */
 
 TABLE_ROW(track_layer, TRACK_LAYER, const char *curve; double depth; wt_interval modulus;)
 
@@ -200,7 +202,7 @@ static void set_keys(table_writer *t, const track_findings *f)
                              .both_high = finite_or_none(f->agreement.high),
                              .over_low = finite_or_none(f->agreement.ratio_low),
                              .over_high = finite_or_none(f->agreement.ratio_high)};
-    if (p->says == WT_ALLOWS_BETWEEN) /* at no depth it is that of the layer */
+    if (p->says == WT_ALLOWS_BETWEEN) /* at depth 0 it is the modulus of the layer */
         keys.layer_ratio = wt_layer_modulus(p, f->ratio, thickness, 0);
     track_layer_set_keys(t, &keys);
 }
@@ -212,12 +214,14 @@ static void measured_rows(table_writer *t, const char *name, const wt_curve_dept
         TABLE_ADD(track_layer, t, name, d->depth[i], d->modulus[i]);
 }
 
-/* A layer that has the ratio of the moduli, as deep as one sees it go over into the bulk. */
+/* Adds the modulus against depth of a layer with the measured ratio, down to depths where it
+ * approaches the bulk. */
 static void layer_rows(table_writer *t, const char *name, const track_findings *f, double bulk,
                        double thickness)
 {
-    enum { POINTS = 40 };                                     /* of a line that looks smooth */
-    const double shallow = 0.2, deep = 5, none = (double)NAN; /* of the depth; of the thickness */
+    enum { POINTS = 40 };                                     /* points of a smooth curve */
+    const double shallow = 0.2, deep = 5, none = (double)NAN; /* multiples of the depth and of
+                                                                 the thickness */
     const wt_layer_profile *p = &f->profile;
     const double from = log(shallow * p->depth), to = log(fmax(deep * thickness, 2 * p->depth));
     if (!(thickness > 0) || !isfinite(thickness) || !(bulk > 0))
@@ -255,14 +259,14 @@ static wt_status make_table(const depth_group group[2], const track_findings *f,
     return table_end(&t, table);
 }
 
-/* ln of the ratio with its error, which the comparison knows. */
+/* Computes ln of the ratio with its error by the comparison, and the profile. */
 static wt_status find_profile(const depth_group group[2], const wt_compare_job *job,
                               const wt_job *work, track_findings *f, wt_error *err)
 {
     const wt_contact_table *const contact[2] = {group[0].contact, group[1].contact};
     const wt_depth_curve *const curve[2] = {group[0].curve, group[1].curve};
     const size_t n[2] = {group[0].n, group[1].n};
-    wt_job quiet = *work; /* the comparison itself has given its warnings */
+    wt_job quiet = *work; /* the comparison itself has issued its warnings */
     quiet.log = NULL;
     wt_estimate log_ratio;
     double df;

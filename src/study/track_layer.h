@@ -1,4 +1,5 @@
-/* Inside the comparison: the thickness that curves allow beside another one. Internal to study.
+/* Parts of the comparison: thickness of the layer that the curves allow, and that of another
+ * source. Internal to study.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #ifndef WT_STUDY_TRACK_LAYER_H
 #define WT_STUDY_TRACK_LAYER_H
@@ -6,15 +7,15 @@
 #include "indentation/law/tip.h"
 #include "weartrack/flow.h"
 
-/* Known otherwise; the value NaN: nothing is. */
+/* Thickness from another source; the value is NaN if there is none. */
 typedef struct track_other {
     wt_interval thickness;
-    const char *from;  /* where from, in words; "" = nowhere */
-    const char *lacks; /* of what its error lacks, or NULL */
-    bool given;        /* by the user; else by the theory */
+    const char *from;  /* description of the source; "" if none */
+    const char *lacks; /* missing component of its error, or NULL */
+    bool given;        /* true if the user states it, false if it is that of the theory */
 } track_other;
 
-/* Why the curves are not asked, and what would let them be; NULL: they are. */
+/* The reason why the curves are not used, with a remedy. NULL if they are used. */
 typedef struct track_obstacle {
     const char *why, *settled_by;
 } track_obstacle;
@@ -23,8 +24,8 @@ typedef struct track_findings {
     wt_layer_profile profile;
     wt_layer_agreement agreement;
     track_other other;
-    double ratio, ratio_error; /* of the moduli, ln of it its error; NaN: not known */
-    const wt_tip *tip;         /* of the track; NULL: not known */
+    double ratio, ratio_error; /* ratio of the moduli; error of its logarithm; NaN if unknown */
+    const wt_tip *tip;         /* of the track; NULL if unknown */
     track_obstacle obstacle;
 } track_findings;
 

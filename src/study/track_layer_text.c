@@ -1,5 +1,6 @@
-/* What the curves say of the thickness of the layer, whether another source agrees, and what would
- * settle it, in words. SPDX-License-Identifier: GPL-3.0-or-later */
+/* Text on the thickness that the curves allow, its agreement with another source, and how to
+ * decide.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "study/track_layer.h"
 
 #include "core/base/clocale.h"
@@ -24,7 +25,7 @@ typedef struct range_words {
     char text[80];
 } range_words;
 
-/* Of thicknesses; an end that is not above zero or not finite is none. */
+/* Formats a range of thicknesses. A limit that is not positive or not finite is omitted. */
 static range_words between(double low, double high)
 {
     range_words w;
@@ -39,7 +40,7 @@ static range_words between(double low, double high)
     return w;
 }
 
-/* ---- what would settle it -------------------------------------------------------------------- */
+/* ---- remedies -------------------------------------------------------------------------------- */
 
 typedef struct wanted_contact {
     const wt_tip *tip;
@@ -54,7 +55,7 @@ static bool is_too_shallow(double depth, void *user)
     return slope < 2 * w->radius;
 }
 
-/* Of this tip for a contact radius; infinity where 1000 times as deep does not do. */
+/* Depth of this tip for a contact radius. Infinity if 1000 times the depth does not suffice. */
 static double depth_for(const wt_tip *tip, double depth, double radius)
 {
     enum { HALVES = 50 }; /* to 1e-12 of the depth */
@@ -66,8 +67,8 @@ static double depth_for(const wt_tip *tip, double depth, double radius)
     return high;
 }
 
-/* Another contact radius, as an indentation of this tip or as a sphere. The force that the layer is
- * told from the bulk by goes with contact radius over thickness. */
+/* Advises another contact radius, as a depth of this tip or as a sphere. The sensitivity to a layer
+ * depends on contact radius over thickness. */
 static void say_contact(const track_findings *f, double radius, char *text, size_t size)
 {
     const wt_layer_profile *p = &f->profile;
@@ -93,7 +94,7 @@ static bool has_no_error(const track_findings *f)
     return isnan(f->other.thickness.low) || isnan(f->other.thickness.high);
 }
 
-/* Whether an error that is not known may change the verdict. */
+/* True if an unknown error may change the verdict. */
 static bool is_partial(const track_findings *f)
 {
     return f->other.lacks != NULL && (f->agreement.differ || f->agreement.agree);
@@ -142,7 +143,7 @@ static void say_settled(const track_findings *f, char *text, size_t size)
         clocale_print(text, size, "more curves on more spots in bulk and track");
 }
 
-/* ---- what the curves allow ------------------------------------------------------------------- */
+/* ---- allowed thickness ----------------------------------------------------------------------- */
 
 static void say_allowed(const track_findings *f, char *text, size_t size)
 {
@@ -194,7 +195,7 @@ static void say_allowed(const track_findings *f, char *text, size_t size)
                       metres(p->thickness.value).text, low.text, high.text, depth.text);
 }
 
-/* ---- whether both agree ---------------------------------------------------------------------- */
+/* ---- agreement with another source ----------------------------------------------------------- */
 
 static void say_agree(const track_findings *f, char *text, size_t size)
 {

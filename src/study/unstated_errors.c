@@ -1,7 +1,7 @@
-/* What else than the rubber would make the ratio what it is: a worn tip, a pull, another
- * temperature, which nobody stated or in which the groups differ. Where one of them is plausible,
- * the ratio does not tell that the rubber differs, nor that it does not. SPDX-License-Identifier:
- * GPL-3.0-or-later */
+/* Causes other than the rubber that would produce the ratio: tip wear, adhesion, or another
+ * temperature, not stated or different between the groups. If one of them is plausible, the ratio
+ * neither shows nor excludes a difference of the rubber.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "study/compare.h"
 
 #include "core/base/clocale.h"
@@ -12,26 +12,25 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Customary, of evidence that one group is pulled, or has a misfit, against what was stated. */
+/* Significance level for adhesion or lack of fit in one group, against the stated conditions. */
 static const double level = 0.05;
-/* Of a misfit that few curves do not show well: one that is not there costs a "cannot say", one
- * that is not seen a wrong yes, so that the customary error of the second kind is that of the
- * first. */
+/* Significance level for the lack of fit of few curves. A missed effect causes a wrong yes, a false
+ * alarm only a "cannot say". The level is therefore the usual type II error. */
 static const double few_level = 0.2;
-/* A heuristic: probes of 10 to 20 nm are found with 50 to 100 nm after scans over hard fillers, and
- * with more than that images show the tip instead of the sample. */
+/* [m] Heuristic limit of tip wear: probes of 10 to 20 nm reach 50 to 100 nm after scans over hard
+ * fillers. Blunter tips image themselves instead of the sample. */
 static const double worn_radius = 100e-9;
-/* A heuristic: rooms in which people measure lie between 15 and 35 degC, and a scanner warms the
- * sample by some kelvin of that. */
+/* [K] Heuristic range of laboratory temperatures, 15 to 35 degC. A scanner warms the sample by a
+ * few kelvin. */
 static const double room_span = 20;
-/* -d ln aT/dT [1/K] by Williams, Landel and Ferry (J. Am. Chem. Soc. 77 (1955) 3701: 17.44, 51.6 K)
- * 70 K above the glass transition, where rubbers with theirs at -45 degC are at room temperature;
- * it is 0.22 at 45 K and 0.07 at 120 K. */
+/* [1/K] -d ln aT/dT by Williams, Landel and Ferry (J. Am. Chem. Soc. 77 (1955) 3701: 17.44, 51.6 K)
+ * at 70 K above the glass transition. A rubber with a transition at -45 degC is there at room
+ * temperature. The slope is 0.22 at 45 K and 0.07 at 120 K. */
 static const double shift_slope = 0.14;
-/* d ln E/d ln rate where the curves do not tell it: of a loss factor of 0.1, that of many compounds
- * at room temperature, 2/pi times. */
+/* d ln E/d ln rate if the curves do not determine it: 2/pi times a loss factor of 0.1, that of many
+ * compounds at room temperature. */
 static const double usual_rate_slope = 0.06;
-/* Of a stated standard error, both ways. */
+/* Multiple of a stated standard error on both sides. */
 static const double two_errors = 2;
 
 static double mean_of(const double *values, size_t n)
@@ -45,8 +44,7 @@ static double mean_of(const double *values, size_t n)
     return known > 0 ? sum / known : (double)NAN;
 }
 
-/* The mean curve of a group at its largest force; the lever is stiff where nothing says how stiff.
- */
+/* Mean curve of a group at its largest force. Without a spring constant the cantilever is rigid. */
 typedef struct pressed {
     double depth, force, bending;
 } pressed;
@@ -67,18 +65,18 @@ static void add_words(char *to, size_t size, const char *words)
     snprintf(to + used, size - used, "%s%s", used > 0 ? "; " : "", words);
 }
 
-/* What a cause may make of ln(ratio) at most: that of the rubber may be as much lower or higher. */
+/* Largest effect of a cause on ln(ratio): the ratio of the rubber may be lower or higher by it. */
 typedef struct cause_effect {
     double lower, higher;
 } cause_effect;
 
-/* Of a cause that makes the modulus of a group larger. */
+/* Effect of a cause that increases the modulus of a group. */
 static cause_effect effect_in(int group, double effect)
 {
     return group == 1 ? (cause_effect){effect, 0} : (cause_effect){0, effect};
 }
 
-/* A cause that would do it, in words; `plausible` ones are those that keep the answer back. */
+/* Adds a cause to the text. Plausible causes prevent a verdict. */
 static void add_cause(unstated_errors *u, bool plausible, cause_effect effect, const char *words,
                       const char *settled_by)
 {
@@ -98,8 +96,8 @@ static double contact_force(const wt_tip *tip, double depth)
     return g;
 }
 
-/* The radius that makes the modulus larger by exp(effect), and what it leaves of the curves;
- * infinity where none up to ten times the largest worn one does. */
+/* Finds the radius that increases the modulus by exp(effect), and its lack of fit. Infinity if ten
+ * times the largest worn radius does not suffice. */
 static wt_status radius_for(const wt_tip *tip, const pressed *at, double effect, double *radius,
                             double *misfit, wt_error *err)
 {
@@ -119,8 +117,8 @@ static wt_status radius_for(const wt_tip *tip, const pressed *at, double effect,
     return status;
 }
 
-/* A tip wears, and nothing but the misfit of the curves shows it: that of each beside the other
- * group's, and that of all together. */
+/* p values of tip wear in each group, which only the lack of fit shows: relative to the other
+ * group, and over all curves. */
 static wt_status misfit_chances(const compare_pair *p, double chance[2], wt_error *err)
 {
     const wt_group_data *bulk = &p->data[0], *track = &p->data[1];
@@ -134,7 +132,7 @@ static wt_status misfit_chances(const compare_pair *p, double chance[2], wt_erro
     return status;
 }
 
-/* The largest radius that a tip may have. */
+/* Returns the largest plausible tip radius. */
 static double largest_radius(const wt_group_data *d, const wt_compare_job *job, const wt_tip *tip)
 {
     const double stated = d->common_error[WT_COMMON_RADIUS];
@@ -143,9 +141,8 @@ static double largest_radius(const wt_group_data *d, const wt_compare_job *job, 
     return job->tip_error > 0 ? tip->radius : worn_radius;
 }
 
-/* Whether the curves leave as much as a worn tip would: nearer to that than to nothing. Of few
- * curves only the chance is known. A tip that is stated is as stated unless the curves say
- * otherwise. */
+/* True if the lack of fit is closer to that of a worn tip than to zero. Few curves give only a p
+ * value. A stated tip is accepted unless the curves contradict it. */
 static bool shows_wear(const wt_group_data *d, const wt_compare_job *job, double misfit,
                        double chance)
 {
@@ -155,7 +152,7 @@ static bool shows_wear(const wt_group_data *d, const wt_compare_job *job, double
     return isnan(d->pooled_misfit) ? chance < few_level : d->pooled_misfit > misfit / 2;
 }
 
-/* It is blunter in the group that seems stiffer; where none does, in the one with the misfit. */
+/* The tip is blunter in the group that seems stiffer, or else in the one with the lack of fit. */
 static wt_status add_tip(const compare_pair *p, const wt_compare_job *job, bool within,
                          unstated_errors *u, wt_error *err)
 {
@@ -203,7 +200,7 @@ typedef struct pulled_depth {
     double depth, share;
 } pulled_depth;
 
-/* Whether the force at a share of the whole depth is not above that of the pull. */
+/* True if the force at a share of the whole depth does not exceed the adhesion. */
 static bool is_within_pull(double x, void *user)
 {
     const pulled_depth *p = user;
@@ -211,16 +208,16 @@ static bool is_within_pull(double x, void *user)
     return !(contact_force(p->tip, x * all) > p->share * contact_force(p->tip, all));
 }
 
-/* What a pull that acts throughout the contact makes of the modulus at most: the contact begins
- * where the force has made up for it, and what is left is fitted as all. Without a tip that is
- * known forces go with the square of the depth. */
+/* Largest effect of an adhesion that acts throughout the contact. The apparent contact begins where
+ * the force compensates it, and the remainder is fitted as the whole curve. Without a known tip the
+ * force is quadratic in the depth. */
 static double pull_effect(const wt_tip *tip, double depth, double force, double pull)
 {
     const double share = pull / (force + pull);
     double low = 0, high = 1;
     if (tip == NULL)
         return log1p(sqrt(share)) - log1p(-sqrt(share));
-    /* of the depth whose force is that of the pull, and the curve's own beyond it */
+    /* the whole depth is the depth at compensation plus the apparent depth */
     pulled_depth of = {tip, depth, share};
     root_halve(is_within_pull, &of, &low, &high, 0, BISECTIONS);
     const double all = depth / (1 - low);
@@ -249,7 +246,7 @@ static double pull_for(const wt_tip *tip, double depth, double force, double eff
     return high;
 }
 
-/* Where the curves of one group are pulled more than those of the other. */
+/* Adds adhesion if it is larger in one group. */
 static wt_status add_pull(const compare_pair *p, bool within, unstated_errors *u, wt_error *err)
 {
     const double *const values[2] = {p->data[0].pull, p->data[1].pull};
@@ -285,9 +282,8 @@ static wt_status add_pull(const compare_pair *p, bool within, unstated_errors *u
     return WT_OK;
 }
 
-/* Of ln E against temperature where no DMA says it: at a loading time the modulus of a rubber is
- * that of times longer or shorter by its shift factor, so that the slope is that against ln rate
- * times that of ln aT; or, where there is next to none, that of the rubber's elasticity, 1/T. */
+/* d ln E/dT without a DMA. By time-temperature superposition it is the slope against ln rate times
+ * that of ln aT. If that is small, it is the rubber elasticity, 1/T. */
 static double slope_of_rubbers(const compare_row *row)
 {
     const wt_estimate *rate = &row->c.rate_slope;
@@ -297,7 +293,7 @@ static double slope_of_rubbers(const compare_row *row)
     return fall > rise ? -fall : rise;
 }
 
-/* Where no temperature is stated. */
+/* Adds the temperature if none is stated. */
 static wt_status add_temperature(const compare_pair *p, const wt_compare_job *job,
                                  const wt_job *work, const compare_row *row, bool within,
                                  unstated_errors *u, wt_error *err)
@@ -306,7 +302,7 @@ static wt_status add_temperature(const compare_pair *p, const wt_compare_job *jo
                         !isnan(job->temperature_slope.value);
     const bool by_dma = job->rubber != NULL;
     double slope = slope_of_rubbers(row);
-    if (stated || (!by_dma && p->by_factor)) /* no temperature is left in factors */
+    if (stated || (!by_dma && p->by_factor)) /* the factors do not depend on the temperature */
         return WT_OK;
     wt_status status = WT_OK;
     if (by_dma)
@@ -324,8 +320,8 @@ static wt_status add_temperature(const compare_pair *p, const wt_compare_job *jo
                   "temperature is stated)",
                   fabs(needed), needed > 0 ? "warmer" : "colder", by,
                   within ? ", which would hide the margin" : "");
-    /* What would hide a difference as large as the margin must be as large, and of the other sign:
-     * to expect that takes a slope that is known. */
+    /* A hidden difference must be as large as the margin and of the other sign. This is plausible
+     * only with a known slope. */
     const bool plausible = (by_dma || !within) && u->least <= effect;
     add_cause(u, plausible, (cause_effect){effect, effect}, words,
               by_dma ? "the temperature of the curves (indentation-temperature, track-temperature)"
@@ -343,8 +339,8 @@ wt_status compare_find_unsaid(const compare_pair *p, const wt_compare_job *job, 
         return WT_OK;
     const double low = log(c->ratio_low), high = log(c->ratio_high);
     const bool within = !(low > 0) && !(high < 0);
-    /* What takes the yes away: what brings the end of the interval that is next to 1 there. What
-     * takes the no away: what hides a difference as large as the margin. */
+    /* Smallest effect that changes the verdict. A yes needs the nearest limit of the interval at 1;
+     * a no needs a difference as large as the margin. */
     u->least = low > 0 ? low : high < 0 ? -high : log1p(job->margin);
     wt_status status = add_tip(p, job, within, u, err);
     if (status == WT_OK)

@@ -1,5 +1,5 @@
-/* The "what if" job: friction and layer with one choice of the model moved at a time. What can be
- * moved, how far and why is the list `choices`.
+/* One-at-a-time sensitivity of friction and layer to the model choices. The list `choices` has the
+ * choices, their ranges and reasons.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "study/what_if.h"
 #include "friction/sliding_contact.h"
@@ -15,19 +15,19 @@
 
 /* ---- choices --------------------------------------------------------------------------------- */
 
-enum { MOST_TRIED = 4, WORDS = 64 }; /* as the longest list below; one line of a table */
+enum { MOST_TRIED = 4, WORDS = 64 }; /* length of the longest list below; length of a text */
 
 /* A choice without a measurement. */
 typedef struct choice {
-    const char *words; /* in a sentence, after "if the" */
-    const char *unit;  /* of its value; NULL: it has words */
-    const char *why;   /* why it is moved so far */
-    const char *lacks; /* why it does not apply, where it does not; NULL: not worth a word */
+    const char *words; /* name in a sentence, after "if the" */
+    const char *unit;  /* unit of its value; NULL if it is a text */
+    const char *why;   /* reason of the range */
+    const char *lacks; /* reason why it does not apply; NULL: not reported */
     bool (*applies)(const setting *s);
-    double (*value)(const setting *s);                /* if it has a unit, */
-    void (*name)(const setting *s, char text[WORDS]); /* else */
+    double (*value)(const setting *s);                /* if it has a unit */
+    void (*name)(const setting *s, char text[WORDS]); /* otherwise */
     void (*move)(const setting *used, double tried, setting *s);
-    double tried[MOST_TRIED]; /* [n] factors, values, or which of what can be chosen */
+    double tried[MOST_TRIED]; /* [n] factors, values, or indices */
     size_t n;
 } choice;
 
@@ -44,7 +44,7 @@ static bool applies_always(const setting *s)
     return true;
 }
 
-/* The densities are known between these wavenumbers only. */
+/* Range of wavenumbers of the measured densities. */
 static double first_known(const setting *s)
 {
     return s->surface.self_affine ? 0 : s->surface.spectrum.wavenumber[0];
@@ -56,7 +56,7 @@ static double last_known(const setting *s)
     return s->surface.self_affine ? (double)INFINITY : p->wavenumber[p->n - 1];
 }
 
-/* The roll-off of a self-affine law, else the cut-off on the other side. */
+/* Returns the roll-off of a self-affine law, else the other cut-off. */
 static double roll_off(const setting *s, double other)
 {
     return s->surface.self_affine ? s->surface.qr : other;
@@ -67,7 +67,7 @@ static double value_q1(const setting *s)
     return s->surface.q1;
 }
 
-/* No surface has waves below the size of a molecule [m]. */
+/* [m] No surface has waves below the size of a molecule. */
 #define SHORTEST_WAVE 1e-9
 
 static void move_q1(const setting *used, double factor, setting *s)
@@ -83,7 +83,7 @@ static bool is_measured(const setting *s)
     return s->surface.reliable_to > 0;
 }
 
-/* As far as its spectrum goes: beyond that its law would have to be asked for. */
+/* Moves q1 to the end of the measured spectrum. A law beyond it would need another parameter. */
 static void move_measured_end(const setting *used, double where_steep, setting *s)
 {
     const double end = where_steep > 0 ? used->surface.steep : used->surface.reliable_to;
@@ -96,7 +96,7 @@ static double value_q0(const setting *s)
     return s->surface.q0;
 }
 
-/* A law without a roll-off is tied to its q0. */
+/* False for a law without a roll-off, which is tied to its q0. */
 static bool has_q0(const setting *s)
 {
     return !s->surface.self_affine || s->surface.qr > s->surface.q0;
@@ -157,7 +157,7 @@ static double value_conductivity(const setting *s)
     return s->sliding.flash.diffusivity * s->sliding.flash.heat_capacity;
 }
 
-/* With the heat capacity as it is, which rubbers differ in by little. */
+/* Changes the diffusivity at constant heat capacity, which varies little between rubbers. */
 static void move_conductivity(const setting *used, double factor, setting *s)
 {
     s->sliding.flash.diffusivity = factor * used->sliding.flash.diffusivity;
@@ -173,7 +173,7 @@ static void move_contact_size(const setting *used, double factor, setting *s)
     s->sliding.flash.contact_size = factor * used->sliding.flash.contact_size;
 }
 
-/* Else it is not what the surface feels. */
+/* False if the anisotropic constants replace it. */
 static bool has_poisson(const setting *s)
 {
     const wt_rubber *r = &s->rubber;
@@ -193,7 +193,7 @@ static void move_poisson(const setting *used, double tried, setting *s)
     s->given = NULL;
 }
 
-/* A thickness that is put in moves with nothing. */
+/* False for a stated thickness, which does not change. */
 static bool has_profile(const setting *s)
 {
     return s->has_layer && isnan(s->layer.observed_thickness.value);
@@ -207,7 +207,7 @@ static void name_profile(const setting *s, char text[WORDS])
         clocale_print(text, WORDS, "incompressible, m = %.3g", s->layer.local_friction);
 }
 
-/* Below 0: without local friction, and exponential. */
+/* A value below 0 means the exponential profile without local friction. */
 static void move_profile(const setting *used, double local_friction, setting *s)
 {
     (void)used;
@@ -299,7 +299,7 @@ static const choice choices[] = {
      TRIED(1)},
 };
 
-/* "2e5", where C has 2e+05. */
+/* Formats "2e5" instead of "2e+05". */
 static void short_number(double value, char text[WORDS])
 {
     clocale_print(text, WORDS, "%.3g", value);
@@ -323,21 +323,21 @@ static void name_choice(const choice *c, const setting *s, char text[WORDS])
         snprintf(text + length, WORDS - length, " %s", c->unit);
 }
 
-/* What a setting comes to. */
+/* Result of one case variant. */
 typedef struct outcome {
     const choice *choice; /* NULL: as used */
     setting setting;
     char used[WORDS], tried[WORDS];
     double number[SETTING_NUMBERS];
-    double error;   /* the largest relative numerical one of them */
-    double seconds; /* NaN: not timed */
+    double error;   /* largest relative numerical error */
+    double seconds; /* [s] NaN if not timed */
     char note[512];
 } outcome;
 
-/* ---- all of them ----------------------------------------------------------------------------- */
+/* ---- all choices ----------------------------------------------------------------------------- */
 
 typedef struct what_if {
-    wt_job work; /* of one setting */
+    wt_job work; /* options of one case variant */
     outcome *outcomes;
     size_t n;
 } what_if;
@@ -350,7 +350,7 @@ static wt_status compute_outcome(outcome *o, const wt_job *work, wt_error *err)
     const wt_status status = setting_compute(&o->setting, work, number, err);
     for (size_t k = 0; k < SETTING_NUMBERS; k++) {
         o->number[k] = status == WT_OK ? number[k].value : (double)NAN;
-        if (fabs(o->number[k]) > 0) /* fmax leaves out NaN */
+        if (fabs(o->number[k]) > 0) /* fmax skips NaN */
             o->error = fmax(o->error, number[k].numerical_error / fabs(o->number[k]));
     }
     return status;
@@ -390,7 +390,7 @@ static outcome *add_outcome(what_if *w, const choice *c, const setting *s)
     return o;
 }
 
-/* A limit may leave nothing to try on one side. */
+/* Adds the variants of a choice. A limit may exclude one side. */
 static void add_choice(what_if *w, const choice *c, const setting *used)
 {
     char as_used[WORDS], tried[WORDS];
@@ -476,7 +476,7 @@ static void set_left_out(const setting *used, table_writer *t)
         what_if_set_text(t, WHAT_IF_KEY_LEFT_OUT, words);
 }
 
-/* What waves beyond the reliable range of a measured surface give of the hysteresis. */
+/* Sets the share of the hysteresis from waves beyond the reliable range of a measured surface. */
 static void set_share_beyond(const what_if *w, table_writer *t)
 {
     const wt_surface *const s = &w->outcomes[0].setting.surface;
@@ -507,7 +507,7 @@ static wt_status make_table(const what_if *w, wt_table **table, wt_error *err)
     return table_end(&t, table);
 }
 
-/* The choices one by one, for the error budget, and the stage. */
+/* Reports the time of each choice, for the error budget, and of the stage. */
 static void say_cost(const what_if *w, const wt_job *work)
 {
     cost_summary cost = {.items = (double)w->n, .tolerance_asked = work->tolerance};
@@ -522,8 +522,8 @@ static void say_cost(const what_if *w, const wt_job *work)
     cost_report(work, cost);
 }
 
-/* The series of the material over what any of the settings asks of it, before they are computed at
- * the same time. */
+/* Extends the series of the material over the wavenumbers of all variants before they are computed
+ * in parallel. */
 static wt_status cover_all(const what_if *w, const setting *used, wt_error *err)
 {
     wt_sliding sliding = used->sliding;
@@ -552,9 +552,9 @@ wt_status wt_what_if_make(const wt_sliding *sliding, const wt_layer_job *layer,
     if (status != WT_OK)
         return status;
     what_if w = {.work = *work};
-    w.work.threads = 1; /* the settings take the threads */
+    w.work.threads = 1; /* the variants use the threads */
     w.work.replicates = 0;
-    w.work.log = NULL; /* what is to be said of the values as used has been said */
+    w.work.log = NULL; /* warnings about the case as used exist already */
     w.work.progress = (wt_progress){0};
     w.outcomes = new_outcomes(err);
     if (w.outcomes == NULL)

@@ -1,13 +1,13 @@
-/* The choices of the model, each moved alone (internal to the flow room).
+/* One-at-a-time sensitivity to the model choices. Internal to study.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #ifndef WT_STUDY_WHAT_IF_H
 #define WT_STUDY_WHAT_IF_H
 
 #include "study/case_override.h"
 
-/* The settings behind the rows of the table what_if, in their order; the first is as used. One
- * whose `vertical` is another than that of the first is of isotherms that are to be fitted again.
- * *settings is freed with free(). */
+/* Returns the case variants behind the rows of the table "what_if" in the same order; the first is
+ * the case as used. A variant with another `vertical` than the first needs a new fit of the
+ * isotherms. The caller frees *settings with free(). */
 wt_status what_if_settings(const setting *used, setting **settings, size_t *n,
                            wt_error *err) WT_NODISCARD;
 

@@ -1,11 +1,11 @@
-/* What the answer says of a counter surface that was measured.
+/* Summary lines of a case about the measured counter surface.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "case/answer/answer_context.h"
 #include "case/answer/format_number.h"
 
 #include <math.h>
 
-/* What waves that no scan resolves give, where the spectrum was asked to go on to them. */
+/* Appends the contribution of unresolved waves if the spectrum was extrapolated to them. */
 static void tell_beyond(text_builder *t, const answer_context *story)
 {
     const table_view *const what_if = &story->found.what_if;

@@ -1,4 +1,4 @@
-/* Where the spectrum of a surface ends, and what it then is in numbers.
+/* Finds the end of the spectrum of a surface and computes its roughness parameters.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "surface/surface.h"
 
@@ -9,13 +9,14 @@
 #include <math.h>
 #include <stdlib.h>
 
-/* By practice: Lorenz, Persson et al., J. Phys.: Condens. Matter 23 (2011) 175003 and after. */
+/* Rms slope of the usual cutoff: Lorenz, Persson et al., J. Phys.: Condens. Matter 23 (2011)
+ * 175003 and later. */
 const double surface_steep = 1.3;
-/* Shorter waves than 1 nm are no roughness that a rubber could follow. */
+/* Rubber cannot follow waves shorter than 1 nm. */
 static const double shortest_wave = 1e-9;
-/* Where the law is looked along for a slope: an atom. */
+/* Limit of the search for a slope along the law: the size of an atom [m]. */
 static const double atom = 1e-10;
-/* Knots of the law, which is straight between them but for the step to it from the last bin. */
+/* Knots per decade of the law. It is a straight line except for the step from the last bin. */
 enum { LAW_PER_DECADE = 10 };
 
 void surface_knots_clear(surface_knots *knots)
@@ -30,7 +31,7 @@ static double between(const wt_spectrum_bin *a, const wt_spectrum_bin *b, double
     return exp((1 - t) * log(a->density) + t * log(b->density));
 }
 
-/* Bins to `end`, between two of which it may lie, and the law from the last of them to it. */
+/* Builds the knots: the bins up to `end`, interpolated there, and the law beyond the last bin. */
 static wt_status make_knots(const surface_whole *w, double end, surface_knots *to, wt_error *err)
 {
     const wt_surface_spectrum *s = &w->spectrum;
@@ -69,7 +70,8 @@ static wt_status roughness_of(const surface_knots *k, size_t n, wt_roughness **t
     return wt_roughness_table(k->wavenumber, k->density, n, to, err);
 }
 
-/* Where the rms slope reaches `slope`: as measured, else by the law; NaN. */
+/* Finds the wavenumber at which the rms slope reaches `slope`, in the measured range or along
+ * the law. NaN if it is not reached. */
 static wt_status find_slope(const surface_whole *w, double slope, double *end, bool *by_law,
                             wt_error *err)
 {
@@ -92,7 +94,7 @@ static wt_status find_slope(const surface_whole *w, double slope, double *end, b
     return status;
 }
 
-/* ---- numbers of it --------------------------------------------------------------------------- */
+/* ---- roughness parameters -------------------------------------------------------------------- */
 
 typedef double number_of(const wt_roughness *roughness);
 
@@ -108,15 +110,15 @@ static wt_status find_number(const surface_knots *k, number_of *number, double *
 
 enum { NO_SIZE = INT_MAX };
 
-/* What its scatter moves a knot of the spectrum up by, in ln C. */
+/* Returns the standard error of ln C at a knot due to its scatter. */
 static double own_error(const surface_whole *w, size_t i)
 {
     return i < w->knots.n_measured ? sqrt(surface_log_variance(w->spectrum.bins[i].freedom))
                                    : surface_law_error(w, w->knots.wavenumber[i]);
 }
 
-/* What the number is with the knots from `from` to `to` moved up, each by its own error or, of a
- * size, by what its places give. */
+/* Computes the parameter with the knots [from, to) raised by their error, or by the place error
+ * of one scan size. */
 static wt_status move_knots(surface_whole *w, size_t from, size_t to, size_t size,
                             number_of *number, double *moved, wt_error *err)
 {
@@ -136,8 +138,8 @@ static wt_status move_knots(surface_whole *w, size_t from, size_t to, size_t siz
     return status;
 }
 
-/* Adds the squares of what the places make of the number: it is a root of a sum over C, and of
- * scans of several sizes each moves what it has of it. */
+/* Adds the variance of the parameter from place to place. The parameter is the root of an
+ * integral over C. With several scan sizes each contributes separately. */
 static wt_status add_places(surface_whole *w, number_of *number, double value, double *square,
                             wt_error *err)
 {
@@ -155,8 +157,9 @@ static wt_status add_places(surface_whole *w, number_of *number, double value, d
     return status;
 }
 
-/* Every bin is moved by its scatter, which is partly that of the next, all of the law beyond by
- * what its constants have, and all of them by that from place to place. */
+/* Computes a parameter with its standard error. Each bin is raised by its scatter, with the
+ * correlation of neighbours. The whole law is raised by the error of its constants, and all
+ * knots by the place error. */
 static wt_status find_estimate(surface_whole *w, number_of *number, wt_estimate *to, wt_error *err)
 {
     const surface_knots *k = &w->knots;
@@ -168,7 +171,7 @@ static wt_status find_estimate(surface_whole *w, number_of *number, wt_estimate 
     for (size_t i = 0; status == WT_OK && i < k->n_measured; i++) {
         status = move_knots(w, i, i + 1, NO_SIZE, number, &moved, err);
         square += (moved - value) * (moved - value);
-        if (i > 0 && i < w->spectrum.n) /* a cut has the error of the bin that it cuts */
+        if (i > 0 && i < w->spectrum.n) /* an interpolated end has the error of its bin */
             square += 2 * surface_tie_to_next(&w->spectrum, i - 1) * before * (moved - value);
         before = moved - value;
     }
@@ -180,7 +183,7 @@ static wt_status find_estimate(surface_whole *w, number_of *number, wt_estimate 
     return status;
 }
 
-/* ---- the end --------------------------------------------------------------------------------- */
+/* ---- end of the spectrum --------------------------------------------------------------------- */
 
 static wt_status find_end(const wt_topography_job *job, const surface_whole *w, double *end,
                           wt_error *err)

@@ -1,8 +1,6 @@
-/* Figures of a measured surface: its heights, its power spectrum with errors and law, and what of
- * it depends on the direction.
- *
- * SPDX-License-Identifier: GPL-3.0-or-later
- */
+/* Figures of a measured surface: heights, power spectrum with errors and law, and angular
+ * spectrum.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "report/drawing.h"
 
 #include <math.h>
@@ -11,15 +9,15 @@
 
 /* ---- heights --------------------------------------------------------------------------------- */
 
-/* Scans that are drawn, and how many stand side by side. */
+/* Maximum number of drawn scans, and panels in a row. */
 enum { MOST_SCANS = 6, SIDE_BY_SIDE = 2 };
 
-/* One scan, whose rows of a table follow one another. */
+/* One scan; its rows in the table are consecutive. */
 typedef struct drawn_scan {
     const char *name;
     int section;
     value_span x, y, height;
-    double step_x, step_y; /* of a map */
+    double step_x, step_y; /* step of a map [m] */
 } drawn_scan;
 
 static const char *base_name(const char *path)
@@ -32,14 +30,14 @@ static const char *name_of(const figure_drawing *d, double scan)
 {
     const table_view *surfaces = &d->tables->surfaces;
     const bool known = surfaces->table != NULL && scan >= 1 &&
-                       scan < (double)surfaces->n_rows + 1; /* NaN is not */
+                       scan < (double)surfaces->n_rows + 1; /* false for NaN */
     return known ? base_name(surfaces_text(surfaces, (size_t)scan - 1, SURFACES_FILE)) : "";
 }
 
-/* Takes rows [row, end) as data of the figure. */
+/* Loads rows [row, end) as data of the figure. */
 typedef void take_rows(figure_drawing *d, size_t row, size_t end, drawn_scan *to);
 
-/* All scans of a table, up to the most, each row's in the column `scan`. */
+/* Loads the scans of a table, up to MOST_SCANS. The column `scan` has the number of the scan. */
 static size_t take_scans(figure_drawing *d, unsigned scan, take_rows *take,
                          drawn_scan scans[MOST_SCANS])
 {
@@ -49,7 +47,7 @@ static size_t take_scans(figure_drawing *d, unsigned scan, take_rows *take,
         const double number = view_number(t, t->schema, row, scan);
         while (end < t->n_rows && view_number(t, t->schema, end, scan) == number)
             end++;
-        if (end == row) /* no number */
+        if (end == row) /* the scan number is NaN */
             end++;
         scans[n] = (drawn_scan){.name = name_of(d, number),
                                 .section = NO_SECTION,
@@ -78,7 +76,8 @@ static void begin_panels(figure_drawing *d, size_t n, double height)
     text_format(&d->script, "set border 15\nset multiplot layout %zu,%zu\n", below, beside);
 }
 
-/* Below a map: the longest of 1, 2, 5 times a power of ten within a third of its width. */
+/* Draws a scale bar below a map: the longest of 1, 2, 5 times a power of ten within a third of
+ * its width. */
 static void draw_scale_bar(figure_drawing *d, double width)
 {
     const double decade = pow(10, floor(log10(width / 3))), times = width / 3 / decade;
@@ -93,7 +92,8 @@ static void draw_scale_bar(figure_drawing *d, double width)
                 LITERAL(bar));
 }
 
-/* Points in a row of the map that begins at `row`; 0 if the rows up to `end` are no grid. */
+/* Returns the points in a row of the map that begins at `row`, or 0 if the rows up to `end` are
+ * no grid. */
 static size_t width_of_map(const table_view *t, size_t row, size_t end)
 {
     size_t nx = 1;
@@ -109,15 +109,15 @@ static size_t width_of_map(const table_view *t, size_t row, size_t end)
     return (end - row) % nx == 0 ? nx : 0;
 }
 
-/* Heights to a thousandth of the largest one at least: no scale of colour shows more. */
+/* Rounds a height to a thousandth of the largest one. A colour scale does not show more. */
 static double for_colour(double height, double largest)
 {
     const double step = largest > 0 ? pow(10, floor(log10(largest)) - 3) : 1;
-    return rint(height / step) * step; /* whose decimals DATA_DIGITS of the data tidy */
+    return rint(height / step) * step; /* DATA_DIGITS of the data removes further decimals */
 }
 
-/* A map as a table of its heights, a row of the table for a row of the map: a third of what three
- * numbers for each point are. */
+/* Loads a map as a matrix of heights, one row for each row of the map. It needs a third of the
+ * space of three numbers for each point. */
 static void take_map(figure_drawing *d, size_t row, size_t end, drawn_scan *to)
 {
     const table_view *t = d->table;
@@ -160,7 +160,7 @@ static void draw_map(figure_drawing *d, const drawn_scan *s)
     axis_linear(d, "x", "x", &field[HEIGHT_MAP_X], s->x);
     axis_linear(d, "y", "y", &field[HEIGHT_MAP_Y], s->y);
     axis_linear(d, "cb", "Height", &field[HEIGHT_MAP_HEIGHT], s->height);
-    /* the bar tells the scale */
+    /* the bar replaces the tics */
     text_format(&d->script,
                 "set xrange [%s*x_unit:%s*x_unit]\nset yrange [%s*y_unit:%s*y_unit]\n"
                 "unset xtics\nunset ytics\nset xlabel ''\nset ylabel ''\n",

@@ -1,4 +1,4 @@
-/* What the parts of the job of measured surfaces share. Internal to surface.
+/* Internal interface of the surface job: scans, combined spectrum and tables.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #ifndef WT_SURFACE_SURFACE_H
 #define WT_SURFACE_SURFACE_H
@@ -6,82 +6,86 @@
 #include "job/inputs.h"
 #include "surface/numerics/surface_analysis.h"
 
-/* Heights less their form, thinned: a map (none of a profile), and a line of it. */
+/* Heights without their form, thinned for a figure: a map (absent for a profile) and one line. */
 typedef struct surface_view {
     size_t nx, ny, n_line;
     double dx, dy, line_step; /* [m] */
     double *z, *line;         /* [ny * nx], [n_line] */
 } surface_view;
 void surface_view_clear(surface_view *view);
-/* So that the maps of n_scans together are one picture. */
+/* Thins the heights so that the maps of n_scans scans fit into one figure. The caller clears
+ * `to`. */
 wt_status surface_view_make(const wt_height_map *map, wt_surface_form form, size_t n_scans,
                             surface_view *to, wt_error *err) WT_NODISCARD;
 
-/* One height map or profile; heights are let go once its spectrum is known. */
+/* One height map or profile. The heights are freed after its spectrum is computed. */
 typedef struct surface_scan {
-    const char *name; /* of the file; borrowed */
+    const char *name; /* name of the file; borrowed */
     char image[64];
-    wt_height_map map; /* z NULL */
+    wt_height_map map; /* z is NULL */
     wt_surface_heights heights;
     double missing_share;
     wt_surface_spectrum spectrum;
     wt_surface_anisotropy directions;
-    surface_view view; /* if heights are asked for */
+    surface_view view; /* set if heights are requested */
 } surface_scan;
 wt_status surface_view_maps(const surface_scan *scans, size_t n, wt_table **table,
                             wt_error *err) WT_NODISCARD;
 wt_status surface_view_profiles(const surface_scan *scans, size_t n, wt_table **table,
                                 wt_error *err) WT_NODISCARD;
 
-/* The knots of the spectrum that is told: those that were measured, and beyond them the law. */
+/* Knots of the reported spectrum: measured ones, then those of the law. */
 typedef struct surface_knots {
-    size_t n, n_measured; /* the last of these may be `cut` */
+    size_t n, n_measured; /* the last measured knot may be interpolated (`cut`) */
     bool cut;
     double *wavenumber, *density; /* [n] */
 } surface_knots;
 void surface_knots_clear(surface_knots *knots);
 
-/* What the spectrum is as a whole. */
+/* The combined spectrum of all scans with its results. */
 typedef struct surface_whole {
     wt_surface_spectrum spectrum;
     size_t n_maps, n_profiles;
-    wt_surface_spectrum maps; /* of both, that of the height maps alone; else without bins */
-    double profiles_from, profiles_to; /* then, what the profiles tell [rad/m] */
-    wt_interval profiles_ratio;        /* C by them over that by the maps; NaN */
+    wt_surface_spectrum
+        maps; /* spectrum of the height maps if there are both kinds; otherwise without bins */
+    double profiles_from, profiles_to; /* range of the profiles in that case [rad/m] */
+    wt_interval profiles_ratio;        /* ratio of C from profiles to C from maps; NaN: unknown */
     wt_self_affine law;
-    wt_surface_anisotropy directions, fourth; /* of orders 2 and 4 */
+    wt_surface_anisotropy directions, fourth; /* orders 2 and 4 */
     surface_knots knots;
-    double steep; /* where the rms slope reaches that of practice; NaN */
+    double steep; /* wavenumber at which the rms slope reaches surface_steep [rad/m]; NaN: none */
     bool steep_by_law;
-    wt_estimate rms_height, rms_slope; /* of the knots */
-    double extrapolated_share;         /* of the squared slope */
+    wt_estimate rms_height, rms_slope; /* roughness of the knots */
+    double extrapolated_share;         /* extrapolated share of the squared slope */
 } surface_whole;
-/* The spectra of the scans to one. */
+/* Combines the spectra of the scans. */
 wt_status surface_join_scans(const surface_scan *scans, size_t n, surface_whole *to,
                              wt_error *err) WT_NODISCARD;
-/* What tells directions: the height maps, if there are any. */
+/* Returns the spectrum that contains directions: that of the height maps, if there are any. */
 const wt_surface_spectrum *surface_of_maps(const surface_whole *whole);
-/* What profiles add to height maps; "" without either. */
+/* Describes the contribution of profiles to height maps, or "" without either. */
 void surface_print_profiles(const surface_whole *w, char *to, size_t size);
 bool surface_profiles_disagree(const surface_whole *w);
-/* Of the reliable bins, to the end that the job asks for. */
+/* Sets the knots up to the end that the job requests, and the roughness parameters. */
 wt_status surface_end_find(const wt_topography_job *job, const wt_job *work, surface_whole *whole,
                            wt_error *err) WT_NODISCARD;
-/* Correlation of the scatter of a bin with that of the next: a window ties modes to those of other
- * bins. */
+/* Returns the correlation of the scatter of a bin with that of the next. A window correlates
+ * modes of neighbouring bins. */
 double surface_tie_to_next(const wt_surface_spectrum *s, size_t bin);
-/* Standard error of ln C of the law beyond what all of the spectrum has by its places. */
+/* Returns the standard error of ln C of the law, without the place error that the whole spectrum
+ * shares. */
 double surface_law_error(const surface_whole *w, double wavenumber);
-/* Of scans of several sizes, what the places of one give a knot, and what those of all do,
- * likewise; the law beyond has that of the last bin. NaN: not known, or there is one size. */
+/* Standard error of ln C of a knot due to the places of one scan size, or of all sizes. The law
+ * has the error of the last bin. NaN if unknown or with one size. */
 double surface_knot_size(const wt_surface_spectrum *s, size_t knot, size_t size);
 double surface_knot_places(const wt_surface_spectrum *s, size_t knot);
-/* Is it more than scatter? */
+/* Returns true if the anisotropy is significant. */
 bool surface_anisotropic(const wt_surface_anisotropy *directions);
-/* rms slope at which rubber stops following a surface, by practice. */
+/* Rms slope of the usual cutoff, above which rubber does not follow a surface. */
 extern const double surface_steep;
 
-/* params: of the job, for the words of its choices. */
+/* Builds the tables. params: parameters of the job, for the texts of its choices. The caller
+ * clears `tables`. */
 wt_status surface_tables_make(const wt_params *params, const wt_topography_job *job,
                               const surface_scan *scans, size_t n, const surface_whole *whole,
                               wt_topography_tables *tables, wt_error *err) WT_NODISCARD;

@@ -1,5 +1,5 @@
-/* Height maps and profiles to one spectrum, and what profiles are beside height maps: they tell
- * longer waves, and the same ones at other places; of directions they tell nothing.
+/* Combines height maps and profiles to one spectrum and compares them. Profiles add longer waves
+ * and other places, but no directions.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "surface/surface.h"
 
@@ -12,7 +12,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* The profiles among the scans, as one spectrum of the surface. */
+/* Combines the profiles to one spectrum of the surface. */
 static wt_status invert_profiles(const wt_surface_spectrum *const *profiles, size_t n,
                                  wt_surface_spectrum *to, wt_error *err)
 {
@@ -29,7 +29,7 @@ static double log_density(const wt_spectrum_bin *b)
     return log(b->density) - surface_log_bias(b->freedom);
 }
 
-/* Variance of ln C by the scatter of the modes, as the mean of several bins has it of one. */
+/* Returns the variance of ln C due to the mode scatter, as it enters a mean of several bins. */
 static double log_variance(const wt_spectrum_bin *b)
 {
     return surface_log_variance(b->shared_freedom);
@@ -43,14 +43,16 @@ static const wt_spectrum_bin *reliable_bin(const wt_surface_spectrum *s, int ind
     return NULL;
 }
 
-/* What places give ln C of scans of one kind; where those do not tell, what one place of the others
- * has; where neither do, NaN. That the kinds differ is what is asked, and no scatter. */
+/* Returns the place error of ln C of one kind of scan. If it is unknown, the place scatter of
+ * the other kind is used, otherwise NaN. The difference between the kinds is the question, not
+ * scatter. */
 static double places_of(const wt_surface_spectrum *s, const wt_surface_spectrum *others)
 {
     return isnan(s->place_error) ? others->place_reach : s->place_error;
 }
 
-/* C by the profiles over that by the maps, the mean over the bins of both; NaN without any. */
+/* Returns the ratio of C from profiles to C from maps, averaged over shared bins; NaN without
+ * any. */
 static wt_interval find_ratio(const wt_surface_spectrum *profiles, const wt_surface_spectrum *maps)
 {
     double sum = 0, weights = 0;
@@ -87,7 +89,8 @@ wt_status surface_join_scans(const surface_scan *scans, size_t n, surface_whole 
     if (to->n_profiles > 0)
         status = invert_profiles(profiles, to->n_profiles, &inverted, err);
     if (status == WT_OK && both) {
-        wt_error none = WT_ERROR_INIT; /* all of the spectrum is then that of the profiles */
+        wt_error none =
+            WT_ERROR_INIT; /* without reliable maps the profiles are the whole spectrum */
         status = wt_surface_join(of, to->n_maps, &to->maps, &none);
         status = status == WT_E_MEMORY ? wt_fail(err, status, "no memory for a spectrum") : WT_OK;
     }

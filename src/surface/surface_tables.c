@@ -1,4 +1,4 @@
-/* The tables of measured surfaces. SPDX-License-Identifier: GPL-3.0-or-later */
+/* Tables of measured surfaces. SPDX-License-Identifier: GPL-3.0-or-later */
 #include "surface/surface.h"
 
 #include "core/base/clocale.h"
@@ -11,7 +11,7 @@
 #include <math.h>
 #include <string.h>
 
-/* An anisotropy that could be scatter is none. */
+/* Significance level of an anisotropy. */
 static const double least_chance = 0.01;
 
 bool surface_anisotropic(const wt_surface_anisotropy *directions)
@@ -52,7 +52,7 @@ static size_t bin_of(const wt_surface_spectrum *s, size_t knot)
     return knot < s->n ? knot : s->n - 1;
 }
 
-/* Of a scan at one place; NaN: not known, or there is one size. */
+/* Returns the place error of a single scan; NaN if unknown or with one size. */
 static double one_place(const wt_surface_spectrum *s)
 {
     return s->place_error > 0 && s->n_sizes > 1 ? s->place_reach : (double)NAN;
@@ -69,7 +69,7 @@ double surface_knot_places(const wt_surface_spectrum *s, size_t knot)
     return one_place(s) * surface_places_part(s, bin_of(s, knot));
 }
 
-/* As many modes are tied to those of the next bin as to those of the one before. */
+/* A bin is correlated equally with the next and the previous bin. */
 double surface_tie_to_next(const wt_surface_spectrum *s, size_t bin)
 {
     const wt_spectrum_bin *const a = &s->bins[bin], *const b = a + 1;
@@ -89,7 +89,7 @@ double surface_law_error(const surface_whole *w, double wavenumber)
     return sqrt(fmax(alone * alone, all * all - common * common));
 }
 
-/* ---- the spectrum ---------------------------------------------------------------------------- */
+/* ---- power spectrum -------------------------------------------------------------------------- */
 
 static wt_interval of_law(const wt_self_affine *law, double q)
 {
@@ -151,7 +151,8 @@ static void print_directions(const surface_whole *w, char *to, size_t size)
                       a->amplitude, a->chance);
 }
 
-/* What is typed where a law is asked for, from the first bin to the end of the spectrum. */
+/* Formats the option that gives the law to friction, from the first bin to the end of the
+ * spectrum. */
 static void print_option(const surface_whole *w, char *to, size_t size)
 {
     const surface_knots *k = &w->knots;
@@ -164,8 +165,8 @@ static void print_option(const surface_whole *w, char *to, size_t size)
                       w->law.hurst.value, w->law.c0.value);
 }
 
-/* The orders that are more than scatter, as friction takes them. The angles of the texture are from
- * the velocity, here along x: from 0 to a turn over the order. */
+/* Returns the significant orders for friction. The angles of the texture refer to the velocity,
+ * here along x, from 0 to a turn divided by the order. */
 static wt_anisotropy anisotropy_of(const surface_whole *w)
 {
     const wt_surface_anisotropy *const found[] = {&w->directions, &w->fourth};
@@ -180,8 +181,8 @@ static wt_anisotropy anisotropy_of(const surface_whole *w)
     return a;
 }
 
-/* What is typed where friction slides along x; none where directions are alike, or differ by more
- * than two orders can tell. */
+/* Formats the options of anisotropy for sliding along x. The result is "none" if no order is
+ * significant, or if two orders cannot represent the anisotropy. */
 static void print_anisotropy(const surface_whole *w, char *to, size_t size)
 {
     static const char *const names[][2] = {{"anisotropy", "texture-angle"},
@@ -204,7 +205,8 @@ static wt_status make_angular(const surface_whole *w, wt_table **table, wt_error
     const wt_surface_anisotropy *two = &w->directions, *four = &w->fourth;
     table_writer t = table_begin(&angular_spectrum_schema, err);
     for (size_t i = 1; i <= WT_SURFACE_SECTORS; i++) {
-        /* From above -pi/2 to pi/2, as the directions of maxima are: half a turn on is the same. */
+        /* The directions range from -pi/2 (exclusive) to pi/2; half a turn gives the same
+         * direction. */
         const size_t sector = (i + WT_SURFACE_SECTORS / 2) % WT_SURFACE_SECTORS;
         const double phi = ((double)i / WT_SURFACE_SECTORS - 0.5) * M_PI;
         double modes = 0;
@@ -269,8 +271,7 @@ static wt_status make_spectrum(const surface_whole *w, size_t n_scans, wt_table 
     return table_end(&t, table);
 }
 
-/* ---- what the places of each size give it ------------------------------------------------------
- */
+/* ---- place errors by scan size --------------------------------------------------------------- */
 
 static wt_status make_place_errors(const surface_whole *w, wt_table **table, wt_error *err)
 {
@@ -284,7 +285,7 @@ static wt_status make_place_errors(const surface_whole *w, wt_table **table, wt_
     return table_end(&t, table);
 }
 
-/* ---- the scans ------------------------------------------------------------------------------- */
+/* ---- scans ----------------------------------------------------------------------------------- */
 
 static wt_status make_surfaces(const wt_params *params, const wt_topography_job *job,
                                const surface_scan *scans, size_t n, wt_table **table, wt_error *err)

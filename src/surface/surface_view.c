@@ -1,4 +1,4 @@
-/* The heights of a scan as a figure shows them. SPDX-License-Identifier: GPL-3.0-or-later */
+/* Heights of a scan, thinned for a figure. SPDX-License-Identifier: GPL-3.0-or-later */
 #include "surface/surface.h"
 
 #include "core/table/table_rows.h"
@@ -8,7 +8,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Points of a side of all maps of a figure together, and of a line: more than a page shows. */
+/* Maximum points along the side of all maps of a figure, and along a line: more than a page
+ * resolves. */
 enum { MOST_SIDE = 256, MOST_LINE = 2048 };
 
 void surface_view_clear(surface_view *view)
@@ -18,7 +19,7 @@ void surface_view_clear(surface_view *view)
     *view = (surface_view){.nx = 0};
 }
 
-/* Every so many points, so that `most` are left of n. */
+/* Returns the step that leaves at most `most` of n points. */
 static size_t every(size_t n, size_t most)
 {
     return (n - 1) / most + 1;
@@ -72,7 +73,7 @@ wt_status surface_view_make(const wt_height_map *map, wt_surface_form form, size
     return status;
 }
 
-/* ---- the tables ------------------------------------------------------------------------------ */
+/* ---- tables ---------------------------------------------------------------------------------- */
 
 TABLE_ROW(height_map, HEIGHT_MAP, double scan, x, y, height;)
 TABLE_ROW(height_profile, HEIGHT_PROFILE, double scan, x, height;)

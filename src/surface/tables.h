@@ -1,13 +1,14 @@
-/* The columns and keys of the tables of measured surfaces: their power spectrum, what of
- * it depends on the direction, what the scans are, their spectra. Included by tables.h alone.
+/* Columns and keys of the tables of measured surfaces: power spectrum, angular spectrum, scans
+ * and their spectra. Only core/table/registry.h includes this file.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #ifndef WT_SURFACE_TABLES_H
 #define WT_SURFACE_TABLES_H
 
-/* The most that each of a chain of numbers can be tied to the next, and to no other. */
+/* Maximum correlation of each number in a chain with the next one, if it correlates with no
+ * other. */
 #define POWER_SPECTRUM_MOST_TIE 0.5
 
-/* Wavenumber and density have the names by which a spectrum is read. */
+/* Wavenumber and density have the column names that the reader of spectra expects. */
 #define POWER_SPECTRUM_COLUMNS(X)                                                                  \
     X(POWER_SPECTRUM_WAVENUMBER, AS(wavenumber), "wavenumber q = 2 pi / wavelength",               \
       SI(WAVENUMBER), LABEL("Wavenumber"))                                                         \
@@ -74,7 +75,7 @@
     X(POWER_SPECTRUM_KEY_CONVENTION, "convention", TEXT, SHOWS(convention), OPTIONAL)              \
     X(POWER_SPECTRUM_KEY_N_SCANS, "n_scans", PLAIN, SHOWS(n_scans))
 
-/* Of scans of several sizes, what the places of each give the rows of the spectrum. */
+/* Place errors of the rows of the spectrum for each scan size. */
 #define PLACE_ERRORS_COLUMNS(X)                                                                    \
     X(PLACE_ERRORS_SIZE, AS(size),                                                                 \
       "scans that are alike in size and points, counted from the widest", NUMBER)                  \
@@ -87,7 +88,7 @@
       NUMBER, SHOWS(error))
 #define PLACE_ERRORS_KEYS(X)
 
-/* A direction in each row, half a turn of them: the other half is the same. */
+/* One direction in each row over half a turn; the other half is equal. */
 #define ANGULAR_SPECTRUM_COLUMNS(X)                                                                \
     X(ANGULAR_SPECTRUM_DIRECTION, AS(direction), "direction of the wave vector, from x",           \
       SI(ANGLE), LABEL("Direction"))                                                               \
@@ -102,8 +103,8 @@
     X(ANGULAR_SPECTRUM_KEY_CHANCE, AS(chance), NUMBER)                                             \
     X(ANGULAR_SPECTRUM_KEY_CHANCE_FOURTH, AS(chance_fourth), NUMBER)
 
-/* Heights less their form, thinned for a figure; scans are counted from 1 in the order of the table
- * surfaces. */
+/* Heights without their form, thinned for a figure. Scans are counted from 1 in the order of the
+ * table surfaces. */
 #define HEIGHT_MAP_COLUMNS(X)                                                                      \
     X(HEIGHT_MAP_SCAN, AS(scan), "row of the table surfaces", NUMBER)                              \
     X(HEIGHT_MAP_X, AS(x), "place along x, from the first point", SI(LENGTH))                      \
@@ -112,7 +113,7 @@
       SI(LENGTH), SPARSE)
 #define HEIGHT_MAP_KEYS(X)
 
-/* Likewise, along a line: of a map the one in its middle. */
+/* The same heights along a line. A map uses its middle line. */
 #define HEIGHT_PROFILE_COLUMNS(X)                                                                  \
     X(HEIGHT_PROFILE_SCAN, AS(scan), "row of the table surfaces", NUMBER)                          \
     X(HEIGHT_PROFILE_X, AS(x), "place along x, from the first point", SI(LENGTH))                  \
@@ -120,7 +121,7 @@
       "height less the form of the scan; missing: not a number", SI(LENGTH), SPARSE)
 #define HEIGHT_PROFILE_KEYS(X)
 
-/* A scan in each row. Slopes are by forward differences of neighbours. */
+/* One scan in each row. Slopes are forward differences of neighbours. */
 #define SURFACES_COLUMNS(X)                                                                        \
     X(SURFACES_FILE, "file", "file of the scan", TEXT, SHOWS(name), LABEL("File"))                 \
     X(SURFACES_IMAGE, AS(image), "name of the image in it", TEXT)                                  \
@@ -163,7 +164,7 @@
     X(SURFACES_KEY_FORM, AS(form), TEXT)                                                           \
     X(SURFACES_KEY_WINDOW, AS(window), TEXT)
 
-/* Names of their own, so that nobody takes them for the spectrum of the surface. */
+/* Distinct column names prevent confusion with the spectrum of the surface. */
 #define SCAN_SPECTRA_COLUMNS(X)                                                                    \
     X(SCAN_SPECTRA_FILE, "file", "file of the scan", TEXT)                                         \
     X(SCAN_SPECTRA_WAVENUMBER, "bin_wavenumber", "geometric mean of the wavenumbers of its modes", \

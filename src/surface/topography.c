@@ -1,4 +1,4 @@
-/* The job of measured surfaces: height maps and profiles to one power spectrum.
+/* The job of measured surfaces: converts height maps and profiles to one power spectrum.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "core/base/param.h"
 #include "core/base/range_text.h"
@@ -9,9 +9,9 @@
 #include <math.h>
 #include <stdlib.h>
 
-/* Less than this changes friction by less than the scatter of a spectrum does. A heuristic. */
+/* A smaller anisotropy changes friction by less than the scatter of a spectrum. Heuristic. */
 static const double least_anisotropy = 0.1;
-/* A share of filled heights that is worth a word. A heuristic: above it C may be off by as much. */
+/* Share of filled heights that causes a warning. Heuristic: above it C may deviate by as much. */
 static const double some_missing = 0.01;
 
 wt_topography_job wt_topography_job_defaults(void)
@@ -113,7 +113,7 @@ static wt_status measure_scans(const wt_topography_job *job, const wt_job *work,
     return status;
 }
 
-/* ---- one spectrum of them -------------------------------------------------------------------- */
+/* ---- combined spectrum ----------------------------------------------------------------------- */
 
 static void say_profiles(const surface_whole *w, const wt_job *work)
 {

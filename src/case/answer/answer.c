@@ -1,5 +1,4 @@
-/* The answer of a run: the four questions a user brings, and the material of a case that is about
- * nothing else.
+/* Writes the answer of a run: a summary and one section for each question of the user.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "case/answer/answer.h"
 #include "case/answer/caveats.h"
@@ -20,7 +19,7 @@ static const char how_thick[] = "How thick is it?";
 static const char what_friction[] = "What does it do to friction?";
 static const char not_asked[] = "What was not asked?";
 
-/* The message of a stage that failed, or that failed to take more into account. */
+/* Returns the message of a stage that failed completely or failed at a higher level. */
 static const char *why_failed(const answer_context *story, const char *stage)
 {
     const size_t length = strlen(stage);
@@ -33,8 +32,8 @@ static const char *why_failed(const answer_context *story, const char *stage)
     return "the stage failed";
 }
 
-/* The stage whose failure keeps another from running: the first that failed of those that give what
- * it takes, or that are kept from running themselves. */
+/* Returns the stage that keeps `stage` from running. It is the first failed stage among those whose
+ * outputs `stage` needs; blocked stages are followed to their own cause. */
 static flow_stage_id root_of(const flow_plan *plan, flow_stage_id stage, unsigned level)
 {
     const flow_things takes = flow_needs(plan, stage, level) | flow_stages[stage].any;
@@ -49,7 +48,7 @@ static flow_stage_id root_of(const flow_plan *plan, flow_stage_id stage, unsigne
     return stage;
 }
 
-/* Why something that was asked for was not given, as a sentence. */
+/* Adds a sentence with the reason why a requested result is missing. */
 static void say_why_not(const answer_context *story, flow_stage_id stage, flow_outcome outcome,
                         const char *question, const char *kind)
 {
@@ -72,7 +71,7 @@ static void say_missing(const answer_context *story, flow_stage_id stage, const 
     say_why_not(story, stage, story->plan->outcome[stage], question, kind);
 }
 
-/* What the case does not ask for, or gives no data for, behind everything else. */
+/* Adds what the case does not request, or has no data for, after all other sections. */
 static void say_not_asked(const answer_context *story)
 {
     static const struct {
@@ -98,14 +97,14 @@ static void say_not_asked(const answer_context *story)
                             plan->without[FLOW_STAGE_FRICTION]);
 }
 
-/* ---- in short -------------------------------------------------------------------------------- */
+/* ---- summary --------------------------------------------------------------------------------- */
 
 static void say_short(const answer_context *story, const char *what, const char *text)
 {
     answer_add_sentence(story, in_short, "short", "%s: %s.", what, text);
 }
 
-/* Of what was asked for and was not given. */
+/* Adds the summary line of a requested result that is missing. */
 static void short_of_missing(const answer_context *story, const char *what, flow_stage_id stage)
 {
     const flow_outcome outcome = story->plan->outcome[stage];
@@ -169,7 +168,7 @@ static void answer_in_short(const answer_context *story)
 
 /* ---- layer, difference ----------------------------------------------------------------------- */
 
-/* The first row of the comparison is that over all rates. */
+/* The first row of the table comparison holds the comparison over all rates. */
 static double over_all(const answer_context *story, comparison_column column)
 {
     return comparison_get(&story->found.comparison, 0, column);
@@ -262,7 +261,7 @@ static void say_group(const answer_context *story, const char *name, const char 
         modulus_groups_get(groups, row, MODULUS_GROUPS_N_REJECTED));
 }
 
-/* What depth does to the modulus. */
+/* Adds the verdict on the change of the modulus with depth. */
 static void say_depth(answer_context *story, const char *name, const char *words)
 {
     table_view depth = story->modulus_depth;
@@ -374,7 +373,7 @@ static void say_times(const answer_context *story)
                         format_known_estimate(incubation).text, then);
 }
 
-/* Indentation and layer model need not agree; where they do not, the reader is told. */
+/* Indentation and the layer model may disagree. In this case the answer has a caveat. */
 static void say_disagreement(answer_context *story, bool modelled)
 {
     if (story->found.comparison.table == NULL)
@@ -391,7 +390,7 @@ static void say_disagreement(answer_context *story, bool modelled)
                       said(story, "no") ? "does not show" : "cannot say whether there is");
 }
 
-/* With the choices of the model that make the ends of the range. */
+/* The text includes the model choices that cause the limits of the range. */
 static result_value_text format_thickness(const answer_context *story)
 {
     const result_value thickness = result_value_of_thickness(&story->found);
@@ -530,7 +529,7 @@ static void answer_friction(const answer_context *story)
         say_change(story);
 }
 
-/* ---- the story ------------------------------------------------------------------------------- */
+/* ---- the answer ------------------------------------------------------------------------------ */
 
 static wt_status bind_tables(const wt_result *result, answer_context *story, wt_error *err)
 {
@@ -594,7 +593,7 @@ wt_status flow_answer(const wt_case *c, const flow_plan *plan, const wt_result *
     answer_put_caveats(&story);
     say_not_asked(&story);
     answer_context_clear(&story);
-    if (wt_case_title(c)[0] != '\0') /* the title of the page */
+    if (wt_case_title(c)[0] != '\0')
         answer_set_text(&answer, ANSWER_KEY_CASE_TITLE, wt_case_title(c));
     if (c->sample[0] != '\0')
         answer_set_text(&answer, ANSWER_KEY_CASE_SAMPLE, c->sample);

@@ -1,11 +1,12 @@
-/* The answer of a run in plain sentences. Internal to case.
- * SPDX-License-Identifier: GPL-3.0-or-later */
+/* Answer of a run in plain sentences. Internal to case. SPDX-License-Identifier:
+ * GPL-3.0-or-later */
 #ifndef WT_CASE_ANSWER_ANSWER_H
 #define WT_CASE_ANSWER_ANSWER_H
 
 #include "case/plan/plan.h"
 
-/* Table "answer", from what is in the result so far. */
+/* Creates the table "answer" from the tables of the result, the log and the failures. The caller
+ * owns *table. */
 wt_status flow_answer(const wt_case *c, const flow_plan *plan, const wt_result *result,
                       const wt_log *log, const wt_table *failures, wt_table **table,
                       wt_error *err) WT_NODISCARD;

@@ -1,4 +1,4 @@
-/* The sentences of an answer. SPDX-License-Identifier: GPL-3.0-or-later */
+/* Adds sentences and caveats to an answer. SPDX-License-Identifier: GPL-3.0-or-later */
 #include "case/answer/answer_context.h"
 
 #include "core/base/array.h"
@@ -7,7 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Characters of an answer; longer ones are cut. */
+/* Length of a sentence in bytes; longer sentences are truncated. */
 enum { LONGEST = 1200 };
 
 static void put(const answer_context *story, const char *question, const char *kind,

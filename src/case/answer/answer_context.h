@@ -1,24 +1,24 @@
-/* A run as its answer sees it: the tables it gave, bound once, and the sentences so far. Internal
- * to flow. SPDX-License-Identifier: GPL-3.0-or-later */
+/* Context of an answer: the bound tables of the run, its log and the caveats found so far. Internal
+ * to case. SPDX-License-Identifier: GPL-3.0-or-later */
 #ifndef WT_CASE_ANSWER_ANSWER_CONTEXT_H
 #define WT_CASE_ANSWER_ANSWER_CONTEXT_H
 
 #include "case/answer/format_number.h"
 #include "case/plan/plan.h"
 
-/* What a caveat changes, in the order in which they are told. */
+/* Subject of a caveat, in the order in which caveats are written. */
 typedef enum caveat_of {
-    CAVEAT_WHOLE, /* files or stages that failed */
-    CAVEAT_DATA,  /* whether the data mean what they are taken for */
+    CAVEAT_WHOLE, /* failed files or stages */
+    CAVEAT_DATA,  /* doubtful or inconsistent data */
     CAVEAT_VERDICT,
     CAVEAT_THICKNESS,
     CAVEAT_FRICTION,
     CAVEAT_MODULI,
-    CAVEAT_CONDITIONS, /* what was taken for granted */
+    CAVEAT_CONDITIONS, /* assumed conditions */
     CAVEATS_OF
 } caveat_of;
 
-enum { CAVEATS_OPEN = 5 }; /* the others are folded */
+enum { CAVEATS_OPEN = 5 }; /* number of caveats that are shown; the page folds the others */
 
 typedef struct caveat {
     caveat_of of;
@@ -40,33 +40,33 @@ typedef struct answer_context {
     table_writer *answer;
     caveat *caveats;
     size_t n_caveats;
-    wt_status status; /* of remembering a caveat */
+    wt_status status; /* WT_E_MEMORY if a caveat could not be stored */
 } answer_context;
 
-/* A row of the answer; the sentence is a format. */
+/* Adds a row to the answer. The sentence is a printf format. */
 void answer_add_sentence(const answer_context *story, const char *question, const char *kind,
                          const char *format, ...) WT_PRINTF(4, 5);
-/* Kept until all are known. */
+/* Stores a caveat until answer_put_caveats writes all of them in order. */
 void answer_caveat(answer_context *story, caveat_of of, const char *format, ...) WT_PRINTF(3, 4);
-/* The rows of kind "caveat", those that change most first, then the others of kind "folded". */
+/* Writes the caveats. The first CAVEATS_OPEN rows have the kind "caveat", the others "folded". */
 void answer_put_caveats(answer_context *story);
-/* What the rubber is like, only where no later stage uses it: there it is an answer, else a step.
- */
+/* Describes the rubber, only if no later stage uses it: then the rubber is a result, not a step. */
 void answer_rubber(const answer_context *story);
-/* How thick the curves alone allow the layer to be, and whether the theory agrees. */
+/* States the thickness of the layer that the curves allow, and compares it with the theory. */
 void answer_track_layer(const answer_context *story);
-/* Whose specific wear rate the layer has, where a record measured one. */
+/* Names the source of the specific wear rate of the layer, if a record measured one. */
 void answer_wear_of_layer(const answer_context *story, const char *question);
-/* The layer under loads in turn, acting back and where it exists; its friction in running-in. */
+/* Describes the layer under a sequence of loads, its feedback and its regime map; answer_running_in
+ * describes its friction during running-in. */
 void answer_layer_models(const answer_context *story);
 void answer_running_in(const answer_context *story);
-/* What a measured counter surface is like. */
+/* Describes a measured counter surface. */
 void answer_surface(const answer_context *story);
-/* Critical energy and wear rate by what is seen of the layer. */
+/* States the critical energy and the wear rate identified from observations of the layer. */
 void answer_identification(const answer_context *story);
-/* Friction and wear as measured. */
+/* States the measured friction and wear. */
 void answer_record(const answer_context *story);
-/* Whether the theory explains the friction that was measured. */
+/* States whether the theory explains the measured friction. */
 void answer_validation(const answer_context *story);
 void answer_context_clear(answer_context *story);
 

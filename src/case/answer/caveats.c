@@ -1,4 +1,4 @@
-/* What must be said with the answer: what the numbers rest on and what they leave out.
+/* Adds the caveats of an answer: assumptions, excluded errors and doubtful data.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "case/answer/caveats.h"
 
@@ -11,17 +11,17 @@
 
 static const char *const group_words[2] = {"bulk", "wear-track"};
 
-/* An indentation feels what is below a layer when it goes deeper than this share of it (Bueckle's
- * rule for films). */
+/* Limit of the indentation depth over the layer thickness. A deeper indentation also deforms the
+ * material below the layer (Bueckle's rule for films). */
 #define DEEP_SHARE 0.1
 
-/* Doubtful ones, too: with a modulus. */
+/* Curves with the verdict "doubtful" count as accepted: they have a modulus. */
 static bool is_accepted(const table_view *indentation, size_t row)
 {
     return wt_curve_usable_id(indentation_text(indentation, row, INDENTATION_VERDICT));
 }
 
-/* Median of a column over the accepted curves; NaN if there are none. */
+/* Returns the median of a column over the accepted curves, NaN without accepted curves. */
 static double median_accepted(const table_view *indentation, indentation_column column)
 {
     size_t n = 0;
@@ -39,7 +39,8 @@ static double median_accepted(const table_view *indentation, indentation_column 
     return median;
 }
 
-/* How the spots of a group were found, as a sentence of "the ... curves". */
+/* Returns the rest of a sentence "the ... curves ..." on the assignment of curves to spots; NULL if
+ * the spots are named. */
 static const char *spots_caveat(const answer_context *story, const char *spots)
 {
     if (spots == NULL || strncmp(spots, "named", 5) == 0)
@@ -51,7 +52,7 @@ static const char *spots_caveat(const answer_context *story, const char *spots)
                  "of one place, they are not independent and the intervals are too narrow";
 }
 
-/* What is true of both groups is said once. */
+/* A caveat that holds for both groups is added once. */
 static void indentation_caveats(answer_context *story)
 {
     char reasons[2][512];
@@ -90,7 +91,7 @@ static void indentation_caveats(answer_context *story)
                           rejected[g], story->indentation[g].n_rows, group_words[g], reasons[g]);
 }
 
-/* "1.3 % and 1.2 %", or one of them, by group. */
+/* Example: "moduli by 1.3 %", or one number for each group. */
 static void list_gains(const double gain[2], char *text, size_t size)
 {
     if (isnan(gain[0]) || isnan(gain[1]))
@@ -103,8 +104,8 @@ static void list_gains(const double gain[2], char *text, size_t size)
                       gain[0], gain[1]);
 }
 
-/* What an error of calibration does: to a modulus by its gain, to the ratio only if the cantilevers
- * were calibrated separately, or as far as the gains differ. */
+/* An error of the sensitivity changes a modulus by its gain. It changes the ratio of the groups
+ * only if the cantilevers were calibrated separately, or as far as the gains differ. */
 static void calibration_caveats(answer_context *story)
 {
     double gain[2];
@@ -135,7 +136,8 @@ static void calibration_caveats(answer_context *story)
         gains, lever);
     text_append(&t,
                 "; the intervals of the moduli hold what is stated, and nothing of what is not.");
-    /* of a group without a modulus there is no gain, and no ratio in which an error could cancel */
+    /* A group without a modulus has no gain, and there is no ratio in which an error could
+     * cancel. */
     const char *cantilevers =
         isnan(gain[0]) || isnan(gain[1])
             ? NULL
@@ -159,7 +161,7 @@ static void calibration_caveats(answer_context *story)
     answer_caveat(story, CAVEAT_MODULI, "%s", text);
 }
 
-/* What the case does not say is taken from the material, or taken to be equal. */
+/* A temperature that the case does not state is that of the material, or equal for both groups. */
 static void temperature_caveats(answer_context *story)
 {
     const double sliding = friction_value(&story->found.friction, FRICTION_KEY_TEMPERATURE).value;
@@ -184,7 +186,7 @@ static void temperature_caveats(answer_context *story)
                 .text);
 }
 
-/* What was done to the track before the ratio was taken. */
+/* Describes the corrections of the track data before the ratio was computed. */
 static void ratio_caveats(answer_context *story)
 {
     const table_view *comparison = &story->found.comparison;
@@ -212,7 +214,7 @@ static void ratio_caveats(answer_context *story)
                       rates);
 }
 
-/* " The intervals of friction hold: ...; not the choices of the model, nor, because no error is
+/* Example: " The interval of the friction holds: ...; not the model, nor, because no error is
  * known: ..." */
 static void tell_interval(text_builder *t, const char *whose, const result_value *f)
 {
@@ -221,7 +223,7 @@ static void tell_interval(text_builder *t, const char *whose, const result_value
                 f->lacks != NULL ? f->lacks : "");
 }
 
-/* What material_caveats says. */
+/* True if material_caveats already reports the warning `text`. */
 static bool is_superposition(const answer_context *story, const char *text)
 {
     const table_view *shifts = &story->shift_factors;
@@ -231,10 +233,10 @@ static bool is_superposition(const answer_context *story, const char *text)
     return because != NULL && strstr(text, because) != NULL;
 }
 
-/* The first warnings in full, the others by number. */
+/* Adds the first warnings in full and the number of the others. */
 static void warnings(answer_context *story)
 {
-    enum { SHOWN = 5 }; /* as many as a sentence holds */
+    enum { SHOWN = 5 }; /* limit for the length of the answer */
     size_t n = 0;
     for (size_t i = 0; i < wt_log_count(story->log); i++) {
         wt_log_entry entry = wt_log_get(story->log, i);
@@ -372,7 +374,8 @@ static void friction_caveats(answer_context *story)
                       format_with_unit(hysteresis.velocity, "m/s").text);
 }
 
-/* Where the layer is outside the range of its model, or of what indented it. */
+/* Adds a caveat if the thickness is outside the range of the layer model or small against the
+ * indentation depth. */
 static void depth_caveats(answer_context *story, double thickness)
 {
     if (!isfinite(thickness))
@@ -456,5 +459,5 @@ void answer_caveats(answer_context *story)
     layer_caveats(story);
     temperature_caveats(story);
     ratio_caveats(story);
-    warnings(story); /* behind what the results say of the data themselves */
+    warnings(story); /* after the caveats about the results */
 }

@@ -1,4 +1,5 @@
-/* Numbers in the sentences of an answer. SPDX-License-Identifier: GPL-3.0-or-later */
+/* Formats numbers and result values for the sentences of an answer. SPDX-License-Identifier:
+ * GPL-3.0-or-later */
 #include "case/answer/format_number.h"
 
 #include "core/base/clocale.h"
@@ -22,14 +23,14 @@ void text_append(text_builder *t, const char *format, ...)
     t->used += n > 0 ? (size_t)n : 0;
 }
 
-/* mm^3/(N m) in a specific wear rate of 1 m^2/N. */
+/* Specific wear rate [mm^3/(N m)] of 1 m^2/N. */
 #define MM3_PER_N_M 1e9
 
 static void print_plain(double value, int digits, number_text *words)
 {
     clocale_print(words->text, sizeof words->text, "%#.*g", digits, value);
     const size_t length = strlen(words->text);
-    if (words->text[length - 1] == '.') /* all digits before it */
+    if (words->text[length - 1] == '.') /* all digits stand before the decimal point */
         words->text[length - 1] = '\0';
 }
 
@@ -45,7 +46,7 @@ static number_text format_with_parts(double value, const char *unit, int digits)
     else if (strcmp(unit, "m^2/N") == 0 && value != 0) {
         print_plain(MM3_PER_N_M * value, digits, &words);
         clocale_append(words.text, sizeof words.text, " mm^3/(N m)");
-    } else if (value == 0) /* exactly: no digits of it are known or not */
+    } else if (value == 0) /* An exact zero has no significant digits. */
         snprintf(words.text, sizeof words.text, "0 %s", unit);
     else
         wt_format_si(value, unit, digits, words.text, sizeof words.text);
@@ -63,7 +64,7 @@ number_text format_pair(double low, double high, int digits)
     digits = range_digits(low, high, digits);
     const double larger = fmax(fabs(low), fabs(high));
     const int decimals = larger > 0 ? digits - 1 - (int)floor(log10(larger)) : 0;
-    const bool plain = decimals >= 0 && decimals < 9; /* else with a power of ten */
+    const bool plain = decimals >= 0 && decimals < 9; /* otherwise with a power of ten */
     clocale_print(words.text, sizeof words.text, plain ? "from %.*f to %.*f" : "from %.*g to %.*g",
                   plain ? decimals : digits, low, plain ? decimals : digits, high);
     return words;
@@ -74,9 +75,9 @@ number_text format_value(wt_estimate e)
     return format_with_unit(e.value, e.unit);
 }
 
-/* Value and error in one scale and with the same decimals, two digits of the error: "3.16 ± 0.96
- * um", "0.1050 ± 0.0029", "1230 ± 230 s"; "3.16 um (error not known)". As on the page, six digits
- * at most. */
+/* Value and error have one scale and the same decimals, with two digits of the error: "3.16 ± 0.96
+ * um", "0.1050 ± 0.0029", "1230 ± 230 s"; "3.16 um (error not known)". Like on the page, the value
+ * has at most six digits. */
 number_text format_estimate(wt_estimate e)
 {
     number_text value = format_with_unit(e.value, e.unit), words = value;
@@ -93,7 +94,8 @@ number_text format_estimate(wt_estimate e)
     const double error = e.standard_error * scale;
     const int most = 5 - (int)floor(log10(fabs(shown))),
               needed = 1 - (int)floor(log10(error) + 1e-9);
-    if (most < 0 || most > 9 || error >= 1e6) /* with a power of ten, or no number any more */
+    if (most < 0 || most > 9 ||
+        error >= 1e6) /* with a power of ten, or the error exceeds the plain notation */
         clocale_print(words.text, sizeof words.text, "%.*s \xc2\xb1 %.2g%.40s", (int)length,
                       value.text, error, suffix == NULL ? "" : suffix);
     else {
@@ -142,9 +144,9 @@ number_text format_celsius(double kelvin)
     return words;
 }
 
-/* ---- findings -------------------------------------------------------------------------------- */
+/* ---- result values --------------------------------------------------------------------------- */
 
-/* A change is told in per cent. */
+/* A relative change is printed in percent. */
 static bool is_change(const result_value *f)
 {
     return f->neutral == 0;
@@ -154,7 +156,8 @@ static number_text number_of_finding(const result_value *f, double value, int di
 {
     if (!is_change(f) || !isfinite(value))
         return format_with_parts(value, f->number.unit, digits);
-    const double half = 100 * (f->high - f->low) / 2; /* a narrow interval is no number twice */
+    const double half = 100 * (f->high - f->low) /
+                        2; /* enough decimals to distinguish the limits of a narrow interval */
     const int decimals = half > 0 && half < 1 ? (int)fmin(3, ceil(-log10(half))) : 0;
     number_text words;
     clocale_print(words.text, sizeof words.text, "%+.*f %%", decimals, 100 * value);
@@ -241,7 +244,8 @@ const char *format_origin(const result_value_tables *tables)
                : "predicted from a given U_c";
 }
 
-/* Of the rates that both groups have, where the moduli of all rates say something else. */
+/* The correction concerns the rates of both groups, if the moduli of all rates have a different
+ * ratio. */
 void append_rates(text_builder *t, const result_value_tables *tables)
 {
     const char *rates = comparison_words(&tables->comparison, COMPARISON_KEY_RATES);
@@ -262,7 +266,7 @@ void append_ratio(text_builder *t, const result_value_tables *tables)
     append_rates(t, tables);
 }
 
-/* The ratio of one spot has no error, and an interval without it looks as if it had. */
+/* The ratio of one spot has no error. The text states that the interval lacks this contribution. */
 static const char *without_ratio(const result_value *f)
 {
     const bool lacks = f->lacks != NULL && strstr(f->lacks, "modulus ratio") != NULL;
@@ -313,7 +317,7 @@ void append_change(text_builder *t, const result_value_tables *tables, bool with
                 without_ratio(&change), and, range.text);
 }
 
-/* ---- what several sentences tell ------------------------------------------------------------- */
+/* ---- values of several sentences ------------------------------------------------------------- */
 
 double largest_share(const table_view *friction)
 {
@@ -362,7 +366,7 @@ bool append_other_spectrum(text_builder *t, const table_view *indentation, const
     if (isnan(indentation_value(indentation, INDENTATION_KEY_SPECTRUM_TEMPERATURE).value))
         return false;
     for (size_t i = 0; i < indentation->n_rows; i++) {
-        /* without times there is no memory to be tried */
+        /* A curve without times cannot be tested against the relaxation spectrum. */
         if (isnan(indentation_get(indentation, i, INDENTATION_MODULUS)) ||
             isnan(indentation_get(indentation, i, INDENTATION_LOAD_TIME)))
             continue;

@@ -1,6 +1,5 @@
-/* The methods that a result was made by: what each did, in a sentence for a paper with the numbers
- * of that result, and where it is described. Declared here, once. SPDX-License-Identifier:
- * GPL-3.0-or-later */
+/* Table of the methods of a result: a sentence for a paper with the numbers of the result, and the
+ * reference of each method. SPDX-License-Identifier: GPL-3.0-or-later */
 #include "case/answer/format_number.h"
 
 #include <math.h>
@@ -11,13 +10,13 @@
 #include "core/table/table_rows.h"
 #include "weartrack/flow.h"
 
-/* One method: of results with its table, if that says so. */
+/* A method belongs to every result that has its table, if `used` agrees. */
 typedef struct method {
     const char *name;
     const table_schema *table;
-    bool (*used)(const table_view *table); /* NULL: always */
+    bool (*used)(const table_view *table); /* NULL if the method is always used */
     void (*say)(text_builder *t, const table_view *table);
-    const char *reference, *doi; /* as journals print them; "" where there is none */
+    const char *reference, *doi; /* as printed in journals; "" without a reference */
 } method;
 
 /* ---- indentation ----------------------------------------------------------------------------- */
@@ -325,7 +324,8 @@ static const method methods[] = {
 
 TABLE_ROW(methods, METHODS, const char *method, *text, *reference, *doi;)
 
-/* Tables of a schema have its name, or that with a suffix: of groups and samples. */
+/* Returns the suffix of a table name that belongs to the schema, such as a group or sample; ""
+ * without a suffix, NULL for another table. */
 static const char *suffix_of(const table_schema *schema, const wt_table *table)
 {
     const char *const name = wt_table_name(table);
@@ -337,7 +337,7 @@ static const char *suffix_of(const table_schema *schema, const wt_table *table)
     return name[length] == '\0' ? "" : name[length] == '/' ? name + length + 1 : NULL;
 }
 
-/* A sentence that is there already is not said again: two groups may have one tip. */
+/* Two groups may have the same tip: a sentence is listed once. */
 static bool is_said(const wt_table *table, const char *text)
 {
     for (size_t row = 0; table != NULL && row < wt_table_n_rows(table); row++)

@@ -1,5 +1,5 @@
-/* What a person should know of a result, from its tables. SPDX-License-Identifier: GPL-3.0-or-later
- */
+/* Adds warnings to the log that follow from the tables of a result. SPDX-License-Identifier:
+ * GPL-3.0-or-later */
 #include "case/answer/format_number.h"
 #include "core/base/array.h"
 #include "core/table/registry.h"
@@ -72,7 +72,7 @@ static void of_comparison(const table_view *v, wt_log *log)
         wt_log_add(log, WT_WARNING, NULL, NULL, "comparison with DMA: %s", statement);
 }
 
-/* Of each group: its table has the name behind a stroke. */
+/* The name of the group follows the slash in the name of the table. */
 static void of_curves(const wt_table *table, wt_log *log)
 {
     const size_t prefix = strlen(indentation_schema.name);

@@ -1,4 +1,5 @@
-/* One sentence for the person who typed the command. SPDX-License-Identifier: GPL-3.0-or-later */
+/* Writes the summary line of a result for standard error. SPDX-License-Identifier:
+ * GPL-3.0-or-later */
 #include "case/answer/format_number.h"
 
 #include "core/base/clocale.h"
@@ -21,7 +22,7 @@ static void next(sentence *s)
     say(s, "%s", s->told.used > 0 ? "; " : "");
 }
 
-/* Its words without what stands in brackets. */
+/* Appends the text without its parts in brackets. */
 static void say_hidden(sentence *s, const char *text)
 {
     char all[512];
@@ -118,13 +119,13 @@ static void say_material(sentence *s, const table_view *v)
         say(s, ", WLF C1 = %s, C2 = %s", format_estimate(c1).text,
             format_estimate(shift_factors_value(v, SHIFT_FACTORS_KEY_WLF_C2)).text);
     const char *verdict = shift_factors_words(v, SHIFT_FACTORS_KEY_SUPERPOSITION);
-    /* why it fails or cannot be judged is a warning */
+    /* A failed or inconclusive superposition is explained by a warning. */
     const bool warned = v->n_rows > 1 && strncmp(verdict, "holds", 5) != 0;
     say(s, ", superposition: %.*s", (int)(warned ? strcspn(verdict, ":") : strlen(verdict)),
         verdict);
 }
 
-/* With the digits that its error tells. */
+/* The number of decimals follows from the error. */
 static void say_peak(sentence *s, wt_estimate at, const char *of)
 {
     const double error = at.standard_error;
@@ -166,7 +167,7 @@ static void say_transition(sentence *s, const table_view *v)
 
 static void say_payne(sentence *s, const table_view *v)
 {
-    enum { MOST = 3 }; /* as many as a sentence holds */
+    enum { MOST = 3 }; /* limit for the length of the line */
     for (size_t i = 0; i < v->n_rows && i < MOST; i++) {
         const double tenth = payne_get(v, i, PAYNE_STRAIN_TENTH);
         next(s);
@@ -233,7 +234,7 @@ static void say_dwell_ratio(sentence *s, const char *modulus, double ratio, doub
             format_with_unit(high, "1").text);
 }
 
-/* Of each group the row in the middle of those that the DMA was measured at. */
+/* For each group the line has the middle row of those inside the frequency range of the DMA. */
 static void say_dwell_dma(sentence *s, const table_view *v)
 {
     if (v->table == NULL)
@@ -451,14 +452,14 @@ size_t wt_result_sentence(const wt_result *result, char *buffer, size_t size)
     if (size > 0)
         buffer[0] = '\0';
     if (result_values_bind(result, &s.found, NULL) != WT_OK) {
-        /* a table that lacks what it must have tells nothing, the others do */
+        /* A table without a required column adds no text; the other tables do. */
     }
     for (size_t i = 0; i < sizeof parts / sizeof *parts; i++) {
         table_view view;
         if (table_bind_of(result, parts[i].schema, "", &view, NULL) == WT_OK)
             parts[i].of(&s, &view);
     }
-    for (size_t i = 0; i < wt_result_n_tables(result); i++) { /* of several samples */
+    for (size_t i = 0; i < wt_result_n_tables(result); i++) { /* tables of several samples */
         static const char prefix[] = "shift_factors/";
         const wt_table *const table = wt_result_table(result, i);
         table_view view;

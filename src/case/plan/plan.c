@@ -1,4 +1,4 @@
-/* The plan: which stages this case needs, and why the others are left out.
+/* Creates the plan of a case: the stages that run, and the reason why each other stage is excluded.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "case/plan/plan.h"
 
@@ -7,7 +7,7 @@
 #include <math.h>
 #include <string.h>
 
-/* ---- what is there, what is wanted ----------------------------------------------------------- */
+/* ---- sources and requested resources --------------------------------------------------------- */
 
 static flow_things sources_of(const wt_case *c)
 {
@@ -15,13 +15,13 @@ static flow_things sources_of(const wt_case *c)
     return SOURCES(SOURCE_BIT) 0;
 }
 
-/* A call that says what it wants is not a matter of the case. */
+/* A call with its own request ignores this switch of the case. */
 static bool is_switched_off(const wt_case *c)
 {
     return !c->called && !c->validation.wanted;
 }
 
-/* What a record tells beside the results and figures that are listed. */
+/* A case with a record and a list of requested results also gets the comparison with the record. */
 static flow_things held_records(const wt_case *c)
 {
     const bool held = c->has_asked && !c->called && c->validation.wanted && c->record.n > 0;
@@ -58,10 +58,10 @@ bool flow_can(const flow_plan *plan, size_t stage, unsigned level, flow_things t
     return (flow_needs(plan, stage, level) & ~there) == 0 && (any == 0 || (any & there) != 0);
 }
 
-/* ---- choosing -------------------------------------------------------------------------------- */
+/* ---- choice of stages ------------------------------------------------------------------------ */
 
-/* Stages whose needs can all be met, and how full they can be; one pass suffices since the table is
- * in order. */
+/* Finds the stages whose needs can be met, and their highest level. One pass suffices because the
+ * table is in order of dependence. */
 static void find_able(flow_plan *plan, bool able[FLOW_N_STAGES])
 {
     flow_things reachable = plan->sources;
@@ -76,14 +76,15 @@ static void find_able(flow_plan *plan, bool able[FLOW_N_STAGES])
     }
 }
 
-/* What a stage is to be given, some of which may be out of reach. */
+/* Returns the needs and the alternative inputs of a stage; some of them may be unavailable. */
 static flow_things resources_used(const flow_plan *plan, size_t stage)
 {
     return flow_needs(plan, stage, plan->level[stage]) | flow_stages[stage].any;
 }
 
-/* Whether stage a is to be preferred to b for what they both give: the one that takes more into
- * account; but what does the same and more that nobody asked for is not. */
+/* Returns true if stage `a` is preferred to stage `b` for a common output. The stage that takes
+ * more into account is preferred. A stage with the same inputs and further outputs that are not
+ * required is not preferred. */
 static bool is_better(const flow_plan *plan, size_t a, size_t b)
 {
     const flow_stage *s = &flow_stages[a], *t = &flow_stages[b];
@@ -97,7 +98,7 @@ static bool is_better(const flow_plan *plan, size_t a, size_t b)
     return more > 0;
 }
 
-/* Chooses the best stage that gives a thing, then what it needs. */
+/* Chooses the best stage with the output `resource`, and then the stages that it needs. */
 static void choose_stage(flow_plan *plan, const bool able[FLOW_N_STAGES], flow_resource thing,
                          const char *because)
 {
@@ -127,8 +128,8 @@ static void choose_stage(flow_plan *plan, const bool able[FLOW_N_STAGES], flow_r
 
 static flow_things missing_of_stage(const flow_plan *plan, size_t stage);
 
-/* Sources whose absence keeps one of the needs from being met: of the first of them, one for each
- * way of meeting it. None if all can be. */
+/* Returns the missing sources of the first need that cannot be met, one for each alternative to
+ * meet it; 0 if all needs can be met. */
 static flow_things missing_sources(const flow_plan *plan, flow_things needs)
 {
     for (unsigned t = 0; t < FLOW_N_THINGS; t++) {
@@ -164,7 +165,7 @@ static flow_things missing_of_stage(const flow_plan *plan, size_t stage)
     return missing;
 }
 
-/* "the case has no bulk curves (...) and no modulus ratio (...)" */
+/* Example: "the case has no bulk curves (...) and no modulus ratio (...)". */
 static void list_missing(flow_things missing, char *text, size_t size)
 {
     size_t used = (size_t)snprintf(text, size, "the case has ");
@@ -174,7 +175,7 @@ static void list_missing(flow_things missing, char *text, size_t size)
                                      missing > 1 ? " and " : "");
 }
 
-/* A stage that runs, but not at its fullest. */
+/* Adds the reason why a stage runs below its highest level. */
 static void say_without(flow_plan *plan, size_t i)
 {
     const unsigned level = plan->level[i];

@@ -1,4 +1,4 @@
-/* The table of stages. SPDX-License-Identifier: GPL-3.0-or-later */
+/* Table of the stages. SPDX-License-Identifier: GPL-3.0-or-later */
 #include "case/plan/stages.h"
 
 #include <stdio.h>

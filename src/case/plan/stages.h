@@ -1,11 +1,11 @@
-/* The stages of a run: a stage is a row here and a function in run/steps.c. Internal
- * to flow. SPDX-License-Identifier: GPL-3.0-or-later */
+/* List of the stages of a run. A stage is a row here and a function in case/run. Internal to case.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #ifndef WT_CASE_PLAN_STAGES_H
 #define WT_CASE_PLAN_STAGES_H
 
 #include "case/resources.h"
 
-/* What a stage takes into account where it is to be had. */
+/* Optional inputs of a stage, which it uses if they are available. */
 typedef enum flow_optional_output {
     FLOW_NO_MORE,
     FLOW_BY_SPECTRUM,
@@ -19,10 +19,11 @@ typedef enum flow_optional_output {
     FLOW_N_EXTRAS
 } flow_optional_output;
 
-/* id, name, title, what it needs, of what it needs one at least (0: nothing of the kind) and takes
- * all there is, what it takes into account beside, what it gives, its function.
- * In an order in which every stage comes after those it needs, and the fuller of two that give the
- * same before the plainer one, which then stands in if the fuller one fails. */
+/* Columns: id, name, title, needs, alternatives (at least one is needed, all available ones are
+ * used; 0 without such inputs), optional inputs, outputs, function.
+ *
+ * Every stage follows those that it needs. Of two stages with a common output the more complete
+ * one is first. The other one replaces it if it fails. */
 #define STAGES(X)                                                                                  \
     X(MASTER_CURVE, master_curve, "Shift factors, WLF law, master curve, Prony series",            \
       B(DMA_FILES), 0, FLOW_NO_MORE,                                                               \
@@ -143,11 +144,11 @@ typedef enum flow_optional_output {
 #define STAGE_ID(id, ...) FLOW_STAGE_##id,
 typedef enum flow_stage_id { STAGES(STAGE_ID) FLOW_N_STAGES } flow_stage_id;
 
-/* What a stage takes into account beside its needs, at most: the rows of STAGES have two. */
+/* Largest number of optional inputs of a stage. */
 enum { FLOW_MOST_MORE = 2 };
 
-/* Whole or not at all: its things, the words behind the title of the stage, and in "without ...".
- */
+/* Optional inputs are used completely or not at all. `title` extends the title of the stage;
+ * `words` completes "without ...". */
 typedef struct flow_optional_input {
     flow_things things;
     const char *title, *words;
@@ -156,17 +157,17 @@ typedef struct flow_optional_input {
 typedef struct flow_stage {
     const char *id, *title;
     flow_things needs, any;
-    const flow_optional_input
-        *more; /* FLOW_MOST_MORE, the second only with the first; no things: none */
+    const flow_optional_input *more; /* [FLOW_MOST_MORE]; the second is used only with the first; no
+                                        resources marks the end */
     flow_things gives;
 } flow_stage;
 extern const flow_stage flow_stages[FLOW_N_STAGES];
 
-/* How much more a stage can take into account: its fullest level. */
+/* Returns the highest level of a stage, which is its number of optional inputs. */
 unsigned flow_stage_levels(size_t stage);
-/* All things that a stage cannot do without at a level. */
+/* Returns the inputs that a stage needs at a level. */
 flow_things flow_stage_needs(size_t stage, unsigned level);
-/* "Contact area and friction, with and without the layer" */
+/* Example: "Contact area and friction, with and without the layer". */
 void flow_stage_title(size_t stage, unsigned level, char *text, size_t size);
 
 #endif

@@ -1,5 +1,5 @@
-/* Advice that names an option, for who has a case: how it is said there.
- * SPDX-License-Identifier: GPL-3.0-or-later */
+/* Extends advice that names an option by the spelling in a case file. SPDX-License-Identifier:
+ * GPL-3.0-or-later */
 #include "case/run/stage_functions.h"
 
 #include "core/base/param.h"
@@ -26,13 +26,13 @@ void flow_case_advice(wt_error *failure)
     const size_t length = strspn(name, letters), end = strlen(failure->advice);
     char how[96] = "";
     if (strstr(failure->advice, "(in a case: ") != NULL)
-        return; /* of a file, which is why a stage failed */
+        return; /* The advice concerns a file that an earlier step has reported already. */
     if (is_of(wt_read_params(), name, length))
         snprintf(how, sizeof how,
                  " (in a case: the attribute %.*s=\"...\" where the file is named)", (int)length,
                  name);
     else if (is_of(wt_master_job_params(), name, length))
         snprintf(how, sizeof how, " (in a case: <%.*s> in <dma>)", (int)length, name);
-    if (strlen(how) < sizeof failure->advice - end) /* half of it would mislead */
+    if (strlen(how) < sizeof failure->advice - end) /* truncated advice would be misleading */
         memcpy(failure->advice + end, how, strlen(how) + 1);
 }

@@ -1,5 +1,5 @@
-/* Running a case: the stages of the plan in order, their cost, what failed, the tables.
- * SPDX-License-Identifier: GPL-3.0-or-later */
+/* Runs a case: the stages of the plan in order, their cost, their failures and the tables of the
+ * result. SPDX-License-Identifier: GPL-3.0-or-later */
 #include "case/answer/answer.h"
 #include "case/run/stage_functions.h"
 #include "friction/material_cache.h"
@@ -25,11 +25,11 @@ wt_run_options wt_run_defaults(void)
 static const wt_param rows[] = {JOB_ROWS(wt_run_options)};
 PARAM_TABLE(wt_run_params, wt_run_options, rows, wt_run_defaults, NO_PARTS)
 
-/* One run with what it reports. */
+/* State of a run. */
 typedef struct run_execution {
     flow_run run;
     flow_things have;
-    wt_status failure; /* of the last stage that failed */
+    wt_status failure; /* status of the last stage that failed */
     wt_formats *formats;
     wt_log *own_log;
     wt_result *result;
@@ -44,7 +44,8 @@ typedef struct run_execution {
 #define STEP(id, name, title, needs, any, more, gives, step) step,
 static wt_status (*const steps[FLOW_N_STAGES])(flow_run *, wt_error *) = {STAGES(STEP)};
 
-/* Whether a stage that was not chosen must stand in for a fuller one that did not succeed. */
+/* Returns true if a stage that was not chosen must replace a more complete one that did not
+ * succeed. */
 static bool stands_in(const run_execution *d, size_t i)
 {
     const flow_plan *plan = &d->run.plan;
@@ -72,7 +73,7 @@ static wt_status report_progress(const run_execution *d, size_t stage, const cha
     return WT_OK;
 }
 
-/* Stages that fail for one reason make one row. */
+/* Stages that fail for the same reason have one row in the table of failures. */
 static bool is_listed(const run_execution *d, const wt_error *failure)
 {
     char message[2048];
@@ -83,7 +84,7 @@ static bool is_listed(const run_execution *d, const wt_error *failure)
     return false;
 }
 
-/* Where there are no data, less of it makes none. */
+/* A lower level does not help if the data are missing. */
 static bool is_tried_again(const run_execution *d, unsigned level)
 {
     return level > 0 && d->failure != WT_E_EMPTY;
@@ -124,14 +125,14 @@ static wt_status run_stage(run_execution *d, size_t i, unsigned level, const cha
     return is_listed(d, &failure) ? WT_OK : flow_add_failure(&d->run.job, stage, &failure, err);
 }
 
-/* Whether what a stage lacks is not in the files. */
+/* Returns true if a missing input of the stage is not in the files. */
 static bool is_unmeasured(const run_execution *d, size_t i, unsigned level)
 {
     const flow_plan *plan = &d->run.plan;
     return (flow_needs(plan, i, level) & ~d->have & plan->unmeasured) != 0;
 }
 
-/* A stage as full as it can be; what fails so is tried with less. */
+/* Runs a stage at the highest possible level. If it fails, the next lower level is tried. */
 static wt_status run_fullest(run_execution *d, size_t i, const char *because, wt_error *err)
 {
     flow_plan *plan = &d->run.plan;
@@ -198,7 +199,8 @@ static wt_status publish_table(run_execution *d, wt_table **table, wt_error *err
     return wt_result_add(d->result, taken, err);
 }
 
-/* The tables of the stages in the order of their declaration; what nobody asked for stays out. */
+/* Adds the tables of the stages in the order of their declaration. Tables that are not required
+ * stay out of the result. */
 static wt_status publish_stages(run_execution *d, wt_error *err)
 {
     flow_run *r = &d->run;
@@ -226,7 +228,7 @@ static wt_status publish_stages(run_execution *d, wt_error *err)
     return status;
 }
 
-/* The same bytes under two names count twice in a statistic. */
+/* Two names for the same bytes count twice in a statistic. */
 static void warn_of_copies(const run_execution *d)
 {
     const wt_provenance *p = wt_result_provenance_const(d->result);
@@ -278,7 +280,7 @@ static wt_status finish_result(run_execution *d, wt_error *err)
 
 /* ---- the run --------------------------------------------------------------------------------- */
 
-/* Whether a stage runs that draws the material. */
+/* Returns true if a stage uses Monte Carlo draws of the material. */
 static bool draws_material(const flow_plan *plan, size_t replicates)
 {
     const flow_things compared = FLOW_BIT(FLOW_COMPARISON) | FLOW_BIT(FLOW_DMA_COMPARISON);
@@ -292,7 +294,7 @@ static bool draws_material(const flow_plan *plan, size_t replicates)
     return false;
 }
 
-/* Whether several stages read the DMA files. */
+/* Returns true if several stages read the DMA files. */
 static bool shares_dma(const flow_plan *plan)
 {
     size_t n = 0;
@@ -301,7 +303,7 @@ static bool shares_dma(const flow_plan *plan)
     return n > 1;
 }
 
-/* What of the stages nothing asks for. */
+/* Returns the optional outputs that no required table needs. */
 static unsigned find_left_out(const flow_plan *plan, const wt_run_options *options)
 {
     static const struct {

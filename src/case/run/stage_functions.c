@@ -1,5 +1,5 @@
-/* The function of each stage: takes what the case and the stages before gave, runs one job.
- * SPDX-License-Identifier: GPL-3.0-or-later */
+/* Functions of the stages. Each takes its inputs from the case and from earlier stages, and runs
+ * one job. SPDX-License-Identifier: GPL-3.0-or-later */
 #include "case/run/stage_functions.h"
 #include "job/cost.h"
 #include "record/record.h"
@@ -29,7 +29,7 @@ void flow_run_store_table(flow_run *run, flow_resource thing, wt_table **table)
     *table = NULL;
 }
 
-/* What a stage costs whose job does not say it. */
+/* Reports the number of rows as the cost of a stage whose job reports none. */
 static void say_items(const flow_run *run, const wt_table *table)
 {
     cost_report(&run->job, (cost_summary){.items = (double)wt_table_n_rows(table)});
@@ -37,7 +37,7 @@ static void say_items(const flow_run *run, const wt_table *table)
 
 /* ---- indentation ----------------------------------------------------------------------------- */
 
-/* The temperature at which a group was indented. */
+/* Returns the temperature at which a group was indented. */
 static wt_estimate indented_at(const wt_case *c, int g)
 {
     const wt_compare_job *job = &c->compare;
@@ -104,7 +104,7 @@ static wt_status compare_groups(flow_run *run, bool groups_only, wt_error *err)
     flow_run_store_table(run, FLOW_MODULUS_BUDGET, &tables.modulus_budget);
     flow_run_store_table(run, FLOW_COMPARISON, &tables.comparison);
     flow_run_store_table(run, FLOW_MODULUS_RATE, &tables.modulus_rate);
-    wt_compare_tables_clear(&tables); /* the stage of the DMA makes its own */
+    wt_compare_tables_clear(&tables); /* The stage of the DMA comparison creates its own tables. */
     return status;
 }
 
@@ -117,7 +117,7 @@ wt_status flow_step_compare(flow_run *run, wt_error *err)
     if (status != WT_OK)
         return status;
     run->modulus_ratio = comparison_value(&comparison, COMPARISON_KEY_MODULUS_RATIO);
-    run->modulus_ratio.unit = "1"; /* not that of the table */
+    run->modulus_ratio.unit = "1"; /* replaces the unit of the table, which is freed */
     const double df = comparison_value(&comparison, COMPARISON_KEY_MODULUS_RATIO_DF).value;
     run->modulus_ratio_df = isnan(df) ? 0 : df;
     const double share = comparison_value(&comparison, COMPARISON_KEY_CALIBRATION_SHARE).value;
@@ -126,7 +126,7 @@ wt_status flow_step_compare(flow_run *run, wt_error *err)
     return WT_OK;
 }
 
-/* Of the groups there are. */
+/* The stage runs with the groups that are available. */
 wt_status flow_step_groups(flow_run *run, wt_error *err)
 {
     return compare_groups(run, true, err);
@@ -140,7 +140,7 @@ wt_status flow_step_dma_comparison(flow_run *run, wt_error *err)
     job.track = run->table[FLOW_INDENTATION_TRACK];
     job.rubber = &run->rubber;
     job.groups_only = true;
-    /* the warnings of the comparison itself have been given by its own stage */
+    /* The comparison stage has already reported the warnings of the comparison. */
     wt_job quiet = run->job;
     quiet.log = NULL;
     wt_status status = wt_compare_groups(&job, &quiet, &tables, err);
@@ -167,7 +167,7 @@ wt_status flow_step_given_ratio(flow_run *run, wt_error *err)
 
 /* ---- material -------------------------------------------------------------------------------- */
 
-/* Of the DMA files of a case, which may be that of a layer. */
+/* Computes the master curve from the DMA files of a case or of its layer material. */
 static wt_status read_master(const wt_case *c, const wt_job *work, wt_master_tables *tables,
                              wt_rubber *rubber, wt_error *err)
 {
@@ -192,17 +192,17 @@ wt_status flow_step_master(flow_run *run, wt_error *err)
     flow_run_store_table(run, FLOW_RELAXATION_SPECTRUM, &tables.relaxation_spectrum);
     flow_run_store_table(run, FLOW_MATERIAL_DRAWS, &tables.material_draws);
     flow_run_store_table(run, FLOW_SERIES_DRAWS, &tables.series_draws);
-    wt_master_tables_clear(&tables); /* the fit */
+    wt_master_tables_clear(&tables); /* the remaining members belong to the fit */
     return status;
 }
 
-/* Its tables are not kept: those of the names are the bulk's. */
+/* The tables are discarded, because the result has tables of these names for the bulk. */
 wt_status flow_step_layer_material(flow_run *run, wt_error *err)
 {
     const wt_case *own = run->c->layer_material;
     wt_master_tables tables = {0};
     wt_job work = run->job;
-    work.dma = NULL; /* the bulk's */
+    work.dma = NULL; /* its sweeps are those of the bulk */
     work.left_out |= WT_EXTRA_REDUCED | WT_EXTRA_SPECTRUM;
     const wt_status status = own->has_material
                                  ? flow_run_given_rubber(own, &work, &run->layer_rubber, err)
@@ -270,7 +270,7 @@ static wt_status make_record(flow_run *run, wt_record_job job, wt_error *err)
     return status;
 }
 
-/* Whether the case lists a result that there is not without wear. */
+/* Returns true if the case lists a result that requires the wear. */
 static bool wear_must_be(const flow_run *run)
 {
     flow_things resting = FLOW_BIT(FLOW_WEAR);
@@ -280,7 +280,7 @@ static bool wear_must_be(const flow_run *run)
     return run->c->has_asked && !run->c->called && (run->c->asked & resting) != 0;
 }
 
-/* Records without wear tell friction all the same: what rests on the wear is left out. */
+/* Records without wear still have friction. What depends on the wear is excluded. */
 static wt_status leave_wear_out(flow_run *run, const char *lacks, wt_error *err)
 {
     static const char advice[] = "give <profile>, <track-area> or <mass-loss> in <record>, or "
@@ -366,7 +366,8 @@ wt_status flow_step_energy_density(flow_run *run, wt_error *err)
                                    &run->table[FLOW_ENERGY_DENSITY], err);
 }
 
-/* A layer of its own material has no ratio, whatever was indented, and no other stands in. */
+/* A layer with its own material has no modulus ratio, and a measured ratio does not replace the
+ * material. */
 static wt_status known_by_material(const flow_run *run, wt_layer_observation *known, wt_error *err)
 {
     known->modulus_ratio = wt_layer_observation_defaults().modulus_ratio;
@@ -465,10 +466,11 @@ wt_status flow_step_flash_effect(flow_run *run, wt_error *err)
 /* ---- what if, error budget, coverage, error against run time ----------------------------------
  */
 
-/* What a stage takes into account beside friction: the layer, then what is known of it. */
+/* Optional inputs of a stage beyond friction: the layer at level 1, then its observations at level
+ * 2. */
 typedef struct layer_parts {
-    const wt_layer_job *layer;         /* or NULL */
-    const wt_layer_observation *known; /* or NULL */
+    const wt_layer_job *layer;         /* NULL at level 0 */
+    const wt_layer_observation *known; /* NULL below level 2 */
     wt_layer_observation storage;
 } layer_parts;
 

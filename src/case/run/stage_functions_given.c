@@ -1,4 +1,4 @@
-/* The stages of rubber, counter surface and softening that a case gives itself.
+/* Stages of a rubber, a counter surface and a softening that the case states.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "case/run/stage_functions.h"
 
@@ -11,7 +11,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* The one file that is named; *path, which it borrows, is freed with free(). */
+/* Fills `file` with the only file of the role. It borrows *path, which the caller frees with
+ * free(). */
 static wt_status given_file(const case_files *files, flow_file *file, char **path, wt_error *err)
 {
     const wt_file_set *set = &files->sets[0];
@@ -120,7 +121,7 @@ static wt_status given_surface(const wt_case *c, const wt_job *work, wt_surface 
         opened.q1 = c->surface.q1;
         if (c->surface.c0.standard_error > 0)
             opened.c0.standard_error = c->surface.c0.standard_error;
-        status = flow_surface_check(&opened, err); /* the cut-offs */
+        status = flow_surface_check(&opened, err); /* checks the cut-offs */
     }
     if (status == WT_OK)
         *surface = opened;

@@ -1,5 +1,5 @@
-/* The stages of what a layer is beyond its thickness at constant load.
- * SPDX-License-Identifier: GPL-3.0-or-later */
+/* Stages of a layer beyond its thickness at constant load. SPDX-License-Identifier:
+ * GPL-3.0-or-later */
 #include "case/run/stage_functions.h"
 
 #include <math.h>
@@ -42,7 +42,7 @@ wt_status flow_step_existence(flow_run *run, wt_error *err)
                : status;
 }
 
-/* The wear rate that the case gives for it, else the one that its records measured. */
+/* The wear rate stated for the identification takes precedence over that of the records. */
 wt_status flow_step_identification(flow_run *run, wt_error *err)
 {
     const wt_sliding sliding = flow_run_sliding(run);

@@ -1,4 +1,4 @@
-/* The stages that hold records against the case. SPDX-License-Identifier: GPL-3.0-or-later */
+/* Stages that compare the case with its records. SPDX-License-Identifier: GPL-3.0-or-later */
 #include "case/run/stage_functions.h"
 
 #include <math.h>

@@ -1,5 +1,5 @@
-/* Whether a result is the one that its case would give again: nothing that it was made of has
- * changed. SPDX-License-Identifier: GPL-3.0-or-later */
+/* Decides if a result is current: the case would produce the same result again, because none of its
+ * inputs changed. SPDX-License-Identifier: GPL-3.0-or-later */
 #include "case/case.h"
 #include "job/inputs.h"
 
@@ -11,7 +11,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* What is compared, and the first thing found that differs. */
+/* State of the comparison, with the first difference found. */
 typedef struct comparison {
     const wt_case *c;
     const wt_result *result;
@@ -32,7 +32,8 @@ __attribute__((format(printf, 2, 3))) static void differs(comparison *k, const c
     k->differs = true;
 }
 
-/* The next word of a command, without those that change nothing in the result and their values. */
+/* Returns the length of the next word of a command. Options without influence on the result are
+ * skipped with their values. */
 static size_t next_word(const char **at)
 {
     static const struct {
@@ -78,7 +79,7 @@ static const wt_provenance_input *find_input(const wt_provenance *p, const char 
     return NULL;
 }
 
-/* A file that cannot be read has changed, too: the run says why. */
+/* A file that cannot be read counts as changed; the run reports the cause. */
 static void compare_file(comparison *k, const flow_file *file, const wt_provenance_input *before)
 {
     wt_provenance *const now = wt_provenance_new();
@@ -93,8 +94,8 @@ static void compare_file(comparison *k, const flow_file *file, const wt_provenan
     wt_provenance_free(now);
 }
 
-/* The files of one role: none was read, because nothing asked for them, or all were, and no other
- * is there now. `seen` counts those that were read. */
+/* Compares the files of one role. Either no file was read, because nothing needed them, or all were
+ * read and none is new. `seen` counts the files that were read. */
 static wt_status compare_files(comparison *k, const case_files *role, size_t *seen, wt_error *err)
 {
     wt_log *log = wt_log_new();
@@ -124,7 +125,7 @@ static wt_status compare_files(comparison *k, const case_files *role, size_t *se
 
 static wt_status compare_inputs(comparison *k, wt_error *err)
 {
-    size_t seen = 1; /* the case itself */
+    size_t seen = 1; /* the case file */
     wt_status status = WT_OK;
     for (const case_files *role = k->c->roles; status == WT_OK && !k->differs && role != NULL;
          role = role->next)

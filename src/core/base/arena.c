@@ -1,4 +1,4 @@
-/* Memory that is freed together. SPDX-License-Identifier: GPL-3.0-or-later */
+/* Arena: memory blocks that are freed together. SPDX-License-Identifier: GPL-3.0-or-later */
 #include "core/base/arena.h"
 
 #include "core/base/array.h"

@@ -1,24 +1,21 @@
-/* Memory that is freed together.
- *
- * SPDX-License-Identifier: GPL-3.0-or-later
- */
+/* Arena: memory blocks that are freed together. SPDX-License-Identifier: GPL-3.0-or-later */
 #ifndef WT_CORE_BASE_ARENA_H
 #define WT_CORE_BASE_ARENA_H
 
 #include <stdbool.h>
 #include <stddef.h>
 
-/* Zero-initialised is empty. */
+/* A zero-initialised arena is empty. */
 typedef struct arena {
     void **blocks;
     size_t n;
-    bool failed; /* an allocation did, so that several need one check */
+    bool failed; /* set by a failed allocation, so that several allocations need one check */
 } arena;
 
-/* n zeroed items; NULL when out of memory. */
+/* Allocates n zeroed items; NULL when out of memory. */
 void *arena_alloc(arena *memory, size_t n, size_t size);
 double *arena_numbers(arena *memory, size_t n);
-/* A copy with a terminating zero. */
+/* Copies a text and adds a terminating zero. */
 char *arena_text(arena *memory, const char *text, size_t length);
 void arena_free(arena *memory);
 

@@ -1,11 +1,11 @@
-/* Growing arrays, lists of numbers. SPDX-License-Identifier: GPL-3.0-or-later */
+/* Growing arrays and statistics of lists of numbers. SPDX-License-Identifier: GPL-3.0-or-later */
 #include "core/base/array.h"
 
 #include <stdbool.h>
 #include <stdint.h>
 #include <stdlib.h>
 
-/* There is room for a power of two, so that what is full follows from n. */
+/* The capacity is a power of two, so that a full array is recognised from n. */
 void *array_grow(void *array, size_t n, size_t size)
 {
     enum { FIRST = 8 };

@@ -1,4 +1,4 @@
-/* Arrays of known length and lists of numbers. SPDX-License-Identifier: GPL-3.0-or-later */
+/* Functions for growing arrays and lists of numbers. SPDX-License-Identifier: GPL-3.0-or-later */
 #ifndef WT_CORE_BASE_ARRAY_H
 #define WT_CORE_BASE_ARRAY_H
 
@@ -6,17 +6,17 @@
 
 #define COUNT_OF(array) (sizeof(array) / sizeof((array)[0]))
 
-/* An array of n elements, which were added one by one by this function alone, with room for one
- * more: `array`, or where it is moved to; NULL when out of memory. */
+/* Makes space for one more element. The array has n elements, each added with this function.
+ * Returns the array or its new position; NULL when out of memory. */
 void *array_grow(void *array, size_t n, size_t size);
 
-/* For qsort: rising numbers, or structures that begin with one. */
+/* Comparison for qsort: increasing numbers, or structures that begin with a number. */
 int numbers_compare(const void *a, const void *b);
-/* Sorts numbers, none of which is NaN, rising. */
+/* Sorts numbers in increasing order; none of them is NaN. */
 void numbers_sort(double *x, size_t n);
-/* Sorts them; n > 0. */
+/* Returns the median and sorts the numbers; n > 0. */
 double numbers_median(double *x, size_t n);
-/* By their sum as they stand; n > 0. */
+/* Returns the mean of the numbers, summed in their order; n > 0. */
 double numbers_mean(const double *x, size_t n);
 void numbers_reverse(double *x, size_t n);
 

@@ -1,4 +1,5 @@
-/* Thread-local use of the C locale. SPDX-License-Identifier: GPL-3.0-or-later */
+/* Switches the locale of the calling thread to the C locale. SPDX-License-Identifier:
+ * GPL-3.0-or-later */
 #include "core/base/clocale.h"
 
 #include <pthread.h>
@@ -16,7 +17,8 @@ static void make_c_locale(void)
 locale_t clocale_enter(void)
 {
     (void)pthread_once(&once, make_c_locale);
-    /* uselocale((locale_t)0) only asks, which is right if the C locale could not be made. */
+    /* uselocale((locale_t)0) changes nothing, which is right if the C locale could not be
+     * created. */
     return uselocale(c_locale);
 }
 

@@ -1,11 +1,11 @@
-/* The margin of an equivalence, a record of every comparison.
- * Internal to core. SPDX-License-Identifier: GPL-3.0-or-later */
+/* Parameter "equivalence-margin", shared by all comparisons. Internal to core.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #ifndef WT_CORE_BASE_EQUIVALENCE_MARGIN_H
 #define WT_CORE_BASE_EQUIVALENCE_MARGIN_H
 
 #include "core/base/param.h"
 
-/* The record of what compares groups of curves, and of what compares materials. */
+/* Parameter record for the comparison of groups of curves and of materials. */
 #define EQUIVALENCE_MARGIN(type)                                                                   \
     {                                                                                              \
         PARAM("equivalence-margin", type, margin, WT_Q_NONE, ABOVE(0)),                            \

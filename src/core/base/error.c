@@ -1,4 +1,4 @@
-/* Status codes and the error object. SPDX-License-Identifier: GPL-3.0-or-later */
+/* Implements the status codes and the error object. SPDX-License-Identifier: GPL-3.0-or-later */
 #include "core/base/clocale.h"
 #include "core/base/utf8.h"
 #include "weartrack/base.h"
@@ -17,7 +17,7 @@ const char *wt_status_text(wt_status status)
     return i < sizeof texts / sizeof *texts ? texts[i] : "unknown status";
 }
 
-/* Ends text that did not fit with "...", at a whole character. */
+/* Replaces the end of a truncated text by "...", at a character boundary. */
 static void mark_cut(char *buffer, size_t size)
 {
     const size_t cut = utf8_cut(buffer, strlen(buffer), size - 4);
@@ -39,7 +39,7 @@ static void set_text(char *buffer, size_t size, const char *format, va_list argu
 wt_status wt_fail(wt_error *err, wt_status status, const char *format, ...)
 {
     if (err != NULL) {
-        /* The arguments may point into *err, so the text is made before anything is cleared. */
+        /* The arguments may point into *err: the text is formatted before the error is cleared. */
         char message[sizeof err->message];
         va_list arguments;
         va_start(arguments, format);

@@ -1,4 +1,4 @@
-/* Values with an SI prefix for people to read. SPDX-License-Identifier: GPL-3.0-or-later */
+/* Formats values with an SI prefix for people to read. SPDX-License-Identifier: GPL-3.0-or-later */
 #include "core/base/clocale.h"
 #include "weartrack/base.h"
 
@@ -6,14 +6,14 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* What a unit may be prefixed with, as powers of a thousand. */
+/* Range of the SI prefixes of a unit, as powers of 1000. */
 typedef struct prefixes {
     const char *unit;
     const char *text;
     int low, high;
 } prefixes;
 
-/* The first factor of the unit takes the prefix, if it is not raised to a power. */
+/* Finds the prefixes of the first factor of the unit, unless it is raised to a power. */
 static prefixes prefixes_of(const char *unit)
 {
     static const prefixes known[] = {{"Pa", "Pa", -8, 8}, {"Hz", "Hz", -8, 8}, {"N", "N", -8, 8},
@@ -32,7 +32,8 @@ static int floor_third(int exponent)
     return exponent >= 0 ? exponent / 3 : -((2 - exponent) / 3);
 }
 
-/* Significant digits of value / 10^shift: plain where that is short, else with a power of ten. */
+/* Formats the significant digits of value / 10^shift: plain for short numbers, otherwise with an
+ * exponent. */
 static void put_number(double value, int digits, int shift, char *buffer, size_t size)
 {
     char scientific[48], shifted[64];
@@ -69,7 +70,7 @@ size_t wt_format_si(double value, const char *unit, int digits, char *buffer, si
         (void)wt_number_format(value, number);
     } else {
         if (value != 0.0 && prefix.unit[0] != '\0') {
-            /* The exponent after rounding: 999.96 kPa is 1.00 MPa. */
+            /* The exponent is that after rounding: 999.96 kPa is 1.00 MPa. */
             char scientific[48];
             (void)snprintf(scientific, sizeof scientific, "%.*e", digits - 1, value);
             step = floor_third(atoi(strchr(scientific, 'e') + 1));

@@ -1,4 +1,4 @@
-/* Texts of JSON. SPDX-License-Identifier: GPL-3.0-or-later */
+/* Writes JSON strings. SPDX-License-Identifier: GPL-3.0-or-later */
 #include "core/base/json.h"
 
 #include <string.h>

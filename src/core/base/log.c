@@ -1,4 +1,4 @@
-/* The parse log: notes and warnings, each text once per file with a count.
+/* Log of notes and warnings. Each text is stored once for a file, with a count.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "core/base/array.h"
 #include "core/base/clocale.h"
@@ -17,9 +17,9 @@ typedef struct log_entry {
 } log_entry;
 
 struct wt_log {
-    log_entry **entries; /* in the order they came */
+    log_entry **entries; /* in order of arrival */
     size_t n;
-    void *tree; /* the same entries for tsearch */
+    void *tree; /* the same entries, for tsearch */
     size_t lost;
 };
 
@@ -44,7 +44,7 @@ static void entry_free(log_entry *e)
 
 static void keep_entry(void *node)
 {
-    (void)node; /* the entries belong to the list */
+    (void)node; /* the array owns the entries */
 }
 
 const char *wt_severity_name(wt_severity severity)
@@ -68,7 +68,7 @@ void wt_log_free(wt_log *log)
     free(log);
 }
 
-/* Adds a text, which it copies. */
+/* Adds a copy of a text, or increments the count of an equal entry. */
 static bool add(wt_log *log, wt_severity severity, const char *file, const char *place,
                 const char *text)
 {

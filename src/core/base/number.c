@@ -1,4 +1,5 @@
-/* Numbers as text, independent of the locale. SPDX-License-Identifier: GPL-3.0-or-later */
+/* Parses and formats numbers independently of the locale. SPDX-License-Identifier:
+ * GPL-3.0-or-later */
 #include "core/base/number.h"
 #include "core/base/clocale.h"
 #include "weartrack/base.h"
@@ -9,7 +10,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Far more digits than any instrument writes; what is longer is not a number of this trade. */
+/* Limit for the length of a number. Instruments write far fewer digits. */
 enum { NUMBER_MAX = 512 };
 
 static bool is_blank(char c)
@@ -24,7 +25,7 @@ static size_t skip_digits(const char *text, size_t length, size_t i)
     return i;
 }
 
-/* strtod alone would also take hexadecimal digits, "nan" and "infinity". */
+/* strtod alone would also accept hexadecimal digits, "nan" and "infinity". */
 size_t number_prefix(const char *text, size_t length, char decimal)
 {
     size_t i = 0;
@@ -98,7 +99,7 @@ bool number_read(const char *text, size_t length, double *value)
     return wt_number_parse(text, length, '.', value);
 }
 
-/* "1e-05" to "1e-5", "1e+20" to "1e20". */
+/* Shortens "1e-05" to "1e-5" and "1e+20" to "1e20". */
 static size_t shorten_exponent(char *text, size_t length)
 {
     char *const e = memchr(text, 'e', length);
@@ -135,7 +136,7 @@ probability_text number_chance(double chance)
     return words;
 }
 
-/* A whole number of up to 15 digits, as %.15g writes it. */
+/* Formats an integer of up to 15 digits, as %.15g writes it. */
 static size_t format_whole(double value, char *buffer)
 {
     char digits[16];
@@ -152,14 +153,13 @@ static size_t format_whole(double value, char *buffer)
     return length;
 }
 
-/* ---- by extended precision --------------------------------------------------------------------
- */
+/* ---- formatting in extended precision -------------------------------------------------------- */
 
-/* What is left to printf and strtod, which take ten times as long: where the extended digits do not
- * decide, a few per cent. */
+/* printf and strtod take ten times as long. They handle only the few per cent of the values that
+ * extended precision cannot decide. */
 enum { EXACT_TENS = 27, MOST_TENS = 2 * EXACT_TENS, MOST_DIGITS = 17 };
 
-/* Digits, of which the first stands for ten to the exponent. */
+/* Decimal number; its first digit has the weight 10^exponent. */
 typedef struct decimal {
     uint64_t whole;
     int digits, exponent;
@@ -168,7 +168,8 @@ typedef struct decimal {
 typedef enum reads_back { NOT_CERTAIN, ANOTHER, SAME } reads_back;
 
 #if LDBL_MANT_DIG >= 64
-/* x 10^power, each product correct to half a unit in the last place: the tens are exact. */
+/* Computes x 10^power. Each product is correct to half a unit in the last place, because these
+ * powers of ten are exact. */
 static long double times_tens(long double x, int power)
 {
     static const long double tens[EXACT_TENS + 1] = {
@@ -181,11 +182,13 @@ static long double times_tens(long double x, int power)
     return x / tens[first] / tens[size - first];
 }
 
-/* A value above 0 rounded to so many digits, and whether that text reads back. */
+/* Rounds a positive value to `digits` digits, and states whether this text reads back as the
+ * value. */
 static reads_back round_to(double value, int digits, decimal *to)
 {
     int e;
-    const bool power_of_two = !(frexp(value, &e) > 0.5); /* its neighbours are not as far */
+    const bool power_of_two =
+        !(frexp(value, &e) > 0.5); /* The spacing below a power of two is smaller. */
     int exponent = (int)floor((e - 1) * 0.30102999566398120), scale = digits - 1 - exponent;
     if (power_of_two || abs(scale) >= MOST_TENS)
         return NOT_CERTAIN;
@@ -200,7 +203,7 @@ static reads_back round_to(double value, int digits, decimal *to)
         return NOT_CERTAIN;
     const long double half = ldexpl(1.0L, e - DBL_MANT_DIG - 1),
                       off = fabsl(times_tens(whole, -scale) - (long double)value);
-    if (fabsl(off - half) < half / 64) /* rounding is below 1/512 of it */
+    if (fabsl(off - half) < half / 64) /* rounding errors are below half / 512 */
         return NOT_CERTAIN;
     if (whole >= most) {
         exponent++;
@@ -217,7 +220,7 @@ static reads_back round_to(double value, int digits, decimal *to)
 }
 #endif
 
-/* As %.*g has it, with the exponent as short as it gets. */
+/* Formats like %.*g, with the shortest exponent. */
 static size_t format_decimal(decimal d, bool negative, char *buffer)
 {
     char digit[MOST_DIGITS];
@@ -227,7 +230,7 @@ static size_t format_decimal(decimal d, bool negative, char *buffer)
     while (n > 1 && digit[n - 1] == '0')
         n--;
     const bool scientific = d.exponent < -4 || d.exponent >= d.digits;
-    const int before = scientific ? 1 : d.exponent + 1; /* the decimal point */
+    const int before = scientific ? 1 : d.exponent + 1; /* digits before the decimal point */
     char *to = buffer;
     if (negative)
         *to++ = '-';
@@ -248,7 +251,7 @@ static size_t format_decimal(decimal d, bool negative, char *buffer)
     return (size_t)(to - buffer);
 }
 
-/* The shortest of 15 to 17 digits that reads back; 0: not certain which. */
+/* Writes the shortest text of 15 to 17 digits that reads back; 0 if undecided. */
 static size_t format_extended(double value, char *buffer)
 {
     decimal d;
@@ -273,8 +276,8 @@ size_t wt_number_format(double value, char *buffer)
     }
     if (fabs(value) < 1e15 && !(fabs(value - trunc(value)) > 0))
         return format_whole(value, buffer);
-    /* Any decimal number of 15 digits survives a normal double, so 15 digits without their trailing
-     * zeros are the shortest text if they read back. Subnormal numbers hold fewer digits. */
+    /* A normal double represents any decimal number of 15 digits. So 15 digits without trailing
+     * zeros are the shortest text if they read back. Subnormal numbers have fewer digits. */
     const bool subnormal = fpclassify(value) == FP_SUBNORMAL;
     const size_t certain = subnormal ? 0 : format_extended(value, buffer);
     if (certain > 0)

@@ -1,21 +1,21 @@
-/* The number at the start of a text. SPDX-License-Identifier: GPL-3.0-or-later */
+/* Parses numbers in a text and formats probabilities. SPDX-License-Identifier: GPL-3.0-or-later */
 #ifndef WT_CORE_BASE_NUMBER_H
 #define WT_CORE_BASE_NUMBER_H
 
 #include <stdbool.h>
 #include <stddef.h>
 
-/* Length of the longest number at the start of `text`, 0 if there is none. An "e" that no digit
- * follows belongs to what comes after ("5eV"). */
+/* Returns the length of the longest number at the start of `text`, 0 if there is none. An "e"
+ * without a digit after it belongs to the following text ("5eV"). */
 size_t number_prefix(const char *text, size_t length, char decimal);
-/* A text that is one finite number, with a decimal point; NaN if it is not, or NULL. */
+/* Parses a text that is one finite number with a decimal point; NaN for NULL or another text. */
 double number_of(const char *text);
-/* Reads what wt_number_format writes: also "nan", "inf" and "-inf". */
+/* Parses the output of wt_number_format, which includes "nan", "inf" and "-inf". */
 bool number_read(const char *text, size_t length, double *value);
-/* A value to so many decimals, which below 0 are tens, hundreds ...: there it is rounded to them,
- * else as it is, for the text to round. */
+/* Rounds a value to 10^-decimals if `decimals` is negative. Otherwise the value is returned
+ * unchanged, because printf rounds it. */
 double number_to_tens(double value, int decimals);
-/* A probability in a sentence: "0.02", "below 0.001" where more digits tell nobody more. */
+/* Text of a probability, such as "0.02"; small values are "below 0.001". */
 typedef struct probability_text {
     char text[16];
 } probability_text;

@@ -1,5 +1,5 @@
-/* Parameters: reading one from text, checking a structure, showing a default.
- * SPDX-License-Identifier: GPL-3.0-or-later */
+/* Parses, checks and formats the parameters of an option structure. SPDX-License-Identifier:
+ * GPL-3.0-or-later */
 #include "core/base/param.h"
 #include "core/base/spell_suggest.h"
 
@@ -10,7 +10,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* ---- the table ------------------------------------------------------------------------------- */
+/* ---- table of parameters --------------------------------------------------------------------- */
 
 size_t wt_params_count(const wt_params *params)
 {
@@ -20,7 +20,7 @@ size_t wt_params_count(const wt_params *params)
     return n;
 }
 
-/* Record i and where the structure lies that it is about. */
+/* Returns record i and adds the offset of the structure that it belongs to. */
 static const wt_param *param_at(const wt_params *params, size_t i, size_t *offset)
 {
     if (i < params->n_own)
@@ -43,7 +43,7 @@ const wt_param *wt_params_get(const wt_params *params, size_t i)
     return param_at(params, i, &offset);
 }
 
-/* Its number in the table; that of all if there is none. */
+/* Returns the index of a parameter in the table; the number of parameters if there is none. */
 static size_t param_number(const wt_params *params, const char *name)
 {
     const size_t n = wt_params_count(params);
@@ -55,11 +55,11 @@ static size_t param_number(const wt_params *params, const char *name)
 
 /* ---- members --------------------------------------------------------------------------------- */
 
-/* A structure with the record of one of its members. */
+/* Member of a structure with its parameter record. */
 typedef struct slot {
     const wt_param *param;
     void *member;
-    size_t *count; /* of a list */
+    size_t *count; /* number of elements of a list */
 } slot;
 
 static slot slot_of(const wt_params *params, size_t i, void *structure)
@@ -101,7 +101,7 @@ static bool is_within(const wt_param *param, double value)
            quantity_is_possible(param->quantity, value);
 }
 
-/* "above 0 Pa, up to 1 Pa". */
+/* Example: "above 0 Pa, up to 1 Pa". */
 static void limits_text(const wt_param *param, char *buffer, size_t size)
 {
     const param_limits *l = &param->limits;
@@ -135,9 +135,9 @@ static wt_status out_of_range(const wt_param *param, double value, const char *f
     return WT_E_RANGE;
 }
 
-/* ---- from text ------------------------------------------------------------------------------- */
+/* ---- parsing --------------------------------------------------------------------------------- */
 
-/* A value out of range was read: the text shows it as it was written. */
+/* Checks a value that was parsed. The error message contains the text as it was written. */
 static wt_status fail_range(const wt_param *param, double value, const char *text, wt_error *err)
 {
     if (is_within(param, value))
@@ -157,7 +157,7 @@ static wt_status read_estimate(const wt_param *param, const char *text, wt_estim
     return status;
 }
 
-/* An error that is stated but changes nothing would be a number that is wrong without saying so. */
+/* A stated error that is not used is rejected, because it would be ignored silently. */
 static wt_status read_number(const wt_param *param, const char *text, double *value, wt_error *err)
 {
     wt_estimate read = {0};
@@ -214,7 +214,7 @@ static size_t n_choices(const wt_param *param)
     return n;
 }
 
-/* What a technician calls the form of a table that a spreadsheet opens. */
+/* True if the text resembles the name of a spreadsheet format. */
 static bool is_spreadsheet(const char *text, size_t length)
 {
     spell_suggestion near = nearest_to(text, length);
@@ -247,7 +247,7 @@ static wt_status read_choice(const slot *s, const char *choices, const char *tex
     return WT_OK;
 }
 
-/* "NAME=UNIT" as the word for the value asks for both sides. */
+/* If the placeholder of the value is "NAME=UNIT", both sides of the "=" are required. */
 static bool is_item(const wt_param *param, const char *text)
 {
     const char *equals = strchr(text, '=');
@@ -255,7 +255,8 @@ static bool is_item(const wt_param *param, const char *text)
                              (equals != NULL && equals != text && equals[1] != '\0'));
 }
 
-/* Appends the items, parted by ';' where they are pairs: names of files may hold any character. */
+/* Appends the items of a text. Pairs are separated by ';'; a file name is not split, because it may
+ * contain any character. */
 static wt_status read_texts(const slot *s, const char *text, wt_error *err)
 {
     const char *const **list = s->member;
@@ -340,7 +341,8 @@ wt_status wt_params_set(const wt_params *params, const char *name, void *structu
     if (*text == '\0')
         return wt_fail(err, WT_E_ARG, "the value is empty");
     if (s.param->kind == PARAM_TEXTS && (*given & bit) == 0) {
-        *(const char *const **)s.member = NULL; /* the default is not ours to grow */
+        *(const char *const **)s.member =
+            NULL; /* the caller must not free or extend the default list */
         *s.count = 0;
     }
     if (s.param->kind == PARAM_LIST && (*given & bit) != 0)
@@ -381,9 +383,9 @@ void wt_params_clear(const wt_params *params, void *structure, uint64_t *given)
     *given = 0;
 }
 
-/* ---- the value of a member ------------------------------------------------------------------- */
+/* ---- checking and formatting ----------------------------------------------------------------- */
 
-/* Nothing is in the member: NaN, NULL, no item. */
+/* True if the member has no value: NaN, NULL or an empty list. */
 static bool is_unset(const slot *s)
 {
     switch (s->param->kind) {
@@ -439,7 +441,7 @@ static wt_status check_member(const slot *s, wt_error *err)
         return wt_fail(err, WT_E_MISSING, "missing");
     switch (p->kind) {
     case PARAM_NUMBER:
-    case PARAM_ESTIMATE: /* its value stands first */
+    case PARAM_ESTIMATE: /* the value is the first member of the estimate */
         status = check_values(p, s->member, 1, err);
         break;
     case PARAM_LIST:

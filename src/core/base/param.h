@@ -1,6 +1,5 @@
-/* Parameters: one record says all there is to say about a member of a structure of options. The
- * table of a structure stands beside its function of defaults, and the default itself is what that
- * function leaves in the member.
+/* Parameters of option structures. One record describes one member. The table of a structure stands
+ * next to its function of defaults. The default of a member is the value that this function sets.
  *
  *     static const wt_param rows[] = {
  *         {PARAM("duty", wt_layer_job, duty, WT_Q_NONE, ABOVE_TO(0, 1)), .value = "X",
@@ -19,16 +18,16 @@
 typedef enum param_kind {
     PARAM_NUMBER,   /* double */
     PARAM_ESTIMATE, /* wt_estimate */
-    PARAM_LIST,     /* const double * of rising values and their number */
+    PARAM_LIST,     /* const double * with increasing values, and their number */
     PARAM_COUNT,    /* unsigned, size_t or uint64_t */
     PARAM_FLAG,     /* bool, "yes" or "no" */
-    PARAM_CHOICE,   /* enumeration from 0 on: which of the words of `value` */
+    PARAM_CHOICE,   /* enumeration from 0: index of a name in `value` */
     PARAM_TEXT,     /* const char * */
-    PARAM_TEXTS, /* const char *const * and their number, parted by ';' or given again and again */
-    PARAM_OTHER  /* `read` knows */
+    PARAM_TEXTS,    /* const char *const * and their number; separated by ';' or repeated */
+    PARAM_OTHER     /* parsed by `read` */
 } param_kind;
 
-/* From low to high; NaN never lies within. */
+/* Range from low to high. NaN is outside of every range. */
 typedef struct param_limits {
     double low, high;
     bool with_low, with_high;
@@ -44,32 +43,34 @@ typedef struct param_limits {
 #define FROM_TO(first, last) BRACED(first, last, true, true)
 #define FROM_BELOW(first, bound) BRACED(first, bound, true, false)
 
-/* Where it may stand. Without either it stands in both. */
+/* Flags for options and case elements. By default a parameter has both. */
 #define PARAM_REQUIRED 1u
 #define PARAM_NO_OPTION 2u
 #define PARAM_NO_CASE 4u
 #define PARAM_ONLY_C (PARAM_NO_OPTION | PARAM_NO_CASE)
-/* A file that is written: no input. */
+/* Name of an output file, not of an input file. */
 #define PARAM_WRITTEN 8u
 
 struct wt_param {
-    const char *name; /* option and element; in a section of the same name, <sliding>, that part of
-                         "sliding-temperature" is left out */
+    const char *name; /* option and case element; in a section of the same name, such as <sliding>,
+                         the prefix of "sliding-temperature" is omitted */
     param_kind kind;
     wt_quantity quantity;
     param_limits limits;
     size_t offset, count_offset, size;
-    const char *value; /* what stands for the value in the help, or the choices parted by '|' */
+    const char *value; /* placeholder of the value in the help, or the names of the choices
+                          separated by '|' */
     const char *help;
     const char
-        *unset; /* it may be NaN, NULL or no item, and what then holds; "" = nothing to say */
+        *unset; /* text for NaN, NULL or an empty list, which are then allowed; "" without a text */
     unsigned flags;
-    char letter; /* short option, 0 = none */
+    char letter; /* short option; 0 without one */
     wt_status (*read)(const char *text, void *member, wt_error *err);
-    wt_status (*check)(const void *member, wt_error *err); /* beyond the limits; may be NULL */
+    wt_status (*check)(const void *member,
+                       wt_error *err); /* check beyond the limits; may be NULL */
 };
 
-/* The parameters of a structure that lies in another one. */
+/* Parameters of a structure that is a member of another one. */
 typedef struct param_part {
     const wt_params *(*params)(void);
     size_t offset;
@@ -83,7 +84,7 @@ struct wt_params {
     param_part part[PARAM_PARTS];
 };
 
-/* The kind follows from the member, so the two cannot disagree. */
+/* The macros derive the kind from the member, so that both agree. */
 #define PARAM_MEMBER(type, member) (((type *)NULL)->member)
 #define PARAM_AT(type, member)                                                                     \
     .offset = offsetof(type, member), .size = sizeof PARAM_MEMBER(type, member)
@@ -103,7 +104,7 @@ struct wt_params {
     .name = (name_), PARAM_AT(type, member),                                                       \
     .kind = _Generic(PARAM_MEMBER(type, member), bool                                              \
                      : PARAM_FLAG)
-/* A compiler takes an enumeration for unsigned or for int. */
+/* The type of an enumeration is unsigned or int, depending on the compiler. */
 #define PARAM_CHOICE_OF(name_, type, member, words)                                                \
     .name = (name_), PARAM_AT(type, member), .value = (words),                                     \
     .kind = _Generic(PARAM_MEMBER(type, member), unsigned                                          \
@@ -115,11 +116,11 @@ struct wt_params {
 #define PARAM_TEXTS_OF(name_, type, member, number)                                                \
     .name = (name_), PARAM_AT(type, member), .count_offset = offsetof(type, number),               \
     .kind = _Generic(PARAM_MEMBER(type, member), const char *const *: PARAM_TEXTS)
-/* `function` reads it. */
+/* Parameter that `function` parses. */
 #define PARAM_OTHER_OF(name_, type, member, function)                                              \
     .name = (name_), PARAM_AT(type, member), .kind = PARAM_OTHER, .read = (function)
 
-/* A record that many have. */
+/* Parameter that many structures have. */
 #define PARAM_THREADS(type)                                                                        \
     {                                                                                              \
         PARAM("threads", type, threads, WT_Q_NONE, FROM_TO(0, 1024)),                              \
@@ -127,8 +128,8 @@ struct wt_params {
             .help = "threads to use, which change no result; 0 is one per processor"               \
     }
 
-/* Defines a function that gives the table of a structure; the last arguments are the structures
- * that lie in it. */
+/* Defines a function that returns the table of parameters of a structure. The last arguments are
+ * the nested structures. */
 #define NO_PARTS BRACED(NULL, 0)
 #define PARAM_PART(table, type, member) BRACED(table, offsetof(type, member))
 #define PARAM_TABLE(name, type, rows, function, ...)                                               \
@@ -144,26 +145,26 @@ struct wt_params {
         return &table;                                                                             \
     }
 
-/* The same for a table of one file. */
+/* Variant for a table that is used in one file only. */
 #define PARAM_LOCAL_TABLE(name, type, rows, function, ...)                                         \
     static const wt_params *name(void);                                                            \
     PARAM_TABLE(name, type, rows, function, __VA_ARGS__)
 
-/* All values of a structure: WT_E_RANGE, or WT_E_MISSING if a required one is not set; the place of
- * the error is the name. */
+/* Checks all values of a structure. Errors: WT_E_RANGE, or WT_E_MISSING if a required value is not
+ * set. The place of the error is the name of the parameter. */
 wt_status param_check(const wt_params *params, const void *structure, wt_error *err) WT_NODISCARD;
-/* The same for one number that is in no structure. */
+/* Variant for one number without a structure. */
 wt_status param_check_number(const wt_param *param, double value, wt_error *err) WT_NODISCARD;
-/* The error of a number that is not a parameter: WT_E_RANGE. */
+/* Creates the error WT_E_RANGE for a number that is not a parameter. */
 wt_status range_error(const char *name, double value, const char *expected, wt_error *err);
-/* The word that a choice has for a value, for who tells what was chosen; "" for none. */
+/* Writes the name of a choice to the buffer, "" if there is none. */
 enum { PARAM_WORD = 32 };
 void param_word(const wt_params *params, const char *name, unsigned value, char *buffer,
                 size_t size);
-/* The members of those of its own rows that are given, from one structure to another; not of lists
- * and texts, which have an owner. */
+/* Copies the stated members between two structures, without nested structures. Lists and texts must
+ * not be among them, because they have one owner. */
 void param_copy(const wt_params *params, const void *from, uint64_t given, void *to);
-/* Name of the first required parameter that is not given; NULL if there is none. */
+/* Returns the name of the first required parameter that is not stated; NULL if there is none. */
 const char *param_missing(const wt_params *params, uint64_t given);
 
 #endif

@@ -1,4 +1,4 @@
-/* Paths as text. SPDX-License-Identifier: GPL-3.0-or-later */
+/* Functions for paths as text. SPDX-License-Identifier: GPL-3.0-or-later */
 #include "weartrack/base.h"
 
 #include <stdlib.h>
@@ -6,7 +6,7 @@
 
 char *wt_path_join(const char *folder, const char *name)
 {
-    /* "./name" says no more than "name". */
+    /* "./name" is shortened to "name". */
     if (name[0] == '/' || folder == NULL || folder[0] == '\0' || strcmp(folder, ".") == 0)
         return strdup(name);
     const size_t n_folder = strlen(folder), n_name = strlen(name);

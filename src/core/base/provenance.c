@@ -1,5 +1,5 @@
-/* Where a result comes from: the command and its inputs. SPDX-License-Identifier: GPL-3.0-or-later
- */
+/* Provenance of a result: the command and its input files. SPDX-License-Identifier:
+ * GPL-3.0-or-later */
 #include "core/base/provenance.h"
 
 #include "core/base/array.h"
@@ -8,7 +8,7 @@
 #include <string.h>
 
 struct wt_provenance {
-    char *version, *command; /* NULL: of this program; not set */
+    char *version, *command; /* NULL: version of this program; no command */
     wt_provenance_input *inputs;
     size_t n;
 };
@@ -18,7 +18,7 @@ wt_provenance *wt_provenance_new(void)
     return calloc(1, sizeof(wt_provenance));
 }
 
-/* Role and format are mostly those of the input before, whose texts are used again. */
+/* Consecutive inputs often have the same role and format and share these texts. */
 static void input_free(wt_provenance_input *input, const wt_provenance_input *before)
 {
     free((char *)input->path);
@@ -53,7 +53,7 @@ static bool is_plain(const char *word)
                                                 "0123456789_@%+=:,./-")] == '\0';
 }
 
-/* Writes `word` as a shell would need it; returns the end. */
+/* Writes a word with shell quoting and returns the end of the text. */
 static char *quote_for_shell(char *to, const char *word)
 {
     if (is_plain(word))
@@ -83,7 +83,7 @@ wt_status wt_provenance_set_command(wt_provenance *p, int argc, char *const argv
     for (int i = 0; i < argc; i++) {
         if (i > 0)
             *to++ = ' ';
-        /* Where the program is installed says nothing about the result. */
+        /* The folder of the program does not affect the result. */
         to = quote_for_shell(to, i == 0 ? wt_path_base(argv[i]) : argv[i]);
     }
     free(p->command);

@@ -1,4 +1,5 @@
-/* The closed list of quantities. SPDX-License-Identifier: GPL-3.0-or-later */
+/* Closed list of quantities with their units, examples and limits. SPDX-License-Identifier:
+ * GPL-3.0-or-later */
 #include "core/base/quantity.h"
 
 #include <math.h>
@@ -92,8 +93,8 @@ const char *quantity_example(wt_quantity quantity)
     return quantity == WT_Q_TEMPERATURE_DIFFERENCE ? "5K" : unit_words_of(quantity)->example;
 }
 
-/* No polymer outlives it, and no instrument of this field heats as far. Differences of temperature
- * are also constants of laws. */
+/* No polymer survives a higher temperature, and no instrument of this field reaches it. The limit
+ * does not hold for temperature differences, which are also constants of laws. */
 static const double hottest = 2000; /* [K] */
 
 double quantity_most(wt_quantity quantity)

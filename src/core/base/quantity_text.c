@@ -1,4 +1,4 @@
-/* Quantities as text: an estimate with its stated error, a list of values.
+/* Parses quantities: an estimate with its stated error, or a list of values.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "core/base/clocale.h"
 
@@ -11,7 +11,7 @@ static bool is_blank(char c)
     return c == ' ' || c == '\t' || c == '\n' || c == '\r';
 }
 
-/* A copy of [begin, end) without blanks around it; NULL when out of memory. */
+/* Copies [begin, end) without surrounding blanks; NULL when out of memory. */
 static char *copy_trimmed(const char *begin, const char *end)
 {
     while (begin < end && is_blank(*begin))
@@ -21,14 +21,14 @@ static char *copy_trimmed(const char *begin, const char *end)
     return strndup(begin, (size_t)(end - begin));
 }
 
-/* The place of "+-" or "±" in the text; NULL if there is none. Both take two bytes. */
+/* Returns the position of "+-" or "±", NULL if there is none. Both have two bytes. */
 static const char *find_plus_minus(const char *text)
 {
     const char *ascii = strstr(text, "+-");
     return ascii != NULL ? ascii : strstr(text, "\xc2\xb1");
 }
 
-/* How much of the text stands before a "%" or "percent" at its end; 0 if there is none. */
+/* Returns the length of the text before a "%" or "percent" at its end; 0 without one. */
 static size_t before_percent(const char *text)
 {
     static const char *const marks[] = {"%", "percent"};
@@ -44,8 +44,7 @@ static size_t before_percent(const char *text)
     return 0;
 }
 
-/* The stated error: "5%" of the value, of a number without a unit, too, or a quantity of the same
- * dimension. */
+/* Parses a stated error: a percentage of the value, or a quantity of the same dimension. */
 static wt_status parse_error_part(const char *text, wt_quantity quantity, double value,
                                   double *error, wt_error *err)
 {
@@ -86,7 +85,7 @@ static wt_status parse_error_part(const char *text, wt_quantity quantity, double
     return WT_OK;
 }
 
-/* 5 % of 60 % and five points of it are both meant by that. */
+/* "60 % +- 5 %" is ambiguous: a relative error or percentage points. */
 static wt_status fail_two_percents(const char *text, wt_error *err)
 {
     wt_fail(err, WT_E_UNIT,
@@ -151,7 +150,7 @@ static wt_status parse_items(char *const *item, size_t n, wt_quantity quantity, 
     return status;
 }
 
-/* FIRST:LAST UNIT:log|lin:COUNT; `part` are the four pieces. */
+/* Parses FIRST:LAST UNIT:log|lin:COUNT; `part` contains the four parts. */
 static wt_status parse_range(const char *text, char *const *part, wt_quantity quantity, values *out,
                              wt_error *err)
 {
@@ -187,7 +186,7 @@ static wt_status parse_range(const char *text, char *const *part, wt_quantity qu
     for (size_t i = 0; i < out->n; i++) {
         const double t = (double)i / (double)(out->n - 1);
         const double v = logarithmic ? first * pow(last / first, t) : first + (last - first) * t;
-        /* 15 digits, so that a decade is 0.01 and not 0.009999999999999998 */
+        /* rounds to 15 digits, so that a decade is 0.01 and not 0.009999999999999998 */
         char digits[32];
         clocale_print(digits, sizeof digits, "%.15g", v);
         if (!wt_number_parse(digits, strlen(digits), '.', &out->v[i]))
@@ -198,7 +197,7 @@ static wt_status parse_range(const char *text, char *const *part, wt_quantity qu
     return WT_OK;
 }
 
-/* The n pieces of a text that a mark parts, without blanks around them; NULL when out of memory. */
+/* Splits a text into n parts without surrounding blanks; NULL when out of memory. */
 static char **split_at_mark(const char *text, char mark, size_t n)
 {
     char **pieces = calloc(n, sizeof *pieces);

@@ -1,11 +1,11 @@
-/* Two ends of a range as text. SPDX-License-Identifier: GPL-3.0-or-later */
+/* Formats a range of numbers. SPDX-License-Identifier: GPL-3.0-or-later */
 #include "core/base/range_text.h"
 
 #include "core/base/clocale.h"
 
 #include <string.h>
 
-/* Ends nearer than that are equal to whoever reads them. */
+/* Limits that agree to this number of digits are printed as equal. */
 enum { MOST_DIGITS = 9 };
 
 int range_digits(double low, double high, int least)

@@ -1,10 +1,11 @@
-/* Answers without memory or without units. SPDX-License-Identifier: GPL-3.0-or-later */
+/* Records resource errors of libraries: out of memory, or no access to a file.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "core/base/resource_error.h"
 
 #include <errno.h>
 #include <string.h>
 
-static _Thread_local int seen; /* 0: nothing */
+static _Thread_local int seen; /* errno of the last resource error; 0 without one */
 
 void resource_error_clear(void)
 {

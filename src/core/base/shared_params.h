@@ -1,11 +1,11 @@
-/* Records of parameters that a structure of the kernel and one of a job both have, under the same
- * name of the member unless it is given. SPDX-License-Identifier: GPL-3.0-or-later */
+/* Parameter records that a structure of a computation and one of a job share. The members have the
+ * same names unless an argument states them. SPDX-License-Identifier: GPL-3.0-or-later */
 #ifndef WT_CORE_BASE_SHARED_PARAMS_H
 #define WT_CORE_BASE_SHARED_PARAMS_H
 
 #include "core/base/param.h"
 
-/* clang-format off: one a line */
+/* clang-format off: one record in each line */
 
 #define FRICTION_TOLERANCE(type)                                                                   \
     {                                                                                              \
@@ -30,7 +30,8 @@
                     "to there, for the softening"                                                  \
     }
 
-/* The first two orders; sin and cos know a direction but for half a turn. */
+/* The first two orders of the Fourier series of the direction. Opposite directions are
+ * equivalent. */
 #define FRICTION_ANISOTROPY(type)                                                                  \
     {PARAM("anisotropy", type, anisotropy.amplitude[0], WT_Q_NONE, FROM_TO(-1, 1)), .value = "A",  \
      .help = "of the roughness: the power spectrum at an angle phi to the velocity is 1 + "        \
@@ -56,7 +57,7 @@
                     "simulations do: Yang and Persson 2008, Wang and Mueser 2017, Xu 2024"         \
     }
 
-/* `in` stands before the member. */
+/* `in` is a prefix of the member. */
 #define FLASH_ROWS(type, in)                                                                       \
     {PARAM_FLAG_OF("flash-temperature", type, in on),                                              \
      .help = "the heat of sliding warms the rubber at every length scale (Persson 2006); the "     \
@@ -79,7 +80,7 @@
                     "is larger than the macroscopic contacts"                                      \
     }
 
-/* `in` stands before the member. */
+/* `in` is a prefix of the member. */
 #define SHEAR_LAW_ROWS(type, in)                                                                   \
     {PARAM_CHOICE_OF("shear-law", type, in kind, "constant|log-normal"),                           \
      .help = "the shear stress is that of every velocity and temperature, or of the peak of "      \
@@ -96,7 +97,7 @@
             .value = "T", .help = "Tref, at which the peak is at v0*; 20 degC in that paper"       \
     }
 
-/* What is on the surface. `in` stands before the member. */
+/* State of the surface layer. `in` is a prefix of the member. */
 #define LAYER_STATE_ROWS(type, in)                                                                 \
     {PARAM("layer-thickness", type, in thickness, WT_Q_LENGTH, AT_LEAST(0)), .value = "D",         \
      .flags = PARAM_NO_CASE, .help = "of the modified layer, such as 1um"},                        \
@@ -134,15 +135,11 @@
                     "bonds that the energy helps over a barrier, at the temperature of the rubber" \
     }
 
-/* `in` stands before the member. */
+/* `in` is a prefix of the member. The list of quantities has no volume; the activation volume uses
+ * another quantity in m^3. */
 #define LAYER_ACTIVATION_ROWS(type, in, in_barrier)                                                \
     {PARAM("barrier", type, in_barrier barrier, WT_Q_ENERGY, ABOVE(0)), .value = "E", .unset = "", \
-     .help =                                                                                       \
-         "of the activated closure, such as 1.5eV; literature: 1.3eV to 3.6eV"}, /* the list of    \
-                                                                                    quantities has \
-                                                                                    no volume, but \
-                                                                                    one more in    \
-                                                                                    m^3 */         \
+     .help = "of the activated closure, such as 1.5eV; literature: 1.3eV to 3.6eV"},               \
         {PARAM("activation-volume", type, in volume, WT_Q_POWER_SPECTRUM_1D, ABOVE(0)),            \
          .value = "V", .unset = "",                                                                \
          .help = "V_a of the activated closure, by which energy per volume lowers the barrier, "   \

@@ -1,4 +1,5 @@
-/* The name that was meant. SPDX-License-Identifier: GPL-3.0-or-later */
+/* Suggests the name that a misspelled word probably means. SPDX-License-Identifier:
+ * GPL-3.0-or-later */
 #include "core/base/spell_suggest.h"
 
 #include <stdbool.h>
@@ -11,7 +12,7 @@ static size_t least(size_t a, size_t b)
     return a < b ? a : b;
 }
 
-/* Capitals of ASCII as small letters. */
+/* Converts an ASCII capital to lower case. */
 static char small(char c)
 {
     return c >= 'A' && c <= 'Z' ? (char)(c - 'A' + 'a') : c;

@@ -1,5 +1,5 @@
-/* Units of files and of the command line to SI, by UDUNITS-2.
- * SPDX-License-Identifier: GPL-3.0-or-later */
+/* Converts units of files and of the command line to SI with UDUNITS-2. SPDX-License-Identifier:
+ * GPL-3.0-or-later */
 #include "core/base/clocale.h"
 #include "core/base/number.h"
 #include "core/base/quantity.h"
@@ -14,17 +14,17 @@
 #include <string.h>
 #include <udunits2.h>
 
-/* Longer than any unit; also keeps the UDUNITS parser from long work on a hostile file. */
+/* Limit for the length of a unit. It also protects the UDUNITS parser from hostile files. */
 enum { UNIT_MAX = 128 };
 
-/* UDUNITS-2 is not thread-safe and its database takes long to read, so there is one unit system for
- * the process, made when first needed and used under a lock. */
+/* UDUNITS-2 is not thread-safe and its database takes long to read. The process has one unit
+ * system, which is loaded at its first use and protected by a lock. */
 static pthread_mutex_t lock = PTHREAD_MUTEX_INITIALIZER;
 static ut_system *units = NULL;
 
-/* What UDUNITS lacked since it was entered, as errno has it: memory, or a file of its database. It
- * then takes a unit that it knows for an unknown one, or reads half of its database, and goes on:
- * no answer of it counts. 0: nothing. */
+/* Resource error of UDUNITS since enter_units, as errno: memory, or a file of its database; 0
+ * without one. After such an error UDUNITS may report a known unit as unknown, or use an incomplete
+ * database. Its results are then discarded. */
 static int lacking;
 
 static int note_message(const char *format, va_list list)
@@ -58,7 +58,7 @@ static void leave_units(visit before)
     clocale_leave(before.locale);
 }
 
-/* A spelling of instruments that the database lacks. */
+/* Adds a spelling of instruments that the database lacks. */
 static void add_spelling(const char *spelling, const char *name)
 {
     ut_unit *const unit = ut_get_unit_by_name(units, name);
@@ -73,7 +73,7 @@ static void make_units(void)
     if (units != NULL) {
         add_spelling("deg", "degree");
         add_spelling("dyn", "dyne");
-        /* The database takes a byte for the number 8. */
+        /* The database defines a byte as the number 8. */
         ut_unit *const byte = ut_new_dimensionless_unit(units);
         (void)ut_unmap_name_to_unit(units, "byte", UT_ASCII);
         (void)ut_map_name_to_unit("byte", UT_ASCII, byte);
@@ -86,7 +86,8 @@ static void make_units(void)
     }
 }
 
-/* What a unit is a multiple of: a product of base units, among which UDUNITS counts the radian. */
+/* Base of a unit: the product of base units that it is a multiple of. UDUNITS treats the radian as
+ * a base unit. */
 typedef struct base_of {
     const ut_unit *product;
     bool offset;
@@ -157,7 +158,7 @@ static bool convert_by_database(const char *unit, const char *si, double *factor
     bool good = converter != NULL;
     if (good) {
         *offset = base.offset ? cv_convert_double(converter, 0.0) : 0.0;
-        /* At 2^70 an offset of temperature is below the last digit. */
+        /* At 2^70 a temperature offset is below the last digit. */
         *factor = base.offset ? ldexp(cv_convert_double(converter, ldexp(1.0, 70)), -70)
                               : cv_convert_double(converter, 1.0);
         good = isfinite(*offset) && isfinite(*factor) && *factor > 0.0;
@@ -196,7 +197,7 @@ static wt_status convert_unit(const char *unit, const char *si, bool *good, doub
     return WT_OK;
 }
 
-/* UDUNITS knows whole powers only: the square root of the hertz is taken off the text. */
+/* UDUNITS supports integer powers only. The square root of the hertz is removed from the text. */
 static bool strip_root_hertz(char *unit)
 {
     static const char *const spellings[] = {"/sqrt(Hz)", "/\xE2\x88\x9AHz", "/rtHz",   "/Hz^0.5",
@@ -212,7 +213,7 @@ static bool strip_root_hertz(char *unit)
     return false;
 }
 
-/* What is left of a text without blanks around it. */
+/* Skips the blanks around a text. */
 static const char *without_blanks(const char *text, size_t *length)
 {
     static const char blanks[] = " \t\r\n\v\f";
@@ -223,8 +224,8 @@ static const char *without_blanks(const char *text, size_t *length)
     return text;
 }
 
-/* Copies without blanks and one pair of square brackets around it. False if it does not fit or is
- * not UTF-8. */
+/* Copies a unit without surrounding blanks and one pair of square brackets. False if it is too long
+ * or not UTF-8. */
 static bool trim(const char *unit, char copy[UNIT_MAX])
 {
     size_t length = strlen(unit);
@@ -244,7 +245,7 @@ static bool trim(const char *unit, char copy[UNIT_MAX])
     return true;
 }
 
-/* "a pressure", "an angular frequency". */
+/* Example: "a pressure", "an angular frequency". */
 static void quantity_words(wt_quantity quantity, char *buffer, size_t size)
 {
     const char *const id = quantity == WT_Q_NONE ? "number" : wt_quantity_id(quantity);
@@ -255,7 +256,7 @@ static void quantity_words(wt_quantity quantity, char *buffer, size_t size)
     }
 }
 
-/* angular: the radian is what stands in the way. */
+/* Sets *angular if the conversion fails only because of the radian. */
 static wt_status convert(const char text[UNIT_MAX], wt_quantity quantity, bool *good, bool *angular,
                          double *factor, double *offset, wt_error *err)
 {
@@ -270,7 +271,7 @@ static wt_status convert(const char text[UNIT_MAX], wt_quantity quantity, bool *
     wt_status status = convert_unit(unit, si, good, factor, offset, err);
     if (status != WT_OK || *good)
         return status;
-    /* A spatial frequency per cycle would be cycles/m, so 1/m can only mean rad/m. */
+    /* A spatial frequency would have the unit cycles/m, so that 1/m means rad/m. */
     if (quantity == WT_Q_WAVENUMBER)
         return convert_unit(unit, "1/m", good, factor, offset, err);
     if (quantity == WT_Q_ANGULAR_FREQUENCY)
@@ -309,8 +310,8 @@ wt_status wt_unit_to_si(const char *unit, wt_quantity quantity, double *factor, 
     if (status != WT_OK)
         return status;
 
-    /* An offset makes sense for a temperature; a difference of temperatures has the same unit
-     * without it, and nothing else has one. */
+    /* A temperature has an offset. A temperature difference has the same unit without the offset.
+     * No other quantity has one. */
     if (good && fpclassify(o) != FP_ZERO && quantity != WT_Q_TEMPERATURE) {
         o = 0.0;
         good = quantity == WT_Q_TEMPERATURE_DIFFERENCE;
@@ -328,8 +329,8 @@ wt_status wt_unit_to_si(const char *unit, wt_quantity quantity, double *factor, 
     return WT_OK;
 }
 
-/* What a person types in hertz counts cycles, whatever it becomes; 1/s may be either. A column that
- * is called a frequency is another thing: what it holds stands in its unit alone. */
+/* A user who types hertz counts cycles; the value is converted to an angular frequency if needed.
+ * The unit 1/s may be either. Columns are different: their unit alone decides. */
 static wt_status to_si_of_frequency(const char *unit, wt_quantity quantity, double *factor,
                                     double *offset, wt_error *err)
 {
@@ -344,8 +345,8 @@ static wt_status to_si_of_frequency(const char *unit, wt_quantity quantity, doub
     return wt_unit_to_si(unit, quantity, factor, offset, err);
 }
 
-/* What is meant by a unit of temperature as it is written in words; NULL: nothing known. "C" is
- * coulomb, "F" is farad. */
+/* Returns advice for a temperature unit written in words, NULL if there is none. In UDUNITS "C" is
+ * coulomb and "F" is farad. */
 static const char *find_degrees(const char *unit, wt_quantity quantity)
 {
     static const struct {
@@ -379,7 +380,7 @@ wt_status wt_quantity_parse(const char *text, wt_quantity quantity, double *valu
         reason = advice;
     } else if (strchr("0123456789+-.,", unit[0]) != NULL && unit[0] != '\0' &&
                strncmp(unit, "1/", 2) != 0) {
-        /* "1 200 Pa" and "1,200Pa" would be read as one times 200 Pa. */
+        /* "1 200 Pa" and "1,200Pa" would otherwise be read as one times 200 Pa. */
         status = wt_fail(err, WT_E_ARG, "not one number with its unit");
         reason = advice;
     } else {

@@ -1,4 +1,5 @@
-/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Table of the most common units, which avoids loading the UDUNITS-2 database.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "core/base/unit_known.h"
 
 #include "core/base/array.h"

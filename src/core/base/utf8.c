@@ -1,4 +1,4 @@
-/* UTF-8 well-formedness (Unicode standard, table 3-7). SPDX-License-Identifier: GPL-3.0-or-later */
+/* Checks UTF-8 text (Unicode standard, table 3-7). SPDX-License-Identifier: GPL-3.0-or-later */
 #include "core/base/utf8.h"
 
 #include <string.h>

@@ -1,4 +1,4 @@
-/* The version of the library that runs. SPDX-License-Identifier: GPL-3.0-or-later */
+/* Returns the version of the library. SPDX-License-Identifier: GPL-3.0-or-later */
 #include "weartrack/base.h"
 
 #define TEXT_OF(x) #x

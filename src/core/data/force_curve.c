@@ -1,5 +1,5 @@
-/* Force curves, whose memory is used again from curve to curve.
- * SPDX-License-Identifier: GPL-3.0-or-later */
+/* Force curves, whose memory is reused from curve to curve. SPDX-License-Identifier:
+ * GPL-3.0-or-later */
 #include "core/data/force_curve.h"
 
 #include "core/base/array.h"
@@ -48,7 +48,7 @@ void wt_force_curve_reset(wt_force_curve *curve)
     curve->n_segments = 0;
 }
 
-/* A segment beyond n_segments keeps its arrays, so that the next curve only resizes them. */
+/* A segment beyond n_segments keeps its arrays. The next curve only resizes them. */
 static bool fit_channels(wt_segment *segment, size_t n_points, size_t n_channels)
 {
     if (n_points > SIZE_MAX / sizeof(double) || n_channels > SIZE_MAX / sizeof(wt_channel))
@@ -117,7 +117,8 @@ const wt_segment *wt_force_curve_segment(const wt_force_curve *curve, wt_segment
     return NULL;
 }
 
-/* What the file's own value becomes when another is given. */
+/* Returns the factor by which a stated calibration value replaces that of the file; 1 without a
+ * replacement. */
 static double replaced_value(bool given, double own, double value)
 {
     return given && own > 0 ? value / own : 1;

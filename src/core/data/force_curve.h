@@ -1,42 +1,42 @@
-/* Force curves inside the library: what follows from the deflection of the cantilever, and the time
- * of a sample.
+/* Conversions of force curves: force, deflection and voltage of the cantilever, and the time of a
+ * sample.
  *
- * Voltage of the detector times sensitivity is deflection, times spring constant is force.
+ * The deflection is the detector voltage times the sensitivity. The force is the deflection times
+ * the spring constant.
  *
- * SPDX-License-Identifier: GPL-3.0-or-later
- */
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #ifndef WT_CORE_DATA_FORCE_CURVE_H
 #define WT_CORE_DATA_FORCE_CURVE_H
 
 #include "weartrack/data.h"
 
-/* From a signal of the quantity `from` to the quantity `to`; both are a deflection voltage, a
- * deflection or a force. The instrument made the signal with the calibration `file`, the result has
- * the calibration `used`: what was given in it replaces the file's, if the file tells its own. NaN
- * if a value that it takes is not known. */
+/* Returns the factor that converts a signal of the quantity `from` to the quantity `to`; both are a
+ * deflection voltage, a deflection or a force. The instrument computed the signal with the
+ * calibration `file`. The result has the calibration `used`, whose stated values replace those of
+ * the file. NaN if a necessary value is unknown. */
 double deflection_factor(wt_quantity from, wt_quantity to, const wt_cantilever *file,
                          const wt_cantilever *used);
 
-/* How far the tip is, if the cantilever is bent by `force` [N] at a piezo position [m] that rises
+/* Returns the position of the tip [m] for a force [N] at a piezo position [m] that increases
  * towards the sample. */
 static inline double tip_position(double position, double force, double spring_constant)
 {
     return position - force / spring_constant;
 }
 
-/* Sample i is at start + duration i/n: a duration ends where the next segment begins, not at the
- * last sample. (JPK files say so: a segment that was stopped after one sample has a duration of one
- * interval.) */
+/* Computes the time of sample i as start + duration i/n. A duration ends at the start of the next
+ * segment, not at the last sample. JPK files use this definition: a segment with one sample has the
+ * duration of one interval. */
 void sample_times(double start, double duration, size_t n, double *times);
 
-/* Force of every sample [N]: as stored, or made in scratch [n_points] from the deflection; NULL if
- * the segment has no such channel or the calibration does not allow it. */
+/* Returns the force of every sample [N], as stored or computed from the deflection in scratch
+ * [n_points]. NULL without a suitable channel or calibration. */
 const double *segment_force(const wt_segment *segment, const wt_cantilever *cantilever,
                             double *scratch);
-/* The height that the fit uses: that of a sensor where there is one; NULL if there is none. */
+/* Returns the height for the fit, measured by a sensor if possible; NULL without a height. */
 const double *segment_height(const wt_segment *segment);
-/* Time of every sample as stored, or made in scratch [n_points] from the duration; NULL if neither
- * is known. */
+/* Returns the time of every sample [s], as stored or computed from the duration in scratch
+ * [n_points]; NULL if both are unknown. */
 const double *segment_time(const wt_segment *segment, double *scratch);
 
 #endif

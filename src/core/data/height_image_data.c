@@ -1,4 +1,5 @@
-/* Images. SPDX-License-Identifier: GPL-3.0-or-later */
+/* Memory of images, and their conversion to height maps. SPDX-License-Identifier:
+ * GPL-3.0-or-later */
 #include "weartrack/data.h"
 
 #include <math.h>

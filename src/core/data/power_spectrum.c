@@ -1,4 +1,4 @@
-/* Power spectra. SPDX-License-Identifier: GPL-3.0-or-later */
+/* Memory of power spectra. SPDX-License-Identifier: GPL-3.0-or-later */
 #include "weartrack/data.h"
 
 #include <stdlib.h>

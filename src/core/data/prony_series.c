@@ -1,4 +1,4 @@
-/* Prony series. SPDX-License-Identifier: GPL-3.0-or-later */
+/* Memory of Prony series. SPDX-License-Identifier: GPL-3.0-or-later */
 #include "core/data/prony_series.h"
 
 #include <math.h>

@@ -1,4 +1,4 @@
-/* Prony series inside the library. SPDX-License-Identifier: GPL-3.0-or-later */
+/* Copies Prony series. Internal to the library. SPDX-License-Identifier: GPL-3.0-or-later */
 #ifndef WT_CORE_DATA_PRONY_SERIES_H
 #define WT_CORE_DATA_PRONY_SERIES_H
 

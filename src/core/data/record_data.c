@@ -1,4 +1,4 @@
-/* Records of friction. SPDX-License-Identifier: GPL-3.0-or-later */
+/* Memory of friction records. SPDX-License-Identifier: GPL-3.0-or-later */
 #include "weartrack/data.h"
 
 #include <stdlib.h>

@@ -1,4 +1,5 @@
-/* DMA sweeps. SPDX-License-Identifier: GPL-3.0-or-later */
+/* DMA sweeps: memory, sorting, removal of duplicates and selection of a sample.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "core/data/sweep_points.h"
 
 #include "core/base/clocale.h"
@@ -37,8 +38,8 @@ static void points_free(sweep_points p)
     free(p.sample);
 }
 
-/* The moduli and what was swept, and what there is `with` them, uninitialised; false when out of
- * memory. */
+/* Allocates the moduli, the swept variable and the optional arrays `with`, uninitialised. False
+ * when out of memory. */
 static bool points_make(sweep_points *p, size_t n, unsigned with)
 {
     const bool has[SWEEP_ARRAYS] = {[SWEEP_FIRST] = true,
@@ -130,14 +131,15 @@ wt_strain_sweep *wt_sweep_add_strain_sweep(wt_sweep *sweep, size_t n)
     return &all[sweep->n_strain_sweeps++];
 }
 
-/* ---- order ----------------------------------------------------------------------------------- */
+/* ---- sorting --------------------------------------------------------------------------------- */
 
-static int by_number(double a, double b) /* not known last */
+static int by_number(double a, double b) /* NaN last */
 {
     return isnan(a) || isnan(b) ? isnan(a) - isnan(b) : (a > b) - (a < b);
 }
 
-/* By temperature; equal ones by where they came from, steps in their number. */
+/* Compares by temperature, then by source; numbers in the name of the source are compared as
+ * numbers. */
 static int by_temperature(const void *a, const void *b)
 {
     const wt_isotherm *const p = a, *const q = b;
@@ -186,8 +188,8 @@ static void sift_down(const sweep_points *p, size_t root, size_t n)
     }
 }
 
-/* Sweeps are also measured from high to low. Heap sort, as it moves several arrays together and
- * needs no memory that could be refused. */
+/* Some sweeps are measured with decreasing values. Heap sort can sort several arrays together and
+ * needs no memory, so that it cannot fail. */
 static void sort_points(sweep_points points)
 {
     const sweep_points *const p = &points;
@@ -223,14 +225,14 @@ void wt_sweep_sort(wt_sweep *sweep)
               compare_strain_sweeps);
 }
 
-/* ---- copies ---------------------------------------------------------------------------------- */
+/* ---- duplicates ------------------------------------------------------------------------------ */
 
 static bool same_sample(const char *a, const char *b)
 {
     return strcmp(a != NULL ? a : "", b != NULL ? b : "") == 0;
 }
 
-/* Of arrays, or of none on both sides. */
+/* Compares the bytes of two arrays; two missing arrays are equal. */
 static bool same_numbers(const double *a, const double *b, size_t n)
 {
     if (a == NULL || b == NULL)
@@ -238,7 +240,7 @@ static bool same_numbers(const double *a, const double *b, size_t n)
     return memcmp(a, b, n * sizeof *a) == 0;
 }
 
-/* Whatever the strain was: of an isotherm or a temperature sweep it is no result. */
+/* The strain is ignored, because it is no result of an isotherm or a temperature sweep. */
 static bool is_copy(sweep_points a, sweep_points b)
 {
     bool same = a.n == b.n && same_sample(a.sample, b.sample);
@@ -255,7 +257,7 @@ static bool same_point(const wt_isotherm *t, size_t i, size_t k)
            (t->loss_factor == NULL || same_numbers(t->loss_factor + i, t->loss_factor + k, 1));
 }
 
-/* Points of one frequency stand together. */
+/* Points of equal frequency are adjacent after sorting. */
 static size_t drop_points(wt_isotherm *t)
 {
     const sweep_points p = points_of_isotherm(t);
@@ -284,7 +286,7 @@ static void drop_copies_of_points(wt_isotherm *t, wt_log *log)
                    dropped, t->temperature - WT_ZERO_CELSIUS);
 }
 
-/* Those of one frequency stand together. */
+/* Ramps of equal frequency are adjacent after sorting. */
 static void drop_copies_of_ramps(wt_sweep *sweep, wt_log *log)
 {
     size_t kept = 0;
@@ -303,7 +305,7 @@ static void drop_copies_of_ramps(wt_sweep *sweep, wt_log *log)
     sweep->n_ramps = kept;
 }
 
-/* Those of one temperature and frequency stand together. */
+/* Strain sweeps of equal temperature and frequency are adjacent after sorting. */
 static void drop_copies_of_strain_sweeps(wt_sweep *sweep, wt_log *log)
 {
     size_t kept = 0;
@@ -322,7 +324,7 @@ static void drop_copies_of_strain_sweeps(wt_sweep *sweep, wt_log *log)
     sweep->n_strain_sweeps = kept;
 }
 
-/* Another temperature may be a slip of the one who typed it. */
+/* A duplicate at another temperature may be a typing error of the user. */
 static void first_copy(const wt_isotherm *t, const wt_isotherm *original, char *text, size_t size)
 {
     if (t->temperature == original->temperature)
@@ -333,7 +335,7 @@ static void first_copy(const wt_isotherm *t, const wt_isotherm *original, char *
                       original->temperature - WT_ZERO_CELSIUS);
 }
 
-/* Isotherms are few; those measured again at one temperature fewer. */
+/* Every pair of isotherms is compared, because there are few of them. */
 void wt_sweep_drop_copies(wt_sweep *sweep, wt_log *log)
 {
     size_t kept = 0, n = 0;

@@ -1,23 +1,23 @@
-/* What isotherms, temperature sweeps and strain sweeps have in common. Internal to the library.
+/* Common arrays of isotherms, temperature sweeps and strain sweeps. Internal to the library.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #ifndef WT_CORE_DATA_SWEEP_POINTS_H
 #define WT_CORE_DATA_SWEEP_POINTS_H
 
 #include "weartrack/data.h"
 
-/* What was swept stands first; then, of the others, what there is (else NULL). */
+/* Index of an array: the swept variable is first. A missing array is NULL. */
 enum {
     SWEEP_FIRST,
     SWEEP_STORAGE,
     SWEEP_LOSS,
-    SWEEP_STRAIN, /* NULL of a strain sweep, too */
+    SWEEP_STRAIN, /* also NULL in a strain sweep */
     SWEEP_LOSS_FACTOR,
     SWEEP_ARRAYS
 };
 typedef struct sweep_points {
-    double *array[SWEEP_ARRAYS]; /* [n] each, which move together */
+    double *array[SWEEP_ARRAYS]; /* [n] each, sorted together */
     size_t n;
-    char *sample; /* NULL: no name */
+    char *sample; /* NULL without a name */
 } sweep_points;
 
 sweep_points points_of_isotherm(const wt_isotherm *t);

@@ -1,8 +1,7 @@
-/* Vectors and matrices of GSL in a pool: of zeros, freed with it. Whether there was memory, the
- * pool tells.
+/* Zeroed GSL vectors and matrices in an arena, which frees them. A failed allocation sets the
+ * member `failed` of the arena.
  *
- * SPDX-License-Identifier: GPL-3.0-or-later
- */
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #ifndef WT_CORE_MATH_ARENA_GSL_H
 #define WT_CORE_MATH_ARENA_GSL_H
 

@@ -1,6 +1,6 @@
-/* Products of rows, tile by tile of the result: a tile stays in registers while the rows go by, and
- * each of its sums is added to in the order of the rows, so that the bits do not depend on how the
- * work is cut. Internal to the fit room. SPDX-License-Identifier: GPL-3.0-or-later */
+/* Products of matrices, computed in tiles of the result. A tile stays in registers during the loop
+ * over the rows. Each sum is accumulated in the order of the rows, so that the bits do not depend
+ * on the division into tiles. Internal to math. SPDX-License-Identifier: GPL-3.0-or-later */
 #ifndef WT_CORE_MATH_BLOCKED_PRODUCT_H
 #define WT_CORE_MATH_BLOCKED_PRODUCT_H
 
@@ -8,19 +8,20 @@
 
 #include <stdbool.h>
 
-/* Rows that go in together, and the side of a tile. */
+/* Rows of one step, and the side of a tile. */
 enum { TILE_ROWS = 4, TILE = 4 };
-/* So many rows stay in the nearest memory while all tiles go over them. */
+/* Number of rows that stay in the first-level cache during the loop over all tiles. */
 enum { TILE_NEAR = 32 };
 
-/* Two matrices with as many rows, from a column on. */
+/* Two matrices with the same number of rows, from a column onwards. */
 typedef struct tile_rows {
     const double *i, *j;
-    size_t width_i, width_j; /* from one row to the next */
+    size_t width_i, width_j; /* distance of two rows */
     size_t n;                /* rows, a multiple of TILE_ROWS */
 } tile_rows;
 
-/* into[TILE * TILE] += (or -=) sum of i[row * width_i + i] j[row * width_j + j] over the rows. */
+/* Computes into[TILE * TILE] += (or -=) sum of i[row * width_i + i] j[row * width_j + j] over the
+ * rows. */
 WIDE_PART void tile_whole(double *into, size_t tda, tile_rows of, bool minus)
 {
     wide s0, s1, s2, s3;
@@ -53,7 +54,7 @@ WIDE_PART void tile_whole(double *into, size_t tda, tile_rows of, bool minus)
     simd_store(into + 3 * tda, &s3);
 }
 
-/* The same of n * m, where no whole tile is left. */
+/* Variant for n * m elements at the edge, where no whole tile fits. */
 WIDE_PART void tile_edge(double *into, size_t n, size_t m, size_t tda, tile_rows of, bool minus)
 {
     for (size_t k = 0; k < of.n; k += TILE_ROWS) {
@@ -71,7 +72,7 @@ WIDE_PART void tile_edge(double *into, size_t n, size_t m, size_t tda, tile_rows
     }
 }
 
-/* Either of them: n rows and m columns of the result are left. */
+/* Adds a whole or a partial tile; n rows and m columns of the result remain. */
 WIDE_PART void tile_add(double *into, size_t n, size_t m, size_t tda, tile_rows of, bool minus)
 {
     if (n >= TILE && m >= TILE)

@@ -1,7 +1,6 @@
-/* Interpolation at Chebyshev's points and what it leaves out.
+/* Chebyshev interpolation and its truncation error.
  *
- * SPDX-License-Identifier: GPL-3.0-or-later
- */
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "core/math/chebyshev.h"
 
 #include "core/math/simd.h"
@@ -10,7 +9,8 @@
 #include <math.h>
 #include <string.h>
 
-/* From values at cos(pi k / degree), each `step` of them, by the columns of that degree. */
+/* Computes the coefficients from values at cos(pi k / degree). The array has the values of the
+ * highest degree; every `step`-th one is used. */
 WIDE_REGISTERS
 void chebyshev_fit(const double *restrict value, size_t degree, const double *restrict fit,
                    double *restrict coefficient)
@@ -23,7 +23,7 @@ void chebyshev_fit(const double *restrict value, size_t degree, const double *re
     memcpy(coefficient, sum, (LONG_DEGREE + 1) * sizeof *coefficient);
 }
 
-/* What the series leaves out, relative to the smallest value. */
+/* Estimates the truncation error of the series, relative to the smallest value. */
 double chebyshev_tail(const double *coefficient, const double *value, size_t degree)
 {
     double least = (double)INFINITY, most = 0;
@@ -36,9 +36,9 @@ double chebyshev_tail(const double *coefficient, const double *value, size_t deg
     return most > 0 ? tail / (least > 0 ? least : most) : 0;
 }
 
-/* As many terms as the error needs that is there anyway, as powers of z instead of T_n(z): twice as
- * fast to sum, and what rounding makes of them is about the sum of their magnitudes. Returns that,
- * relative to `least`, and what was cut. */
+/* Truncates the series to the terms that the allowed error needs, and converts T_n(z) to powers of
+ * z. The powers are summed twice as fast; their rounding error is about the sum of their
+ * magnitudes. Returns the error due to rounding and truncation. */
 double chebyshev_powers(double *coefficient, size_t *degree, double allowed)
 {
     double t[LONG_DEGREE + 1] = {0}, last[LONG_DEGREE + 1] = {1}, now[LONG_DEGREE + 1] = {0, 1};

@@ -1,4 +1,4 @@
-/* Factor and solution in place. SPDX-License-Identifier: GPL-3.0-or-later */
+/* Cholesky factor and solution in place. SPDX-License-Identifier: GPL-3.0-or-later */
 #include "core/math/cholesky.h"
 
 #include <math.h>

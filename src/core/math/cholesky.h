@@ -1,4 +1,4 @@
-/* Internal to the library: few linear equations, symmetric and positive.
+/* Cholesky decomposition of small symmetric positive definite systems. Internal to the library.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #ifndef WT_CORE_MATH_CHOLESKY_H
 #define WT_CORE_MATH_CHOLESKY_H
@@ -6,15 +6,14 @@
 #include <stdbool.h>
 #include <stddef.h>
 
-/* Solves a x = b by the factor of Cholesky: a [n * n], rows `stride` apart, of which the lower
- * triangle is read and becomes the factor; x [n] comes as b. False if less than `least` of an
- * element of the diagonal is left once the unknowns before are taken out of it (0: if nothing is),
- * for then they do not tell all; a and x are spoiled. */
+/* Solves a x = b. The matrix a [n * n] has rows `stride` apart; its lower triangle becomes the
+ * factor. x [n] contains b on entry. False if elimination leaves no more than `least` of a diagonal
+ * element (0: nothing), because the system is then singular. In this case a and x are undefined. */
 bool cholesky_solve(double *a, size_t stride, size_t n, double least, double *x);
 
-/* The factor alone, likewise. */
+/* Computes only the factor, with the same arguments. */
 bool cholesky_factor(double *a, size_t stride, size_t n, double least);
-/* x = l^-1 b of such a factor l; b may be x. */
+/* Computes x = l^-1 b for such a factor l; b may be x. */
 void cholesky_forward(const double *l, size_t stride, size_t n, const double *b, double *x);
 
 #endif

@@ -1,5 +1,5 @@
-/* Cholesky by rows: what the BLAS at hand does element by element goes through whole rows here,
- * four at a time, which keeps it out of the way to memory. SPDX-License-Identifier:
+/* Dense Cholesky decomposition by rows. It processes four whole rows at a time, where the available
+ * BLAS works element by element, and so needs less memory traffic. SPDX-License-Identifier:
  * GPL-3.0-or-later */
 #include "core/math/cholesky_dense.h"
 
@@ -7,7 +7,7 @@
 
 #include <math.h>
 
-/* Rows at a time: so many factors and sums stay in registers. */
+/* Rows of one step: their factors and sums stay in registers. */
 enum { BLOCK = 4 };
 
 WIDE_REGISTERS
@@ -38,10 +38,11 @@ void dense_add(double *into, size_t n, const double *factor, size_t stride, cons
         add_row(into, n, factor[k * stride], row + k * tda);
 }
 
-/* Rows of the result that are done before those behind them are touched. */
+/* Rows of the result that are finished before the following rows are updated. */
 enum { PANEL = 64 };
 
-/* Rows from..to of the upper factor, those before taken out already; false: not positive. */
+/* Computes rows from..to of the upper factor, after the subtraction of the rows before. False if
+ * the matrix is not positive definite. */
 static bool factor_rows(gsl_matrix *m, size_t from, size_t to, double *column)
 {
     const size_t n = m->size1;
@@ -59,8 +60,8 @@ static bool factor_rows(gsl_matrix *m, size_t from, size_t to, double *column)
     return true;
 }
 
-/* Takes rows before `from` out of rows from..to, upper triangle; both multiples of TILE, or the
- * end. */
+/* Subtracts the contribution of the rows before `from` from rows from..to of the upper triangle.
+ * Both are multiples of TILE, or the end. */
 WIDE_REGISTERS
 static void take_out(gsl_matrix *m, size_t from, size_t to)
 {
@@ -107,7 +108,8 @@ void dense_forward(const gsl_matrix *factor, double *x)
         const size_t to = from + BLOCK < n ? from + BLOCK : n;
         double less[BLOCK];
         for (size_t k = from; k < to; k++) {
-            const double *row = factor->data + k * tda; /* the transpose is in the rows */
+            const double *row =
+                factor->data + k * tda; /* the upper triangle contains the transpose */
             x[k] /= row[k];
             less[k - from] = -x[k];
             for (size_t j = k + 1; j < to; j++)
@@ -117,13 +119,13 @@ void dense_forward(const gsl_matrix *factor, double *x)
     }
 }
 
-/* Adds to rows from..to of the inverse of a factor what its rows before `from`, which are done,
- * make of them. */
+/* Adds the contribution of the finished rows before `from` to rows from..to of the inverse of a
+ * factor. */
 WIDE_REGISTERS
 static void add_before(const gsl_matrix *factor, gsl_matrix *inverse, size_t from, size_t to)
 {
     const size_t tda = inverse->tda;
-    for (size_t j = 0; j < from; j += TILE) /* columns; a row begins to count at its own */
+    for (size_t j = 0; j < from; j += TILE) /* columns; row j is zero before column j */
         for (size_t k = j; k < from; k += TILE_NEAR) {
             const size_t rows = k + TILE_NEAR < from ? TILE_NEAR : from - k;
             for (size_t i = from; i < to; i += TILE)
@@ -134,7 +136,7 @@ static void add_before(const gsl_matrix *factor, gsl_matrix *inverse, size_t fro
         }
 }
 
-/* The inverse of the factor, zeros above its diagonal; it is negative until a row is done. */
+/* Inverts the factor, with zeros above the diagonal. A row is negative until it is finished. */
 static void invert_factor(const gsl_matrix *factor, gsl_matrix *inverse)
 {
     const size_t n = factor->size1;
@@ -158,7 +160,7 @@ static void invert_factor(const gsl_matrix *factor, gsl_matrix *inverse)
     }
 }
 
-/* Upper triangle of the transpose of a lower triangle times it. */
+/* Computes the upper triangle of the transpose of a lower triangle times the lower triangle. */
 WIDE_REGISTERS
 static void multiply(const gsl_matrix *lower, gsl_matrix *product)
 {

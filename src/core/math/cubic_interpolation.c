@@ -1,4 +1,4 @@
-/* A smooth curve through points. SPDX-License-Identifier: GPL-3.0-or-later */
+/* Akima interpolation of points. SPDX-License-Identifier: GPL-3.0-or-later */
 #include "core/math/cubic_interpolation.h"
 
 #include "core/math/gsl_quiet.h"

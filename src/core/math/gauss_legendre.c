@@ -1,7 +1,6 @@
 /* Gauss-Legendre rules and their running integrals.
  *
- * SPDX-License-Identifier: GPL-3.0-or-later
- */
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "core/math/gauss_legendre.h"
 
 #include "core/math/gsl_quiet.h"
@@ -13,7 +12,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* P_0(x) ... P_n(x). */
+/* Computes P_0(x) ... P_n(x). */
 static void legendre(size_t n, double x, double *p)
 {
     p[0] = 1;
@@ -24,7 +23,8 @@ static void legendre(size_t n, double x, double *p)
     }
 }
 
-/* Adds the columns of a matrix, of so many rounded up to whole registers, each times a number. */
+/* Adds the columns of a matrix, each times a number. The number of rows is rounded up to whole
+ * registers. */
 WIDE_REGISTERS
 static void add_columns(const double *restrict matrix, size_t rows, size_t n,
                         const double *restrict times, double *restrict sum)
@@ -43,8 +43,9 @@ static void add_columns(const double *restrict matrix, size_t rows, size_t n,
 /* l_i(x) = w_i sum_k (k + 1/2) P_k(x_i) P_k(x), and int P_k = (P_{k+1} - P_{k-1}) / (2k + 1). */
 static void fill_running(gauss_rule *rule)
 {
-    double p[RULE_MOST][RULE_MOST + 1];         /* at each node */
-    double change[RULE_MOST * RULE_MOST] = {0}; /* a column of `room` for each degree */
+    double p[RULE_MOST][RULE_MOST + 1]; /* at each node */
+    double change[RULE_MOST * RULE_MOST] = {
+        0}; /* a column of length `row_stride` for each degree */
     const size_t n = rule->n;
     for (size_t i = 0; i < n; i++) {
         legendre(n, rule->node[i], p[i]);
@@ -59,7 +60,7 @@ static void fill_running(gauss_rule *rule)
         for (size_t j = 0; j < n; j++)
             row[j] *= rule->weight[i];
         for (size_t k = 0; k < RULE_TOP; k++) {
-            const size_t degree = n + k - RULE_TOP; /* those below 0 are left out */
+            const size_t degree = n + k - RULE_TOP; /* degrees below 0 are omitted */
             rule->top[i * RULE_TOP_ROOM + k] =
                 n + k < RULE_TOP ? 0 : rule->weight[i] * ((double)degree + 0.5) * p[i][degree];
         }
@@ -80,7 +81,7 @@ double rule_running(const gauss_rule *rule, const double *f, double *running)
     return sum;
 }
 
-/* Without a store in between. */
+/* Sums both integrands in registers. */
 WIDE_REGISTERS
 static void top_sums(const double *restrict top, size_t n, const double *restrict f,
                      const double *restrict g, double *restrict of_f, double *restrict of_g)
@@ -106,10 +107,10 @@ void rule_tops(const gauss_rule *rule, const double *f, const double *g, rule_to
     top_sums(rule->top, rule->n, f, g, of_f->coefficient, of_g->coefficient);
 }
 
-/* The coefficients in pairs, of which one may be small by accident, or both: they fall at the
- * slowest rate that they show. That is taken to go on over half of the degrees up to twice the last
- * one, for a part that falls more slowly may still hide below: over 0.65 of them, two of 11,200
- * numbers were further off than stated. */
+/* The coefficients are used in pairs, because one or both may be small by accident. The slowest
+ * decay between the pairs is extrapolated. It is applied to half of the degrees up to twice the
+ * last one, because a component with a slower decay may be hidden. With a factor of 0.65 instead of
+ * one half, two of 11,200 numbers had a larger error than stated. */
 double rule_error(const gauss_rule *rule, const rule_top *top)
 {
     const double *c = top->coefficient;
@@ -129,7 +130,7 @@ double rule_error(const gauss_rule *rule, const rule_top *top)
     return fall;
 }
 
-/* NULL without memory. */
+/* Creates a rule; NULL when out of memory. */
 static gauss_rule *make_rule(size_t n)
 {
     const size_t room = (n + WIDE - 1) / WIDE * WIDE;

@@ -1,4 +1,5 @@
-/* Switching off GSL's aborting error handler, once. SPDX-License-Identifier: GPL-3.0-or-later */
+/* Disables the GSL error handler, which aborts the program. SPDX-License-Identifier:
+ * GPL-3.0-or-later */
 #include "core/math/gsl_quiet.h"
 
 #include <gsl/gsl_errno.h>

@@ -1,10 +1,10 @@
-/* Switching off GSL's aborting error handler (internal to the library).
+/* Disables the GSL error handler, which aborts the program. Internal to the library.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #ifndef WT_CORE_MATH_GSL_QUIET_H
 #define WT_CORE_MATH_GSL_QUIET_H
 
-/* GSL's default handler aborts the program; a library must not. Once per process, thread-safe;
- * every entry into GSL that can fail comes after it and checks the status it gets. */
+/* The call acts once for the process and is thread-safe. It must precede every GSL function that
+ * can fail, and the caller must check the status of that function. */
 void gsl_quiet(void);
 
 #endif

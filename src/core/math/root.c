@@ -1,7 +1,6 @@
-/* Bracketed roots by Brent's method and by halves; maxima by golden sections.
+/* Bracketed roots by Brent's method and by bisection; maxima by golden section search.
  *
- * SPDX-License-Identifier: GPL-3.0-or-later
- */
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "core/math/root.h"
 
 #include "core/math/gsl_quiet.h"
@@ -25,7 +24,7 @@ double root_maximum(root_fn f, void *user, double low, double high, int sections
 {
     const double golden = 0.6180339887498949; /* (sqrt 5 - 1)/2 */
     for (int i = 0; i < sections; i++) {
-        /* Both are made anew: one that is kept drifts from its share of the range. */
+        /* Both points are recomputed, because a stored one drifts from its share of the range. */
         const double left = high - golden * (high - low), right = low + golden * (high - low);
         if (f(left, user) > f(right, user))
             high = right;
@@ -47,7 +46,7 @@ double root_reach(root_fn f, void *user, double root, double error, double reach
     return reach;
 }
 
-/* A function whose values at the ends are known. */
+/* Function with known values at both limits of the bracket. */
 typedef struct between_ends {
     root_fn f;
     void *user;

@@ -1,10 +1,11 @@
-/* The same code for wider registers where the machine has them; all its operations are correctly
- * rounded, so the bits do not depend on the width. SPDX-License-Identifier: GPL-3.0-or-later */
+/* Vector registers: the same code uses wider registers if the machine has them. All operations are
+ * correctly rounded, so that the bits do not depend on the width. SPDX-License-Identifier:
+ * GPL-3.0-or-later */
 #ifndef WT_CORE_MATH_SIMD_H
 #define WT_CORE_MATH_SIMD_H
 
 #include <stdint.h>
-#include <stdlib.h> /* tells glibc, whose resolver it needs */
+#include <stdlib.h> /* defines __GLIBC__, whose resolver target_clones needs */
 #include <string.h>
 
 #if defined(__x86_64__) && defined(__GLIBC__) && !defined(__SANITIZE_ADDRESS__) &&                 \
@@ -14,11 +15,11 @@
 #define WIDE_REGISTERS
 #endif
 
-/* A part of such code: left as a call it would be narrow. */
+/* For an inline part of such code. A call would use the narrow registers. */
 #define WIDE_PART __attribute__((always_inline)) static inline
 
-/* Four numbers at once, two and two where registers are no wider. Only for locals: how they are
- * handed on depends on the machine. */
+/* Four numbers, processed in pairs if the registers are narrow. Use the type for local variables
+ * only, because the calling convention depends on the machine. */
 typedef double wide __attribute__((vector_size(32)));
 typedef int64_t wide_bits __attribute__((vector_size(32)));
 enum { WIDE = 4 };
@@ -33,7 +34,7 @@ static inline void simd_store(double *to, const wide *from)
     memcpy(to, from, sizeof *from);
 }
 
-/* Each the larger or smaller one; numbers alone. */
+/* Replaces each element by the larger or the smaller one of both. The elements must not be NaN. */
 static inline void wide_raise(wide *low, const wide *x)
 {
     const wide_bits above = *x > *low;

@@ -1,7 +1,6 @@
-/* Special functions, from GSL.
+/* Special functions from GSL, and the nodes of a quadrature rule.
  *
- * SPDX-License-Identifier: GPL-3.0-or-later
- */
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "core/math/special.h"
 
 #include <gsl/gsl_errno.h>

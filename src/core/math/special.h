@@ -1,14 +1,13 @@
-/* Inside the library: special functions and a quadrature rule for the rooms above.
+/* Special functions and a quadrature rule. Internal to the library.
  *
- * SPDX-License-Identifier: GPL-3.0-or-later
- */
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #ifndef WT_CORE_MATH_SPECIAL_H
 #define WT_CORE_MATH_SPECIAL_H
 
 /* psi(x) = d ln Gamma/dx for x > 0; NaN elsewhere. */
 double digamma(double x);
 
-/* Gauss-Legendre with 8 nodes on [-1, 1]: nodes -gauss_8_node[i] and gauss_8_node[i], both with
+/* Gauss-Legendre rule with 8 nodes on [-1, 1]: -gauss_8_node[i] and gauss_8_node[i], both with the
  * weight gauss_8_weight[i]. */
 extern const double gauss_8_node[4], gauss_8_weight[4];
 

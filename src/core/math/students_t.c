@@ -1,16 +1,15 @@
-/* Student's t: quantiles, and the sum of errors of different degrees of freedom.
+/* Quantiles of Student's t, and sums of errors with different degrees of freedom.
  *
- * Satterthwaite, Biometrics Bull. 2 (1946) 110.
+ * Source: Satterthwaite, Biometrics Bull. 2 (1946) 110.
  *
- * SPDX-License-Identifier: GPL-3.0-or-later
- */
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "core/math/students_t.h"
 #include "core/base/array.h"
 
 #include <gsl/gsl_cdf.h>
 #include <math.h>
 
-/* Of the intervals that are told, as everywhere. */
+/* Level of all intervals. */
 static const double confidence = 0.95;
 
 moments moments_of(const double *x, size_t n)
@@ -36,7 +35,7 @@ double students_t_quantile(double df)
     return isinf(df) ? gsl_cdf_ugaussian_Pinv(p) : gsl_cdf_tdist_Pinv(p, df);
 }
 
-/* From the side of the tail, which keeps its digits. */
+/* The upper tail keeps the significant digits. */
 double students_t_of_normal(double z, double df)
 {
     return copysign(gsl_cdf_tdist_Qinv(gsl_cdf_ugaussian_Q(fabs(z)), df), z);

@@ -1,26 +1,27 @@
-/* Means with errors of few degrees of freedom, as Student's t has them.
- * SPDX-License-Identifier: GPL-3.0-or-later */
+/* Moments, quantiles and errors with degrees of freedom for Student's t. SPDX-License-Identifier:
+ * GPL-3.0-or-later */
 #ifndef WT_CORE_MATH_STUDENTS_T_H
 #define WT_CORE_MATH_STUDENTS_T_H
 
 #include <stddef.h>
 
 typedef struct moments {
-    double n, mean, variance; /* ddof 1; NaN for n < 2 */
+    double n, mean, variance; /* variance with n - 1; NaN for n < 2 */
 } moments;
 
-/* A standard error and its degrees of freedom, as Student's t has them. */
+/* Standard error with its degrees of freedom. */
 typedef struct t_error {
     double error, df;
 } t_error;
 
 moments moments_of(const double *x, size_t n);
-double students_t_of_normal(double z, double df); /* beyond it lies as much of the law */
-double normal_quantile(double part);              /* below it lies so large a part */
-double students_t_quantile(double df);            /* 97.5 % of Student's t */
-/* By Satterthwaite. */
+double students_t_of_normal(double z,
+                            double df); /* value of Student's t with the same tail probability */
+double normal_quantile(double part);    /* value with the probability `part` below it */
+double students_t_quantile(double df);  /* quantile 0.975 of Student's t */
+/* Adds independent errors by the Welch-Satterthwaite equation. */
 t_error t_error_sum(const t_error *parts, size_t n);
-/* The same of one with a normal variance that is known. */
+/* Adds a normal variance without uncertainty. */
 t_error t_error_with(t_error part, double known);
 
 #endif

@@ -1,5 +1,5 @@
-/* e^x of many numbers at a time: x = k ln 2 + r, and a polynomial in r.
- * SPDX-License-Identifier: GPL-3.0-or-later */
+/* Computes e^x of an array: x = k ln 2 + r, with a polynomial in r. SPDX-License-Identifier:
+ * GPL-3.0-or-later */
 #include "core/math/vector_exp.h"
 
 #include "core/math/simd.h"
@@ -8,7 +8,7 @@
 #include <stdint.h>
 #include <string.h>
 
-/* 2^k, k as the lowest bits of k + shift. */
+/* Returns 2^k; the lowest bits of the argument contain k. */
 static inline double power_of_two(double shifted)
 {
     uint64_t bits;
@@ -18,18 +18,19 @@ static inline double power_of_two(double shifted)
     return shifted;
 }
 
-/* e^x = 2^k (1 + *rest), |*rest| < 0.42; returns 2^k. */
+/* Splits e^x = 2^k (1 + *rest) with |*rest| < 0.42; returns 2^k. */
 static inline double split_power(double x, double *rest)
 {
-    const double shift = 0x1.8p52; /* so large that the unit is its last bit */
-    /* k times the first part of ln 2 is exact */
+    const double shift = 0x1.8p52; /* large enough that its last bit is the unit */
+    /* The product of k and the first part of ln 2 is exact. */
     const double ln2_high = 6.93147180369123816490e-01, ln2_low = 1.90821492927058770002e-10;
     const double lowest = -708;
     const double kept = x < lowest ? lowest : x;
     const double shifted = kept * M_LOG2E + shift;
     const double k = shifted - shift;
     const double r = (kept - k * ln2_high) - k * ln2_low;
-    /* sum of r^j / (j + 2)!: even and odd j in turn, so that neither waits for the other */
+    /* Sum of r^j / (j + 2)!. Even and odd j are independent chains, so that neither waits for the
+     * other. */
     const double square = r * r;
     double even = 1 / 479001600.0, odd = 1 / 6227020800.0;
     even = even * square + 1 / 3628800.0;

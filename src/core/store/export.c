@@ -1,5 +1,5 @@
-/* A table for other programs: rows under one header line, JSON, or a database. A missing number is
- * an empty cell, or null. SPDX-License-Identifier: GPL-3.0-or-later */
+/* Exports a table for other programs: text with separators, JSON, or an SQLite database. A missing
+ * number is an empty cell, or null. SPDX-License-Identifier: GPL-3.0-or-later */
 #include "core/base/json.h"
 #include "core/store/export_sqlite.h"
 #include "weartrack/data.h"
@@ -8,9 +8,9 @@
 #include <math.h>
 #include <string.h>
 
-/* ---- cells with a separator ------------------------------------------------------------------ */
+/* ---- text with separators -------------------------------------------------------------------- */
 
-/* A spreadsheet takes a text that begins so for a formula, and obeys it; a number is none. */
+/* True if a spreadsheet would execute the text as a formula; numbers are harmless. */
 static bool is_formula(const char *text)
 {
     double number;
@@ -18,7 +18,7 @@ static bool is_formula(const char *text)
            !wt_number_parse(text, strlen(text), '.', &number);
 }
 
-/* As RFC 4180 has it, also between tabs; the mark before the text. */
+/* Writes a cell with quotes as in RFC 4180, also between tabs. `mark` precedes the text. */
 static void put_cell(FILE *out, const char *mark, const char *text, char separator)
 {
     const char special[] = {separator, '"', '\n', '\r', '\0'};
@@ -60,7 +60,7 @@ static void put_header(FILE *out, const wt_table *table, bool blocks, char separ
     (void)putc('\n', out);
 }
 
-/* Blocks are told apart by a first column, which a table of one block does not need. */
+/* A table with several blocks has a first column with the block number. */
 static bool has_blocks(const wt_table *table)
 {
     const size_t n = wt_table_n_rows(table);
@@ -90,7 +90,7 @@ static void put_separated(FILE *out, const wt_table *table, char separator, bool
 
 /* ---- JSON ------------------------------------------------------------------------------------ */
 
-/* JSON has no infinite numbers: they are words. */
+/* JSON has no infinite numbers: they are strings. */
 static void put_number(FILE *out, double value)
 {
     char number[32];

@@ -1,5 +1,5 @@
-/* A table as an SQLite database: made in memory, so that it goes where text goes, a pipe too, and
- * appears whole or not at all. SPDX-License-Identifier: GPL-3.0-or-later */
+/* Exports a table as an SQLite database. The database is created in memory and then written to the
+ * stream, which may be a pipe. SPDX-License-Identifier: GPL-3.0-or-later */
 #include "core/store/export_sqlite.h"
 
 #include "core/base/array.h"
@@ -16,18 +16,18 @@
 #include <string.h>
 #include <strings.h>
 
-/* Beside the table: what its columns are, and the values that belong to all of it. No table of this
- * program has these names, one of another may. */
+/* Additional tables: descriptions of the columns, and values that belong to the whole table. No
+ * table of this program has these names, but a table of another program may. */
 #define COLUMNS_TABLE "weartrack_columns"
 #define KEYS_TABLE "weartrack_keys"
-#define OF_SQLITE "sqlite_" /* names that begin so are its own */
+#define OF_SQLITE "sqlite_" /* prefix that SQLite reserves */
 #define BLOCK_COLUMN "block"
 
 typedef struct database {
     sqlite3 *db;
     const wt_table *table;
-    char **names; /* [n_columns] of the columns in the database */
-    bool blocks;  /* several: a first column tells them apart */
+    char **names; /* [n_columns] names of the columns in the database */
+    bool blocks;  /* several blocks: the first column has the block number */
     wt_error *err;
 } database;
 
@@ -51,7 +51,8 @@ static wt_status prepare(const database *d, const char *words, sqlite3_stmt **st
     return code == SQLITE_OK ? WT_OK : failed(d, code);
 }
 
-/* A text with U+FFFD for each byte that is not UTF-8, which a column of text must not have; new. */
+/* Replaces each byte that is not UTF-8 by U+FFFD, because a text column must be UTF-8. The caller
+ * frees the copy. */
 static char *whole_text(const char *text)
 {
     static const char replacement[] = "\xef\xbf\xbd";
@@ -67,8 +68,8 @@ static char *whole_text(const char *text)
     return whole;
 }
 
-/* What is not known is NULL, a text without a word likewise. What cannot be bound for want of
- * memory stays NULL, and taking the row says so. */
+/* An unknown value or an empty text becomes NULL. A value that cannot be bound because of a lack of
+ * memory stays NULL, and sqlite3_step reports the error. */
 static void bind_text(sqlite3_stmt *row, int place, const char *text)
 {
     const size_t length = text != NULL ? strlen(text) : 0;
@@ -97,7 +98,7 @@ static wt_status put_row(const database *d, sqlite3_stmt *row)
 
 /* ---- names ----------------------------------------------------------------------------------- */
 
-/* A table that no database holds beside those of this program and of SQLite, or holds at all. */
+/* Rejects names that have another meaning in the database, and tables with too many columns. */
 static wt_status check_table(const database *d)
 {
     const char *const name = d->table->name;
@@ -125,7 +126,7 @@ static bool is_taken(const database *d, size_t n, const char *name)
     return taken;
 }
 
-/* SQLite takes modulus_A for modulus_a: the later one gets a number. */
+/* SQLite ignores case, so that modulus_A equals modulus_a: the later name gets a number. */
 static wt_status name_columns(database *d)
 {
     const size_t n = d->table->n_columns;
@@ -146,7 +147,8 @@ static wt_status name_columns(database *d)
 
 /* ---- tables ---------------------------------------------------------------------------------- */
 
-/* CREATE TABLE, or INSERT with a place for each column; new, NULL when out of memory. */
+/* Returns a CREATE TABLE statement, or an INSERT statement with a parameter for each column. The
+ * caller frees it; NULL when out of memory. */
 static char *table_words(const database *d, bool create)
 {
     sqlite3_str *const s = sqlite3_str_new(d->db);
@@ -237,7 +239,7 @@ static wt_status put_keys(const database *d)
     return status;
 }
 
-/* By this a later run knows the file for one that it may replace. */
+/* A later run identifies the file by this number and may then overwrite it. */
 static wt_status put_mark(const database *d)
 {
     char words[64];

@@ -1,5 +1,5 @@
-/* A map of force curves from the store, curve by curve. SPDX-License-Identifier: GPL-3.0-or-later
- */
+/* Reads a map of force curves from the store, curve by curve. SPDX-License-Identifier:
+ * GPL-3.0-or-later */
 #include "core/store/force_map.h"
 #include "core/store/store.h"
 #include "core/table/registry.h"
@@ -14,18 +14,18 @@ struct map_reader {
     map_channel channels[WT_Q_COUNT];
     size_t n_channels;
     sandbox_stream *flow;
-    wt_error failure;     /* of the flow: that of every curve from then on */
-    size_t n_samples, at; /* of an array; where the next segment begins */
-    size_t n_block;       /* samples of the block that is there */
+    wt_error failure;     /* error of the stream, which every following curve returns */
+    size_t n_samples, at; /* samples of an array; start of the next segment */
+    size_t n_block;       /* samples of the current block */
     double *block;        /* [n_channels][n_block] */
     size_t next_curve, next_segment;
-    map_segment *found; /* of the curve */
+    map_segment *found; /* segments of the current curve */
     size_t n_found;
     double *values;
     size_t room;
 };
 
-/* A number that counts something of this file, or -1. */
+/* Returns an integer from 0 to `most`, or -1 for any other number. */
 static double count_or_none(double value, size_t most)
 {
     return value >= 0 && value <= (double)most && value == floor(value) ? value : -1;
@@ -66,7 +66,8 @@ static wt_status take_channels(map_reader *r, wt_error *err)
     return WT_OK;
 }
 
-/* The segments must be those of the curves, and their samples no more than the file can hold. */
+/* Checks that the segments belong to the curves, and that the file is large enough for the
+ * samples. */
 static wt_status check_counts(map_reader *r, size_t size, wt_error *err)
 {
     const size_t most = size / sizeof(double) / r->n_channels;
@@ -148,7 +149,8 @@ size_t map_channels(const map_reader *reader, const map_channel **channels)
     return reader->n_channels;
 }
 
-/* Samples come in blocks: all channels of one, then all of the next. */
+/* The stream has the samples in blocks: all channels of one block, then all channels of the
+ * next. */
 static wt_status take_samples(map_reader *r, double *values, size_t n, wt_error *err)
 {
     for (size_t i = 0; i < n;) {

@@ -1,4 +1,5 @@
-/* A map of force curves to the store, curve by curve. SPDX-License-Identifier: GPL-3.0-or-later */
+/* Writes a map of force curves to the store, curve by curve. SPDX-License-Identifier:
+ * GPL-3.0-or-later */
 #include "core/store/force_map.h"
 #include "core/store/hdf5_scope.h"
 #include "core/store/store_file.h"
@@ -9,7 +10,7 @@
 #include <string.h>
 #include <zlib.h>
 
-/* A quantity: its array, and what is not yet in it. */
+/* Quantity with its array in the file and the samples that are not written yet. */
 typedef struct channel {
     wt_quantity quantity;
     hid_t dataset;
@@ -21,10 +22,10 @@ struct wt_map_writer {
     hid_t group;
     channel channels[WT_Q_COUNT];
     size_t n_channels;
-    size_t n_blocks, n; /* that are written; samples of the block after them */
+    size_t n_blocks, n; /* blocks written; samples of the current block */
     table_writer curves, segments, names;
-    wt_error *err;    /* of the call */
-    wt_status failed; /* of an earlier one: then the file is lost */
+    wt_error *err;    /* of the current call */
+    wt_status failed; /* status of an earlier call, after which the file is lost */
 };
 
 uint32_t map_checksum(uint32_t before, const double *values, size_t n)
@@ -54,7 +55,7 @@ bool map_channel_counts(const double *values, size_t n)
 
 /* ---- arrays ---------------------------------------------------------------------------------- */
 
-/* Puts a block behind those that are there, or the beginning of one. */
+/* Writes a block, or the beginning of one, after `n_blocks` blocks. */
 static bool append_block(hid_t dataset, size_t n_blocks, const double *block, size_t n)
 {
     const hsize_t at = (hsize_t)n_blocks * MAP_BLOCK, count = n, size = at + n;
@@ -78,7 +79,7 @@ static hid_t make_dataset(const wt_map_writer *w, wt_quantity quantity)
     const hid_t space = H5Screate_simple(1, &none, &endless);
     const hid_t creation = H5Pcopy(w->file->dataset_creation);
     const hid_t access = H5Pcreate(H5P_DATASET_ACCESS);
-    /* Chunks are written whole: no cache holds them back. */
+    /* Whole chunks are written, so that a cache is not needed. */
     if (space >= 0 && creation >= 0 && access >= 0 && H5Pset_chunk(creation, 1, &chunk) >= 0 &&
         H5Pset_fill_time(creation, H5D_FILL_TIME_NEVER) >= 0 &&
         H5Pset_chunk_cache(access, 0, 0, 1.0) >= 0)
@@ -103,7 +104,7 @@ static void empty_block(double *block)
 
 TABLE_ROW(map_channels, MAP_CHANNELS, const char *quantity, *name, *unit;)
 
-/* One that comes late is NaN so far. */
+/* A channel that appears late is filled with NaN up to the current block. */
 static wt_status add_channel(wt_map_writer *w, const wt_channel *as)
 {
     hdf5_scope scope;
@@ -192,8 +193,7 @@ static wt_status put_segment(wt_map_writer *w, const wt_segment *segment, uint32
     return status == WT_OK ? put_samples(w, segment) : status;
 }
 
-/* Of a curve that failed, parts may be there, and what comes behind it would be taken for its own.
- */
+/* A failed curve may have left samples, and those of the next curve would be assigned to it. */
 static wt_status failed_before(const wt_map_writer *w, wt_error *err)
 {
     wt_fail(err, w->failed, "a curve before this one could not be written");
@@ -251,7 +251,7 @@ wt_status wt_map_begin(const char *path, wt_map_writer **writer, wt_error *err)
     return status;
 }
 
-/* Closes the arrays; false if HDF5 refuses. */
+/* Closes the arrays. False if HDF5 fails. */
 static bool close_arrays(wt_map_writer *w, bool complete)
 {
     hdf5_scope scope;

@@ -1,4 +1,5 @@
-/* A driver of HDF5. SPDX-License-Identifier: GPL-3.0-or-later */
+/* HDF5 file driver for bytes in memory or behind a descriptor. SPDX-License-Identifier:
+ * GPL-3.0-or-later */
 #include "core/store/hdf5_bytes.h"
 
 #include <errno.h>
@@ -10,14 +11,14 @@
 #include <H5FDdevelop.h>
 #endif
 
-/* What the library keeps of an open file. */
+/* State of an open file in HDF5. */
 typedef struct open_file {
-    H5FD_t base; /* the library's */
+    H5FD_t base; /* required by HDF5 */
     hdf5_bytes *is;
-    haddr_t eoa, eof; /* end of what is allocated, of what is there */
+    haddr_t eoa, eof; /* end of the allocated space, end of the file */
 } open_file;
 
-/* What an access list keeps. */
+/* Private data of the driver in an access list. */
 typedef struct driver_info {
     hdf5_bytes *is;
 } driver_info;
@@ -150,7 +151,7 @@ static const H5FD_class_t driver = {
 
 bool hdf5_bytes_access(hid_t access, hdf5_bytes *bytes)
 {
-    /* In its turn, hdf5_scope.h; the library frees it when the program ends. */
+    /* Called within hdf5_scope.h. The library frees the driver at the end of the program. */
     static hid_t registered = -1;
     const driver_info info = {bytes};
     if (registered < 0 || H5Iis_valid(registered) <= 0)

@@ -1,12 +1,12 @@
-/* The door to HDF5. SPDX-License-Identifier: GPL-3.0-or-later */
+/* Reads HDF5 files in the sandbox. SPDX-License-Identifier: GPL-3.0-or-later */
 #include "core/store/hdf5_sandbox.h"
 #include "core/store/hdf5_scope.h"
 
 #include <string.h>
 
-/* ---- behind the door ------------------------------------------------------------------------- */
+/* ---- in the sandbox -------------------------------------------------------------------------- */
 
-/* HDF5 begins at 0, 512, 1024, 2048, ... */
+/* The HDF5 signature is at 0, 512, 1024, 2048, ... */
 static bool has_signature(const hdf5_bytes *file)
 {
     static const unsigned char signature[8] = {0x89, 'H', 'D', 'F', '\r', '\n', 0x1A, '\n'};
@@ -44,7 +44,7 @@ static wt_status read_file(const sandbox_call *door, FILE *answer, wt_error *err
     return WT_E_CORRUPT;
 }
 
-/* ---- in front of it -------------------------------------------------------------------------- */
+/* ---- in the calling process ------------------------------------------------------------------ */
 
 static void enter_hdf5(void *scope)
 {

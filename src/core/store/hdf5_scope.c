@@ -1,4 +1,4 @@
-/* Turns at the HDF5 library. SPDX-License-Identifier: GPL-3.0-or-later */
+/* Lock and error handler of the HDF5 library. SPDX-License-Identifier: GPL-3.0-or-later */
 #include "core/store/hdf5_scope.h"
 
 #include <pthread.h>

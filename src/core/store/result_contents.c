@@ -1,4 +1,5 @@
-/* What a result and a table hold, as tables. SPDX-License-Identifier: GPL-3.0-or-later */
+/* Tables that list the contents of a result and the keys of a table. SPDX-License-Identifier:
+ * GPL-3.0-or-later */
 #include "core/table/registry.h"
 
 #include <string.h>

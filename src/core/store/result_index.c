@@ -1,9 +1,8 @@
-/* The abstract of a result file: behind its end, as HDF5 knows it, the tables that headlines are
- * made of, once more, as they come through the door (store.h). It is read without HDF5, so that no
- * process and no library stands between thousands of files and one table of them; its bytes are
- * checked as those from behind the door are. A program that opens the file for writing cuts it off
- * there, so that it cannot be older than what it is of; without it, or where headlines were made of
- * other tables when it was written, the file is read as any other.
+/* Abstract of a result file: a copy of the tables with headlines after the end of the HDF5 data,
+ * encoded as in store.h. It is read without HDF5 and without a process, so that the headlines of
+ * thousands of files are read fast. Its bytes are validated like the output of the sandbox. A
+ * program that opens the file for writing truncates the abstract, so that it is never outdated.
+ * Without an abstract, or with one for another set of tables, the file is read with HDF5.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "core/store/store.h"
 #include "core/table/table.h"
@@ -16,19 +15,19 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-/* The last bytes of the file: how long the abstract before them is, and that it is one. Another
- * layout of it gets another mark. */
+/* The last bytes of the file: the length of the abstract before them, and a mark. A new layout gets
+ * a new mark. */
 typedef struct abstract_end {
-    uint64_t length; /* the low byte first */
+    uint64_t length; /* little-endian */
     char mark[8];
 } abstract_end;
 static const char mark[8] = {'W', 'T', 'A', 'B', 'S', 'T', '2', '\n'};
 
-/* ---- written --------------------------------------------------------------------------------- */
+/* ---- writing --------------------------------------------------------------------------------- */
 
 static wt_status put_table(FILE *out, const wt_table *table, char *digest, wt_error *err)
 {
-    /* Of most tables the keys alone are headlines, and some are long. */
+    /* Most tables have headlines in their keys only, and some of these tables are long. */
     wt_table part = *table;
     if (!store_has_headline_rows(table->name)) {
         part.n_rows = 0;
@@ -66,7 +65,7 @@ wt_status store_abstract_write(FILE *out, const wt_result *result, wt_error *err
     return status;
 }
 
-/* ---- read ------------------------------------------------------------------------------------ */
+/* ---- reading --------------------------------------------------------------------------------- */
 
 static bool read_at(int file, size_t at, void *to, size_t n)
 {
@@ -79,12 +78,12 @@ static bool read_at(int file, size_t at, void *to, size_t n)
     return true;
 }
 
-/* An abstract that is longer is not used. A made one costs some twenty times this memory at most: a
- * text of two bytes is a pointer and a piece of memory of its own. That of a whole case takes some
- * 40 kB. */
+/* Larger abstracts are ignored. A malicious abstract needs at most some twenty times this memory: a
+ * text of two bytes needs a pointer and an allocation. The abstract of a whole case has about 40
+ * kB. */
 #define ABSTRACT_MOST ((size_t)2 << 20)
 
-/* Whether the abstract is of the tables that headlines are made of now. */
+/* True if the abstract has the current set of tables with headlines. */
 static bool is_of_headlines(const char *bytes, size_t length)
 {
     char of[STORE_DIGEST_SIZE];
@@ -92,7 +91,8 @@ static bool is_of_headlines(const char *bytes, size_t length)
     return length >= sizeof of && memcmp(bytes + length - sizeof of, of, sizeof of) == 0;
 }
 
-/* The bytes of the abstract, new; NULL if the file has none of use or memory is short. */
+/* Returns the bytes of the abstract, which the caller frees. NULL without a usable abstract or
+ * without memory. */
 static char *take_abstract(int file, size_t size, size_t *length)
 {
     abstract_end end;

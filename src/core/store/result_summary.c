@@ -1,5 +1,5 @@
-/* The headlines of results, and one row for each result. SPDX-License-Identifier: GPL-3.0-or-later
- */
+/* Headlines of a result, and the table with one row for each result. SPDX-License-Identifier:
+ * GPL-3.0-or-later */
 #include "core/base/array.h"
 #include "core/store/store.h"
 #include "core/table/result_value.h"
@@ -10,7 +10,7 @@
 
 /* ---- headlines of one result ----------------------------------------------------------------- */
 
-/* A row of the table "keys"; the words are those of a text, or what the number is. */
+/* Adds a row to the table "keys". `words` is the text of a key, or the description of a number. */
 static void put_key(table_writer *t, const char *name, wt_estimate e, const char *words)
 {
     table_row(t);
@@ -35,7 +35,8 @@ static void put_text(table_writer *t, const char *name, const char *words)
     put_key(t, name, (wt_estimate){(double)NAN, (double)NAN, (double)NAN, NULL}, words);
 }
 
-/* Of a verdict the word alone: what stands behind its colon are numbers of columns of their own. */
+/* Only the first word of a verdict is a headline. The numbers after the colon have their own
+ * columns. */
 static void put_word(table_writer *t, const char *name, const char *verdict)
 {
     char word[256];
@@ -54,7 +55,7 @@ static void put_ends(table_writer *t, const char *stem, const char *suffixes[2],
     put_number(t, stem, suffixes[1], high, unit);
 }
 
-/* A number with its interval and what the choices of the model make of it. */
+/* Adds the limits of the interval and of the range over model choices. */
 static void put_finding(table_writer *t, const char *name, const result_value *f)
 {
     static const char *interval[2] = {"_low", "_high"}, *range[2] = {"_model_low", "_model_high"};
@@ -62,7 +63,7 @@ static void put_finding(table_writer *t, const char *name, const result_value *f
     put_ends(t, name, range, f->range.low, f->range.high, f->number.unit);
 }
 
-/* The keys that are declared as headlines. */
+/* Adds the keys that the schema declares as headlines. */
 static void put_keys(table_writer *t, const result_value_tables *found, const table_view *view)
 {
     const table_schema *schema = view->schema;
@@ -70,7 +71,7 @@ static void put_keys(table_writer *t, const result_value_tables *found, const ta
         const schema_field *key = &schema->keys[i];
         result_value f;
         if (key->headline == NULL || view_key_text(view, schema, i) == NULL ||
-            strcmp(key->name, "verdict") == 0) /* the column is that of the comparison */
+            strcmp(key->name, "verdict") == 0) /* the column has the verdict of the comparison */
             continue;
         if (key->kind == SCHEMA_TEXT)
             put_word(t, key->name, view_key_text(view, schema, i));
@@ -109,7 +110,7 @@ static void put_ratio(table_writer *t, const result_value_tables *found)
     put_number(t, "welch_p", "", comparison_get(&found->comparison, 0, COMPARISON_WELCH_P), "1");
 }
 
-/* A key that is a number without an error. */
+/* Parses a key that is a number without an error. */
 static double plain_key(const char *words)
 {
     double value = (double)NAN;
@@ -117,7 +118,7 @@ static double plain_key(const char *words)
                                                                                : (double)NAN;
 }
 
-/* How much of what was asked for the result has. */
+/* Returns how completely the result answers the request. */
 static wt_answered answered_by(const table_view *failures, const table_view *notes)
 {
     bool lost = failures->n_rows > 0;
@@ -128,7 +129,7 @@ static wt_answered answered_by(const table_view *failures, const table_view *not
     return lost ? WT_ANSWERED_PARTLY : WT_ANSWERED_WHOLE;
 }
 
-/* How far one spectrum is from the isotherms: the number behind the word. */
+/* Adds the misfit of the common spectrum, on which the verdict on superposition is based. */
 static void put_misfit(table_writer *t, const table_view *shifts)
 {
     static const char *ends[2] = {"_low", "_high"};
@@ -137,8 +138,7 @@ static void put_misfit(table_writer *t, const table_view *shifts)
              plain_key(shift_factors_words(shifts, SHIFT_FACTORS_KEY_MISFIT_HIGH)), "1");
 }
 
-/* The tables that have headlines beside those of the findings; behind the first ones all are keys.
- */
+/* Further tables with headlines. Those from WITH_KEYS on have headlines in their keys. */
 enum { ANSWER, NOTES, FAILURES, WITH_KEYS, N_TABLES = WITH_KEYS + 17 };
 static const table_schema *const sources[N_TABLES] = {[ANSWER] = &answer_schema,
                                                       [NOTES] = &notes_schema,
@@ -175,7 +175,7 @@ bool store_has_headline_rows(const char *table)
            strcmp(table, failures_schema.name) == 0;
 }
 
-/* The digest so far and one more name, with what is taken of that table. */
+/* Extends the digest by a table name, and by whether its rows or only its keys are used. */
 static void add_name(const char *table, char hex[STORE_DIGEST_SIZE])
 {
     char words[STORE_DIGEST_SIZE + SCHEMA_NAME_SIZE];
@@ -219,11 +219,11 @@ wt_status wt_result_headlines(const wt_result *result, wt_table **headlines, wt_
     return table_end(&t, headlines);
 }
 
-/* ---- a row for each result ------------------------------------------------------------------- */
+/* ---- one row for each result ----------------------------------------------------------------- */
 
-/* A headline that some of the results have. */
+/* Headline of at least one result. */
 typedef struct column {
-    const char *name, *unit; /* unit "": a text */
+    const char *name, *unit; /* unit "" for a text */
     const char *words;
     bool has_error[2]; /* standard and numerical */
 } column;
@@ -236,13 +236,13 @@ typedef struct columns {
     size_t n;
 } columns;
 
-/* Puts the headlines of a result into the list, a new one behind that which it follows there. */
+/* Merges the headlines of a result into the list. A new one is inserted after its predecessor. */
 static wt_status merge_headlines(columns *list, const table_view *headlines, wt_error *err)
 {
     size_t place = 0;
     for (size_t row = 0; row < headlines->n_rows; row++) {
         const char *name = keys_text(headlines, row, KEYS_KEY);
-        size_t i = place; /* most results have the same ones in the same order */
+        size_t i = place; /* most results have the same order */
         if (i >= list->n || strcmp(list->column[i].name, name) != 0)
             i = 0;
         while (i < list->n && strcmp(list->column[i].name, name) != 0)
@@ -292,7 +292,7 @@ static wt_status add_row(wt_table *table, const columns *list, const char *file,
         status = wt_table_put_text(table, 0, file, err);
     for (size_t i = 0, place = 1, next = 0; status == WT_OK && i < list->n; i++) {
         const column *c = &list->column[i];
-        size_t row = next; /* likewise */
+        size_t row = next; /* most results have the same order */
         if (row >= headlines->n_rows || strcmp(keys_text(headlines, row, KEYS_KEY), c->name) != 0)
             row = 0;
         while (row < headlines->n_rows && strcmp(keys_text(headlines, row, KEYS_KEY), c->name) != 0)

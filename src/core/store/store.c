@@ -1,4 +1,5 @@
-/* The content of a store, apart from HDF5. SPDX-License-Identifier: GPL-3.0-or-later */
+/* Encodes the inputs and the tail of a store, independently of HDF5. SPDX-License-Identifier:
+ * GPL-3.0-or-later */
 #include "core/store/store.h"
 #include "core/table/registry.h"
 
@@ -43,7 +44,7 @@ wt_status store_inputs_read(const wt_table *table, wt_provenance *provenance, wt
                                      .format = inputs_text(&t, row, INPUTS_FORMAT)};
         const double bytes = inputs_get(&t, row, INPUTS_BYTES);
         const char *const sha256 = inputs_text(&t, row, INPUTS_SHA256);
-        /* 2^63 is exact; what is larger, negative or NaN is no size. */
+        /* 2^63 is exact; a larger, negative or NaN size is invalid. */
         if (!(bytes >= 0.0 && bytes < ldexp(1.0, 63)) || strlen(sha256) >= sizeof input.sha256)
             return wt_fail(err, WT_E_CORRUPT, "size or digest of an input is not one");
         input.bytes = (uint64_t)bytes;

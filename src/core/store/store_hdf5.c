@@ -1,6 +1,6 @@
-/* The HDF5 file of a result to bytes, behind the door (hdf5_door.h). The file may be damaged or
- * made to do harm: types, ranks and lengths are checked before memory is taken, no link leads out
- * of the file. SPDX-License-Identifier: GPL-3.0-or-later */
+/* Converts the HDF5 file of a result to bytes, in the sandbox (hdf5_sandbox.h). The file may be
+ * damaged or malicious. Types, ranks and lengths are checked before memory is allocated, and links
+ * to other files are rejected. SPDX-License-Identifier: GPL-3.0-or-later */
 #include "core/store/force_map.h"
 #include "core/store/hdf5_scope.h"
 #include "core/store/store.h"
@@ -11,10 +11,11 @@
 
 typedef struct reader {
     hid_t file;
-    hsize_t file_size; /* no array and no text in the file can be larger */
-    const char *table; /* for messages, NULL outside of tables */
+    hsize_t file_size; /* upper limit for every array and text in the file */
+    const char *table; /* for messages; NULL outside of tables */
     FILE *out;
-    wt_status status; /* of the first failure; the functions below are false from then on */
+    wt_status
+        status; /* status of the first failure, after which the functions below return false */
     wt_error *err;
 } reader;
 
@@ -33,7 +34,7 @@ static bool no_memory(reader *r)
     return false;
 }
 
-/* A name that the data types refuse is the file's fault, not an argument's. */
+/* An invalid name is an error of the file, not of an argument. */
 static bool is_taken(reader *r, wt_status status)
 {
     r->status = status == WT_E_ARG ? WT_E_CORRUPT : status;
@@ -42,7 +43,7 @@ static bool is_taken(reader *r, wt_status status)
     return status == WT_OK;
 }
 
-/* Copies n texts, each `width` bytes of `packed` or up to the first zero, NULL for empty ones. */
+/* Copies n texts, each with up to `width` bytes of `packed`. An empty text becomes NULL. */
 static bool unpack(const char *packed, size_t width, size_t n, char **texts)
 {
     for (size_t i = 0; i < n; i++) {
@@ -57,7 +58,7 @@ static bool unpack(const char *packed, size_t width, size_t n, char **texts)
     return true;
 }
 
-/* Reads n texts of an attribute or a data set (is_attribute) into new copies. */
+/* Reads n texts of an attribute or a data set into new copies. */
 static bool read_texts(reader *r, hid_t source, bool is_attribute, const char *name, size_t n,
                        char **texts)
 {
@@ -80,7 +81,7 @@ static bool read_texts(reader *r, hid_t source, bool is_attribute, const char *n
     return good;
 }
 
-/* Opens an attribute and gives its number of elements. */
+/* Opens an attribute and returns its number of elements. */
 static hid_t open_attribute(hid_t object, const char *name, size_t *n)
 {
     const hid_t attribute = H5Aopen(object, name, H5P_DEFAULT);
@@ -94,7 +95,7 @@ static hid_t open_attribute(hid_t object, const char *name, size_t *n)
     return -1;
 }
 
-/* One text, new; NULL on failure. */
+/* Returns the only text of an attribute, which the caller frees; NULL on failure. */
 static char *read_text(reader *r, hid_t object, const char *name)
 {
     size_t n = 0;
@@ -109,7 +110,7 @@ static char *read_text(reader *r, hid_t object, const char *name)
     return found;
 }
 
-/* A list of words, which is left out of the file where it is empty. */
+/* Reads a list of names. An empty list is not stored in the file. */
 static bool read_words(reader *r, hid_t object, const char *name, size_t max, char ***words,
                        size_t *n_words)
 {
@@ -133,7 +134,8 @@ static bool read_words(reader *r, hid_t object, const char *name, size_t max, ch
     return good;
 }
 
-/* One value that is a number; *is_text instead if that is not NULL and it is something else. */
+/* Reads an attribute with one number. If `is_text` is not NULL, it is set for an attribute of
+ * another type. */
 static bool read_number(reader *r, hid_t object, const char *name, double *value, bool *is_text)
 {
     size_t n = 0;
@@ -154,7 +156,7 @@ static bool read_number(reader *r, hid_t object, const char *name, double *value
     return good;
 }
 
-/* Whether `name` in `group` is a link within this file. */
+/* True if `name` in `group` is a link within this file. */
 static bool is_inside(hid_t group, const char *name)
 {
     H5L_info_t info;
@@ -162,7 +164,7 @@ static bool is_inside(hid_t group, const char *name)
            H5Lget_info(group, name, &info, H5P_DEFAULT) >= 0 && info.type == H5L_TYPE_HARD;
 }
 
-/* Opens a group by its path, step by step; -1 if a step is missing or leads out of the file. */
+/* Opens a group step by step; -1 if a step is missing or leads out of the file. */
 static hid_t open_group(reader *r, const char *path)
 {
     char *const steps = strdup(path);
@@ -182,8 +184,8 @@ static hid_t open_group(reader *r, const char *path)
     return group;
 }
 
-/* Opens a data set whose values all stand as they are in this file: in one piece or, of a map, in
- * pieces of MAP_BLOCK. */
+/* Opens a data set whose values are all stored in this file: contiguous, or for a map in chunks of
+ * MAP_BLOCK. */
 static hid_t open_laid_out(const reader *r, hid_t group, const char *name, int rank,
                            H5D_layout_t layout, hsize_t *n)
 {
@@ -263,8 +265,8 @@ static bool read_keys(reader *r, hid_t group, wt_table *table)
     return good;
 }
 
-/* Opens the data set of a column and adds the column without its rows; WT_COLUMN_TEXT or _NUMBER
- * follows from the type. */
+/* Opens the data set of a column and adds the column without rows. The type of the data set decides
+ * between numbers and text. */
 static bool read_column(reader *r, hid_t group, const char *name, hsize_t n_rows, wt_table *table,
                         hid_t *opened)
 {
@@ -290,7 +292,7 @@ static bool read_column(reader *r, hid_t group, const char *name, hsize_t n_rows
     return good;
 }
 
-/* Adds the rows with their blocks. */
+/* Adds the rows and their blocks. */
 static bool read_blocks(reader *r, hid_t dataset, hsize_t n, wt_table *table)
 {
     uint64_t *const blocks = calloc((size_t)n + 1, sizeof *blocks);
@@ -321,7 +323,7 @@ static bool read_cells(reader *r, hid_t dataset, table_column *column, size_t n)
     return good;
 }
 
-/* The columns, then their rows. */
+/* Reads the columns, then their rows. */
 static bool read_columns(reader *r, hid_t group, wt_table *table)
 {
     hsize_t n_rows = 0;
@@ -347,7 +349,7 @@ static bool read_columns(reader *r, hid_t group, wt_table *table)
     return good;
 }
 
-/* A table, new; NULL on failure. */
+/* Returns a new table; NULL on failure. */
 static wt_table *read_table(reader *r, const char *name)
 {
     wt_table *table = NULL;
@@ -387,7 +389,7 @@ static bool pass_case(reader *r, uint64_t *passed)
     const hid_t type = dataset >= 0 ? H5Dget_type(dataset) : -1;
     const bool is_text =
         type >= 0 && H5Tget_class(type) == H5T_STRING && H5Tis_variable_str(type) == 0;
-    /* not more than the file: open_dataset checked */
+    /* not longer than the file: open_dataset checks it */
     const size_t length = is_text ? H5Tget_size(type) : 0;
     if (!is_text)
         good = corrupt(r, STORE_CASE_DATASET, "not one text of fixed length");
@@ -428,7 +430,7 @@ static bool check_format(reader *r)
     return r->status == WT_OK;
 }
 
-/* What a file says of all that is in it. */
+/* Attributes and names that describe the whole file. */
 typedef struct store_words {
     char **tables, **digests;
     size_t n_tables, n_digests;
@@ -457,7 +459,7 @@ static void pass_digest(const reader *r, const char *digest)
     (void)fwrite(padded, sizeof padded, 1, r->out);
 }
 
-/* Tables of all names, or those that `wanted` names, without origin and case then. */
+/* Writes all tables, or those that `wanted` selects. A selection has no origin and no case. */
 static wt_status pass_store(reader *r, bool (*wanted)(const char *name))
 {
     store_words w = {.tables = NULL};
@@ -497,7 +499,7 @@ wt_status store_pass_headlines(hid_t file, size_t size, FILE *out, wt_error *err
     return pass_store(&r, store_has_headlines);
 }
 
-/* Prints samples [from, from + n) of an array. */
+/* Writes the samples [from, from + n) of an array. */
 static bool pass_block(reader *r, hid_t dataset, const char *name, hsize_t from, hsize_t n,
                        double *block)
 {

@@ -1,5 +1,5 @@
-/* The HDF5 store to results: what comes through the door must be whole and agree with its digests.
- * SPDX-License-Identifier: GPL-3.0-or-later */
+/* Reads results from the HDF5 store. The data from the sandbox must be complete and agree with
+ * their digests. SPDX-License-Identifier: GPL-3.0-or-later */
 #include "core/store/store.h"
 #include "core/table/table_bytes.h"
 
@@ -39,7 +39,7 @@ static wt_status check_digest(const char *bytes, const char *end, const char *ex
                : store_corrupt(err, place, "the content does not agree with its digest");
 }
 
-/* The parts of what came through the door. */
+/* Parts of the data from the sandbox. */
 typedef struct store_parts {
     const char *tables, *case_file, *origin, *digests; /* each ends where the next begins */
     store_tail tail;
@@ -69,7 +69,7 @@ static bool part_answer(const char *bytes, size_t length, store_parts *p)
     return true;
 }
 
-/* The tables; the list of inputs belongs to the provenance. */
+/* Decodes the tables. The table of inputs goes to the provenance. */
 static wt_status take_tables(const store_parts *p, wt_result *result, wt_error *err)
 {
     const char *at = p->tables, *digest = p->digests;
@@ -136,12 +136,12 @@ wt_status store_read_bytes(const hdf5_bytes *from, hdf5_reading *pass, const cha
 wt_status wt_store_read_memory(const void *bytes, size_t length, const char *name,
                                wt_result **result, wt_error *err)
 {
-    /* No bytes are bytes in memory, too. */
+    /* A file without bytes must not be mistaken for a descriptor. */
     const hdf5_bytes from = {.bytes = length > 0 ? bytes : (const void *)"", .size = length};
     return store_read_bytes(&from, store_pass, name, result, err);
 }
 
-/* Opening a pipe would wait for somebody who writes. */
+/* Opening a pipe without O_NONBLOCK would wait for a writer. */
 wt_status store_open_regular(const char *path, int *file, struct stat *info, wt_error *err)
 {
     *file = open(path, O_RDONLY | O_CLOEXEC | O_NONBLOCK);

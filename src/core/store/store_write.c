@@ -1,4 +1,4 @@
-/* Results to the HDF5 store. SPDX-License-Identifier: GPL-3.0-or-later */
+/* Writes results to the HDF5 store. SPDX-License-Identifier: GPL-3.0-or-later */
 #include "core/store/hdf5_scope.h"
 #include "core/store/store_file.h"
 #include "core/table/registry.h"
@@ -21,8 +21,8 @@ static bool put_attribute(hid_t object, const char *name, hid_t file_type, hid_t
     return H5Aclose(attribute) >= 0 && good;
 }
 
-/* UTF-8 text of so many bytes, filled up with zeros. HDF5 1.10 fails on damaged text of variable
- * length with a violation of memory, so the store has none. */
+/* Creates a type for UTF-8 text of fixed length, padded with zeros. HDF5 1.10 crashes on damaged
+ * text of variable length. */
 static hid_t text_type(size_t length)
 {
     const hid_t type = H5Tcopy(H5T_C_S1);
@@ -41,7 +41,7 @@ bool store_put_text(const store_file *w, hid_t object, const char *name, const c
     return type >= 0 && H5Tclose(type) >= 0 && good;
 }
 
-/* Texts of one width as an array, new, with that width; NULL when out of memory. */
+/* Packs texts into an array of one width; NULL when out of memory. The caller frees it. */
 static char *pack_texts(const char *const *texts, size_t n, size_t *width)
 {
     *width = 1;
@@ -61,7 +61,7 @@ static bool put_number(const writer *w, hid_t object, const char *name, double v
     return put_attribute(object, name, H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE, w->scalar, &value);
 }
 
-/* A list of words; none is written for an empty one. */
+/* Writes a list of names. An empty list is not written. */
 bool store_put_words(hid_t object, const char *name, const char *const *words, size_t n)
 {
     const hsize_t size = n;
@@ -99,7 +99,7 @@ static bool put_dataset(const writer *w, hid_t group, const char *name, hid_t fi
     return space >= 0 && H5Sclose(space) >= 0 && good;
 }
 
-/* Opens a group by its path, making what is missing. */
+/* Opens a group by its path and creates missing groups. */
 hid_t store_make_group(const store_file *w, const char *path)
 {
     char *const partial = strdup(path);
@@ -195,7 +195,7 @@ static bool put_table(const writer *w, const wt_table *table)
     return H5Gclose(group) >= 0 && good;
 }
 
-/* One string of the length of the file, so that nothing in it needs to be UTF-8. */
+/* Stores the case file as one string of its length, so that it need not be UTF-8. */
 static bool put_case(const writer *w, const char *text, size_t length)
 {
     const hid_t type = text_type(length);
@@ -222,7 +222,8 @@ static bool put_origin(const writer *w, const wt_provenance *provenance, const w
            store_put_text(w, w->file, STORE_CREATED_ATTRIBUTE, created) && put_table(w, inputs);
 }
 
-/* As many texts as there are tables, and two more: of each table, the inputs and the case file. */
+/* Computes the digests of all tables, the inputs and the case file. The array has space for all of
+ * them. */
 static wt_status make_digests(const wt_result *result, const wt_table *inputs,
                               char (*digests)[STORE_DIGEST_SIZE], size_t *n, wt_error *err)
 {
@@ -265,8 +266,7 @@ static bool put_result(const writer *w, const wt_result *result, const wt_table 
     return good;
 }
 
-/* Object headers without times and with everything in place: the bytes depend on the content alone.
- */
+/* Object headers have no times, so that the bytes depend on the content only. */
 static bool set_creation(hid_t list)
 {
     return list >= 0 && H5Pset_obj_track_times(list, false) >= 0;
@@ -298,7 +298,7 @@ static bool create(store_file *w)
     w->scalar = H5Screate(H5S_SCALAR);
     w->group_creation = H5Pcreate(H5P_GROUP_CREATE);
     w->dataset_creation = H5Pcreate(H5P_DATASET_CREATE);
-    /* The layout of HDF5 1.8 has checksums over its own structures and is read everywhere. */
+    /* The layout of HDF5 1.8 has checksums of its own structures, and all versions can read it. */
     if (w->scalar >= 0 && set_group_creation(w->group_creation) &&
         set_creation(w->dataset_creation) && set_group_creation(creation) &&
         hdf5_bytes_access(access, &w->to) &&

@@ -1,5 +1,5 @@
-/* Output files that appear only when they are complete. SPDX-License-Identifier: GPL-3.0-or-later
- */
+/* Output files that appear only when they are complete. SPDX-License-Identifier:
+ * GPL-3.0-or-later */
 #include "core/system/temporary.h"
 
 #include <errno.h>
@@ -11,10 +11,12 @@
 #include <unistd.h>
 
 struct wt_atomic_file {
-    char *final;     /* where it goes */
-    char *temporary; /* where it is written; equal text if the target is a device or a pipe */
-    bool direct;  /* there is nothing to rename: it is no regular file, or has its name already */
-    bool unnamed; /* `temporary` is no name in a folder: nothing is left if this program dies */
+    char *final;     /* path of the output file */
+    char *temporary; /* path during writing; equal text if the target is a device or a pipe */
+    bool direct;  /* no rename at the end: the target is no regular file, or the file has its name
+                     already */
+    bool unnamed; /* `temporary` is no name in a folder: the file vanishes if this program is killed
+                   */
     FILE *stream;
 };
 
@@ -27,9 +29,9 @@ static void outfile_free(wt_atomic_file *file)
     free(file);
 }
 
-enum { ATTEMPTS = 16, LINKS = 40 }; /* to find a name that is not taken; in a row */
+enum { ATTEMPTS = 16, LINKS = 40 }; /* attempts to find a free name; symbolic links in a chain */
 
-/* Mode as for any new file: the umask decides. */
+/* The umask decides the mode, as for any new file. */
 static int create_beside(const char *folder, char **name)
 {
     temporary_sweep(folder);
@@ -51,8 +53,8 @@ static int create_beside(const char *folder, char **name)
     return -1;
 }
 
-/* A file without a name on the file system of `folder`. Not every file system can do that, and it
- * gets its name through /proc: -1 where either is missing. */
+/* Creates a file without a name on the file system of `folder`. -1 if the file system does not
+ * support this, or if /proc, which is needed to name the file, is missing. */
 static int create_unnamed(const char *folder, char **name)
 {
     char path[48];
@@ -67,8 +69,8 @@ static int create_unnamed(const char *folder, char **name)
     return -1;
 }
 
-/* The name is safe on disk only when its folder is; not every file system can do that, and the file
- * is complete either way. */
+/* The name is safe on disk only after the folder is synchronised. Some file systems do not support
+ * this; the file is complete in any case. */
 static void sync_folder(const char *path)
 {
     char *const folder = wt_path_folder(path);
@@ -80,7 +82,8 @@ static void sync_folder(const char *path)
     free(folder);
 }
 
-/* Gives an unnamed file its name, or a temporary one in the same folder if that is taken. */
+/* Gives an unnamed file its final name, or a temporary one in the same folder if the final name
+ * exists. */
 static bool name_unnamed(wt_atomic_file *file)
 {
     const char *const from = file->temporary;
@@ -119,14 +122,14 @@ static bool name_unnamed(wt_atomic_file *file)
     return named;
 }
 
-/* Removes what was written, if it has a name. */
+/* Removes the incomplete file, if it has a name. */
 static void remove_temporary(const wt_atomic_file *file)
 {
     if (!file->direct && !file->unnamed)
         (void)unlink(file->temporary);
 }
 
-/* The file that is meant: behind symbolic links, whether it is there or not. */
+/* Resolves symbolic links. The target need not exist. */
 static char *behind_links(const char *path)
 {
     char target[PATH_MAX];
@@ -144,7 +147,7 @@ static char *behind_links(const char *path)
     return name;
 }
 
-/* `info` is of the file that is replaced, NULL if there is none. */
+/* `info` describes the file that is replaced, NULL if there is none. */
 static wt_status open_stream(wt_atomic_file *new_file, const char *folder, const struct stat *info,
                              wt_error *err)
 {
@@ -161,7 +164,7 @@ static wt_status open_stream(wt_atomic_file *new_file, const char *folder, const
     }
     if (descriptor >= 0 && !new_file->direct)
         temporary_hold(descriptor);
-    /* Before there is anything in it that others might not read. */
+    /* The mode is set before the file has any contents. */
     const bool moded =
         info == NULL || new_file->direct || fchmod(descriptor, info->st_mode & 0777) == 0;
     if (descriptor >= 0 && moded)

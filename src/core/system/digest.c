@@ -1,6 +1,7 @@
-/* SHA-256 and MD5 by libcrypto. SPDX-License-Identifier: GPL-3.0-or-later */
+/* Computes SHA-256 and MD5 with libcrypto, and a fast fingerprint. SPDX-License-Identifier:
+ * GPL-3.0-or-later */
 
-/* The interface of OpenSSL 1.1 to it, which needs no memory and cannot fail. */
+/* The interface of OpenSSL 1.1 needs no memory and cannot fail. */
 #define OPENSSL_API_COMPAT 0x10100000L
 
 #include "core/system/digest.h"
@@ -46,10 +47,11 @@ void wt_digest(const void *bytes, size_t length, char hex[65])
     finish_digest(&context, hex);
 }
 
-/* Several chains, for one would wait for itself at each word. */
+/* Independent chains run in parallel; a single chain would wait at each word. */
 enum { CHAINS = 4 };
 
-/* Goes on with more bytes; n is a multiple of the words of all chains, unless they are the last. */
+/* Mixes further bytes into the chains. n is a multiple of the words of all chains, except for the
+ * last call. */
 static void mix_bytes(uint64_t chain[CHAINS], const unsigned char *bytes, size_t n)
 {
     for (size_t i = 0; i < n; i += CHAINS * sizeof *chain) {

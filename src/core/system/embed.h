@@ -1,7 +1,6 @@
-/* A file that is part of the library; src/embed.cmake writes the arrays of them.
+/* Text file that is embedded in the library. src/embed.cmake writes the arrays.
  *
- * SPDX-License-Identifier: GPL-3.0-or-later
- */
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #ifndef WT_CORE_SYSTEM_EMBED_H
 #define WT_CORE_SYSTEM_EMBED_H
 

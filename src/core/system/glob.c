@@ -1,4 +1,4 @@
-/* Shell patterns to sorted lists of files. SPDX-License-Identifier: GPL-3.0-or-later */
+/* Expands shell patterns to sorted lists of files. SPDX-License-Identifier: GPL-3.0-or-later */
 #include "core/base/array.h"
 #include "weartrack/base.h"
 
@@ -12,10 +12,10 @@
 typedef struct list {
     char **paths;
     size_t n;
-    size_t n_folders; /* within folders, not entered */
+    size_t n_folders; /* number of subfolders, which are not searched */
 } list;
 
-/* Takes `path`, also on failure. */
+/* Transfers `path` to the list and frees it on failure. */
 static bool list_take(list *l, char *path)
 {
     char **const paths = path != NULL ? array_grow(l->paths, l->n, sizeof *paths) : NULL;
@@ -34,7 +34,7 @@ static int by_bytes(const void *a, const void *b)
     return strcmp(*p, *q);
 }
 
-/* Adds a file, or the regular files of a folder (hidden ones left out). */
+/* Adds a file, or the regular files of a folder without hidden ones. */
 static wt_status add_path(list *l, const char *path, wt_error *err)
 {
     struct stat info;
@@ -71,7 +71,7 @@ static wt_status add_path(list *l, const char *path, wt_error *err)
     return status;
 }
 
-/* The folder with every character that means something to glob quoted. */
+/* Quotes every character with a special meaning for glob. */
 static char *quote_for_glob(const char *text)
 {
     char *const quoted = malloc(2 * strlen(text) + 1);
@@ -99,7 +99,7 @@ wt_status wt_glob(const char *folder, const char *pattern, char ***paths, size_t
     if (full == NULL || literal == NULL) {
         status = wt_fail(err, WT_E_MEMORY, "out of memory");
     } else if (stat(literal, &info) == 0) {
-        /* A file may be called "curve[1].txt". */
+        /* A file may have a name like "curve[1].txt". */
         status = add_path(&l, literal, err);
     } else {
         const int code = glob(full, GLOB_NOSORT, NULL, &found);
@@ -122,7 +122,7 @@ wt_status wt_glob(const char *folder, const char *pattern, char ***paths, size_t
         }
     }
     if (status == WT_OK) {
-        /* Bytewise: glob's own order depends on the locale. */
+        /* The order is by bytes, because that of glob depends on the locale. */
         qsort(l.paths, l.n, sizeof *l.paths, by_bytes);
         *paths = l.paths;
         *n = l.n;

@@ -1,4 +1,5 @@
-/* Files that were read and must not be written over. SPDX-License-Identifier: GPL-3.0-or-later */
+/* Prevents that an input file, or a file of another program, is overwritten.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "core/system/file_signatures.h"
 #include "weartrack/base.h"
 
@@ -26,7 +27,7 @@ void wt_protect_begin(void)
     (void)pthread_mutex_unlock(&guard.lock);
 }
 
-/* The guard is locked. */
+/* The caller holds the lock. */
 static wt_status remember_file(const struct stat *info)
 {
     if (guard.n == guard.capacity) {
@@ -68,7 +69,7 @@ static bool block_holds(const unsigned char *block, size_t n, const char *mark)
     return memmem(block, n, mark, strlen(mark) + 1) != NULL;
 }
 
-/* Whether the bytes are of no text. */
+/* True if the bytes are not text. */
 static bool is_binary(const unsigned char *block, size_t n)
 {
     for (size_t i = 0; i < n; i++)
@@ -78,7 +79,7 @@ static bool is_binary(const unsigned char *block, size_t n)
     return false;
 }
 
-/* Whether it ends as a PDF of this program does. */
+/* True if the file ends like a PDF of this program. */
 static bool is_own_pdf(FILE *file)
 {
     char end[sizeof PDF_MARK - 1];
@@ -93,9 +94,9 @@ static bool is_own_database(const unsigned char *begin, size_t n)
            memcmp(begin + DATABASE_ID_AT, DATABASE_ID, DATABASE_ID_SIZE) == 0;
 }
 
-/* Whether the file is one of an instrument, say: neither text nor HDF5, database or PDF of this
- * program, which is what outputs are. Headers of instruments are text: the middle and the end
- * count, too. */
+/* True if the file was probably written by an instrument: it is neither text nor HDF5, a database
+ * or a PDF of this program. Files of instruments may have a text header. Therefore the middle and
+ * the end of the file are also checked. */
 static bool is_foreign(const char *path, off_t size)
 {
     static const char nanoscope[] = "\\*F";
@@ -104,7 +105,7 @@ static bool is_foreign(const char *path, off_t size)
     bool foreign = false;
     FILE *file = fopen(path, "rbe");
     if (file == NULL)
-        return false; /* whether it may be written is seen when that is tried */
+        return false; /* the later attempt to write reports an error */
     bool own = is_own_pdf(file);
     for (size_t i = 0; i < sizeof places / sizeof *places && !own && !foreign; i++) {
         const size_t n =

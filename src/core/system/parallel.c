@@ -1,4 +1,4 @@
-/* Independent items on several threads. SPDX-License-Identifier: GPL-3.0-or-later */
+/* Processes independent items on several threads. SPDX-License-Identifier: GPL-3.0-or-later */
 #include "weartrack/base.h"
 
 #include <pthread.h>
@@ -15,9 +15,9 @@ typedef struct job {
     const char *what;
     atomic_size_t next;
     atomic_bool cancelled;
-    pthread_mutex_t lock; /* for what follows, and so that progress is told by one at a time */
+    pthread_mutex_t lock; /* protects the members below and serialises progress reports */
     size_t done;
-    size_t first_failed; /* n = none */
+    size_t first_failed; /* n if none failed */
     wt_status status;
 } job;
 
@@ -58,7 +58,7 @@ unsigned wt_thread_count(unsigned threads)
 {
     if (threads > 0)
         return threads;
-    cpu_set_t set; /* the processors that this process may use, not those of the machine */
+    cpu_set_t set; /* processors that this process may use, not all of the machine */
     if (sched_getaffinity(0, sizeof set, &set) == 0 && CPU_COUNT(&set) > 0)
         return (unsigned)CPU_COUNT(&set);
     const long online = sysconf(_SC_NPROCESSORS_ONLN);
@@ -80,7 +80,7 @@ wt_status wt_parallel_for(size_t n, unsigned threads, wt_parallel_fn body, void 
     size_t n_threads = wt_thread_count(threads);
     if (n_threads > n)
         n_threads = n;
-    /* Threads that cannot be had are done without: this one does the rest. */
+    /* If a thread cannot be created, the other threads do its work. */
     worker *const helpers = n_threads > 1 ? calloc(n_threads - 1, sizeof *helpers) : NULL;
     size_t started = 0;
     while (helpers != NULL && started < n_threads - 1) {

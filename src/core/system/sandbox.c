@@ -1,4 +1,5 @@
-/* A process of its own for a library. SPDX-License-Identifier: GPL-3.0-or-later */
+/* Runs a library in a separate process with limits and a system-call filter.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "core/system/sandbox.h"
 
 #include "core/base/array.h"
@@ -23,7 +24,7 @@ enum { ANSWER_FD = 3, ANSWER_BUFFER = 1 << 16 };
 
 sandbox_limits sandbox_limits_for(size_t size)
 {
-    /* A number is 8 bytes in the file and 25 as text at most; the shortest texts grow most. */
+    /* A number has 8 bytes in the file and at most 25 as text. Short texts grow most. */
     const unsigned mib = size / MIB < 100000 ? (unsigned)(size / MIB) : 100000;
     return (sandbox_limits){.memory = 256 * MIB + 16 * size,
                             .answer = 16 * MIB + 8 * size,
@@ -31,23 +32,24 @@ sandbox_limits sandbox_limits_for(size_t size)
                             .wall_time = 60 + 6 * mib};
 }
 
-/* ---- behind the door ------------------------------------------------------------------------- */
+/* ---- in the sandbox -------------------------------------------------------------------------- */
 
-/* Never more than there was. */
+/* Sets a limit that never exceeds the current one. */
 static bool limit_resource(unsigned resource, size_t most)
 {
     struct rlimit both;
     if (getrlimit(resource, &both) != 0)
         return false;
-    /* One more second of processor time, else its end could not be told from any other. */
+    /* The hard limit has one more second of processor time, so that SIGXCPU is distinguished from
+     * SIGKILL. */
     const rlim_t last = most + (resource == RLIMIT_CPU ? 1 : 0);
     both.rlim_max = last < both.rlim_max ? last : both.rlim_max;
     both.rlim_cur = most < both.rlim_max ? most : both.rlim_max;
     return setrlimit(resource, &both) == 0;
 }
 
-/* The answer and the file get their numbers, whatever numbers they had, and nothing else stays
- * open: it closes first, for the program around it may have used up all numbers. */
+/* Moves the output and the file to fixed descriptors and closes all others. The others are closed
+ * first, because the calling program may have used all descriptors. */
 static bool keep_only(int to, int file)
 {
     const int first = file < 0 || to < file ? to : file, last = to < file ? file : to;
@@ -66,8 +68,8 @@ static bool keep_only(int to, int file)
     return true;
 }
 
-/* The first byte of the answer, said before the library sees the file: bits of what does not hold
- * of the process, or why it cannot be. */
+/* First byte of the output, written before the library reads the file: flags of missing
+ * protections, or the reason why the sandbox failed. */
 enum {
     SHUT_IN = 'P',
     NO_FILTER = 1,
@@ -77,7 +79,7 @@ enum {
     BAD = 'x'
 };
 
-/* Everything that the header says of the process. */
+/* Applies all restrictions that sandbox.h describes. */
 static char enter_sandbox(int to, const sandbox_call *door, const sandbox_limits *limits,
                           size_t data, pid_t parent)
 {
@@ -85,7 +87,7 @@ static char enter_sandbox(int to, const sandbox_call *door, const sandbox_limits
     sigset_t none;
     (void)sigemptyset(&none);
     for (int i = 1; i < NSIG; i++)
-        (void)sigaction(i, &usual, NULL); /* some cannot be set, nor need be */
+        (void)sigaction(i, &usual, NULL); /* some signals cannot be set and need not be */
     if (!keep_only(to, door->file))
         return FEW_FILES;
     if (prctl(PR_SET_PDEATHSIG, SIGKILL) != 0 || getppid() != parent ||
@@ -101,7 +103,7 @@ static char enter_sandbox(int to, const sandbox_call *door, const sandbox_limits
     return (char)(SHUT_IN + (filter == FILTER_SET ? 0 : NO_FILTER) + (data != 0 ? 0 : MEMORY_OPEN));
 }
 
-/* The answer ends with the error, so that one without it was cut off. */
+/* The output ends with the error object. Output without it is incomplete. */
 _Noreturn static void run_in_sandbox(const sandbox_call *door)
 {
     wt_error said = WT_ERROR_INIT;
@@ -125,9 +127,9 @@ _Noreturn static void start_in_sandbox(int to, const sandbox_call *door,
     run_in_sandbox(door);
 }
 
-/* ---- in front of it -------------------------------------------------------------------------- */
+/* ---- in the calling process ------------------------------------------------------------------ */
 
-/* What no process could be kept from, of all so far. */
+/* Protections that were missing in any process so far. */
 static atomic_uint gaps;
 
 const char *wt_sandbox_limitations(void)
@@ -144,8 +146,8 @@ const char *wt_sandbox_limitations(void)
     return words[atomic_load(&gaps)];
 }
 
-/* Bytes of data that this process has, which its fork counts too (with a sanitizer, terabytes); 0:
- * not known. -1 and errno if no file can be opened. */
+/* Determines the size of the data segment, which also counts for the fork; terabytes with a
+ * sanitizer. 0 if it is unknown. Returns -1 with errno if no file can be opened. */
 static int data_size(size_t *size)
 {
     size_t pages = 0;
@@ -159,7 +161,7 @@ static int data_size(size_t *size)
     return 0;
 }
 
-/* Signals wait until the new process has forgotten the handlers of this one. */
+/* Signals are blocked until the new process has reset its signal handlers. */
 static pid_t start_child(int to, const sandbox_call *door, const sandbox_limits *limits,
                          size_t data)
 {
@@ -180,7 +182,7 @@ static pid_t start_child(int to, const sandbox_call *door, const sandbox_limits 
     return child;
 }
 
-/* How the answer ended; COMING: it has not. */
+/* State of the output; STREAM_OPEN means that it continues. */
 typedef enum ending { COMING, ENDED, LATE, LONG, BROKEN, NO_MEMORY } ending;
 
 struct sandbox_stream {
@@ -189,14 +191,14 @@ struct sandbox_stream {
     pid_t child;
     int from;
     ending how;
-    char *bytes; /* that came and were not taken */
+    char *bytes; /* received bytes that are not yet consumed */
     size_t length, room;
     size_t taken;
     double waited; /* [s] */
 };
 
-/* Collects what comes until there is so much, it ends or takes too much. Only waiting counts as
- * time: the caller may be long about what it takes. */
+/* Reads output until `want` bytes are available, the output ends or a limit is exceeded. Only the
+ * waiting time counts, because the caller may process the output slowly. */
 static void collect_answer(sandbox_stream *flow, size_t want)
 {
     const size_t most = flow->limits.answer + sizeof(wt_error);
@@ -229,8 +231,8 @@ static void collect_answer(sandbox_stream *flow, size_t want)
     }
 }
 
-/* Ends the process; its state as waitpid gives it, 0 if the caller's program took that. While the
- * pipe has not ended it lives, so that its number is its own. */
+/* Kills the process if it `lives`. Returns its state as of waitpid, 0 if another part of the
+ * program has reaped it. The process lives while the pipe is open, so that its number is valid. */
 static int finish_child(pid_t child, bool lives)
 {
     int state = 0;
@@ -250,8 +252,8 @@ static wt_status advise_damaged(wt_error *err)
     return WT_E_CORRUPT;
 }
 
-/* The process called the system for what reading does not need. Where it held back all signals, as
- * for a new process, the call has no name here. */
+/* Reports a forbidden system call of the process. Its name is unknown if the process blocked all
+ * signals. */
 static void explain_call(const sandbox_stream *flow, bool told, wt_error *err)
 {
     int call = -1;
@@ -272,10 +274,10 @@ static wt_status fail_starved(const char *what, const sandbox_limits *limits, wt
                    limits->memory / MIB);
 }
 
-/* The scanner of UDUNITS ends the process so where it gets no memory. */
+/* Exit status of the UDUNITS scanner when it is out of memory. */
 enum { SCANNER_EXIT = 2 };
 
-/* Why there is no whole answer. */
+/* Creates the error of incomplete output. */
 static wt_status explain_ending(const sandbox_stream *flow, int state, wt_error *err)
 {
     const char *const what = flow->what;
@@ -305,7 +307,7 @@ static wt_status explain_ending(const sandbox_stream *flow, int state, wt_error 
     return advise_damaged(err);
 }
 
-/* The error that the process reported, as far as it is one. */
+/* Copies and validates the error that the process reported. */
 static wt_status reported_error(const char *what, const char *bytes, const sandbox_limits *limits,
                                 wt_error *err)
 {
@@ -337,7 +339,7 @@ static wt_status fail_to_make(const char *what, int number, wt_error *err)
     return err != NULL ? err->status : number == ENOMEM ? WT_E_MEMORY : WT_E_IO;
 }
 
-/* Hears whether the process has shut itself in. */
+/* Receives the first byte of the process, which states whether the sandbox is active. */
 static wt_status hear_hello(sandbox_stream *flow, wt_error *err)
 {
     collect_answer(flow, 1);
@@ -387,7 +389,7 @@ wt_status sandbox_start(const sandbox_call *door, const sandbox_limits *limits,
     return status;
 }
 
-/* Ends the process, whose answer is over, and says what became of it. */
+/* Ends the process, whose output is complete or broken, and returns its result. */
 static wt_status end_process(sandbox_stream *flow, wt_error *err)
 {
     const int state = finish_child(flow->child, flow->how != ENDED);
@@ -408,7 +410,7 @@ wt_status sandbox_receive(sandbox_stream *flow, void *to, size_t n, wt_error *er
 {
     if (flow->child < 0)
         return fail_unexpected(flow, "less", err);
-    /* The error that the answer ends with must not be taken for a part of it. */
+    /* The error object at the end must not be taken as output. */
     collect_answer(flow, n + sizeof(wt_error));
     if (flow->length < n + sizeof(wt_error)) {
         const wt_status status = end_process(flow, err);
@@ -428,7 +430,7 @@ wt_status sandbox_drain(sandbox_stream *flow, sandbox_sink *sink, void *user, wt
         return fail_unexpected(flow, "less", err);
     while (status == WT_OK && flow->how == COMING) {
         collect_answer(flow, ANSWER_BUFFER + sizeof(wt_error));
-        /* The error at the end is not a part of it. */
+        /* The error object at the end is not output. */
         const size_t n = flow->length > sizeof(wt_error) ? flow->length - sizeof(wt_error) : 0;
         status = n > 0 ? sink(user, flow->bytes, n, err) : WT_OK;
         flow->length -= n;

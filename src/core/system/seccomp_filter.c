@@ -1,4 +1,4 @@
-/* A filter of system calls. SPDX-License-Identifier: GPL-3.0-or-later */
+/* System-call filter of the sandbox. SPDX-License-Identifier: GPL-3.0-or-later */
 #include "core/system/seccomp_filter.h"
 
 #include "core/base/array.h"
@@ -12,8 +12,8 @@
 #include <sys/syscall.h>
 #include <unistd.h>
 
-/* What one version of the C library or another uses for memory, time, locks, signals of its own and
- * its end. Of other machines than this one some are not there; the library leaves these out. */
+/* Calls that the various C libraries use for memory, time, locks, their own signals and the exit.
+ * libseccomp skips calls that other machines lack. */
 static const int harmless[] = {
     SCMP_SYS(read),
     SCMP_SYS(readv),
@@ -65,7 +65,7 @@ static const int harmless[] = {
     SCMP_SYS(exit_group),
 };
 
-/* What a library may try without harm and can do without: it is told that it may not. */
+/* Calls that a library may try without harm and can do without. They fail with EACCES. */
 static const int futile[] = {
     SCMP_SYS(access),     SCMP_SYS(faccessat), SCMP_SYS(faccessat2), SCMP_SYS(stat),
     SCMP_SYS(stat64),     SCMP_SYS(lstat),     SCMP_SYS(lstat64),    SCMP_SYS(statfs),
@@ -79,19 +79,20 @@ static int refuse_futile(scmp_filter_ctx filter)
     int failed = 0;
     for (size_t i = 0; failed == 0 && i < COUNT_OF(futile); i++)
         failed = seccomp_rule_add(filter, denied, futile[i], 0);
-    /* By a name; of an open file (no name) these are how its size is asked for. */
+    /* These calls are forbidden with a name. Without a name they return the size of an open
+     * file. */
     const struct scmp_arg_cmp named[] = {SCMP_A3(SCMP_CMP_MASKED_EQ, AT_EMPTY_PATH, 0),
                                          SCMP_A2(SCMP_CMP_MASKED_EQ, AT_EMPTY_PATH, 0)};
     if (failed == 0)
         failed = seccomp_rule_add_array(filter, denied, SCMP_SYS(newfstatat), 1, &named[0]);
     if (failed == 0)
         failed = seccomp_rule_add_array(filter, denied, SCMP_SYS(statx), 1, &named[1]);
-    /* Only asked of what may be a terminal. */
+    /* Called only for a possible terminal. */
     return failed != 0 ? failed
                        : seccomp_rule_add(filter, SCMP_ACT_ERRNO(ENOTTY), SCMP_SYS(ioctl), 0);
 }
 
-/* Calls that are harmless with some arguments only. */
+/* Allows calls that are harmless with certain arguments. */
 static int allow_some(scmp_filter_ctx filter, int answer)
 {
     const scmp_datum_t itself = (scmp_datum_t)getpid(), to = (scmp_datum_t)answer;
@@ -107,13 +108,13 @@ static int allow_some(scmp_filter_ctx filter, int answer)
         {SCMP_SYS(fcntl), SCMP_A1(SCMP_CMP_EQ, F_GETFD, 0)},
         {SCMP_SYS(fcntl64), SCMP_A1(SCMP_CMP_EQ, F_GETFL, 0)},
         {SCMP_SYS(fcntl64), SCMP_A1(SCMP_CMP_EQ, F_GETFD, 0)},
-        {SCMP_SYS(prlimit64), SCMP_A2(SCMP_CMP_EQ, 0, 0)}, /* asks, sets nothing */
+        {SCMP_SYS(prlimit64), SCMP_A2(SCMP_CMP_EQ, 0, 0)}, /* only reads the limits */
         {SCMP_SYS(tgkill), SCMP_A0(SCMP_CMP_EQ, itself, 0)},
     };
     int failed = 0;
     for (size_t i = 0; failed == 0 && i < COUNT_OF(some); i++)
         failed = seccomp_rule_add_array(filter, SCMP_ACT_ALLOW, some[i].call, 1, &some[i].if_so);
-    /* A sanitizer says what it found to nobody. */
+    /* Messages of a sanitizer are discarded. */
     return failed != 0 ? failed
                        : seccomp_rule_add(filter, SCMP_ACT_ERRNO(EBADF), SCMP_SYS(write), 1,
                                           SCMP_A0(SCMP_CMP_NE, to, 0));

@@ -1,9 +1,9 @@
-/* What the process behind a door may ask of the system, held by the kernel (seccomp): memory, time,
- * locks, the end, and what lies behind its open descriptors. Who looks for a file finds none. All
- * else, a process, a signal to another one, a name, a socket, ends the process before it is done.
+/* System-call filter of the sandbox (seccomp). It allows memory, time, locks, the exit, and access
+ * to open descriptors. Attempts to find a file fail. Every other call, for example to create a
+ * process, signal another process or open a socket, ends the process before it is executed.
  *
- * A handler of signals, so that the call can be named: what it writes comes from a process in which
- * nothing may be trusted. SPDX-License-Identifier: GPL-3.0-or-later */
+ * A signal handler reports the number of the forbidden call. The report is not trustworthy, because
+ * it comes from the process itself. SPDX-License-Identifier: GPL-3.0-or-later */
 #ifndef WT_CORE_SYSTEM_SECCOMP_FILTER_H
 #define WT_CORE_SYSTEM_SECCOMP_FILTER_H
 
@@ -11,12 +11,12 @@
 
 typedef enum door_filter { FILTER_SET, FILTER_REFUSED, FILTER_NO_MEMORY } door_filter;
 
-/* For good, for the calling thread, which is the only one. It may write to `answer` alone. A
- * forbidden call ends the process with FILTER_EXIT, and its number, an int, is the last thing in
- * `answer`. */
+/* Installs the filter permanently for the calling thread, which is the only one. The process may
+ * write to `answer` only. A forbidden call ends the process with FILTER_EXIT, and its number, an
+ * int, is the last output. */
 enum { FILTER_EXIT = 99 };
 door_filter seccomp_filter_install(int answer);
-/* The name of a call by that number, or the number. */
+/* Writes the name of a system call, or its number if the name is unknown. */
 void seccomp_syscall_name(int call, char *name, size_t size);
 
 #endif

@@ -1,7 +1,6 @@
-/* Starting another program, and its end.
+/* Starts another program and waits for its end.
  *
- * SPDX-License-Identifier: GPL-3.0-or-later
- */
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "core/system/subprocess.h"
 
 #include <errno.h>
@@ -25,7 +24,7 @@ static size_t count(const char *const *list)
     return n;
 }
 
-/* Whether `text` begins with one of `beginnings`, or is a locale. */
+/* True if `text` begins with one of `beginnings`, or sets a locale. */
 static bool is_hidden(const char *text, const char *const *beginnings)
 {
     bool hide = strncmp(text, "LC_", 3) == 0 || strncmp(text, "LANG=", 5) == 0 ||
@@ -35,8 +34,9 @@ static bool is_hidden(const char *text, const char *const *beginnings)
     return hide;
 }
 
-/* The caller's environment with the locale replaced, without what is hidden and with what is added.
- * The strings are borrowed; freed with free(). */
+/* Creates the environment of the program: that of the caller with another locale, without the
+ * hidden variables and with the added ones. The strings are borrowed; the list is freed with
+ * free(). */
 static const char **environment(const program_call *call)
 {
     const size_t n = count((const char *const *)environ), added = count(call->added);
@@ -53,7 +53,7 @@ static const char **environment(const program_call *call)
     return list;
 }
 
-/* The name and what it is given, as exec takes it; freed with free(). */
+/* Creates the argument list for exec, freed with free(). */
 static const char **command_line(const program_call *call, const char *path)
 {
     const size_t n = count(call->arguments);
@@ -66,14 +66,14 @@ static const char **command_line(const program_call *call, const char *path)
     return list;
 }
 
-/* The last line of what the program says that is not blank. */
+/* Last line of the output that is not blank. */
 typedef struct last_line {
     char text[400];
     size_t length;
     bool ended; /* the next byte that is not blank begins a new line */
 } last_line;
 
-/* Reads what there is at once; false if there will be no more. */
+/* Reads the available output. False at its end. */
 static bool read_words(int fd, last_line *last)
 {
     char chunk[4096];
@@ -90,7 +90,7 @@ static bool read_words(int fd, last_line *last)
     return got > 0 || (got < 0 && errno == EINTR);
 }
 
-/* The program may be given relative to the current folder, but it is started in another one. */
+/* A relative path is resolved, because the program runs in another folder. */
 static char *program_path(const char *program)
 {
     if (program[0] == '/' || strchr(program, '/') == NULL)
@@ -99,25 +99,25 @@ static char *program_path(const char *program)
     return absolute != NULL ? absolute : strdup(program);
 }
 
-/* What the child becomes the program with. */
+/* Arguments for the child process. */
 typedef struct start {
     const char *path;
     const program_call *call;
     const char **arguments, **environment;
-    int words; /* for standard output and error */
-    int told;  /* gets the error number if it cannot be started; closed if it can */
+    int words; /* descriptor for standard output and standard error */
+    int told;  /* receives errno if exec fails; closed by a successful exec */
     pid_t parent;
 } start;
 
-/* 0: no limit. */
+/* 0 means no limit. */
 static bool limit_resource(int resource, size_t most)
 {
     const struct rlimit limit = {most, most};
     return most == 0 || setrlimit((__rlimit_resource_t)resource, &limit) == 0;
 }
 
-/* In the child, where only what is safe after a fork may be called. It is the leader of a group, so
- * that what it starts ends with it, and it does not outlive the parent. */
+/* Runs in the child, where only async-signal-safe functions are allowed. The child leads a process
+ * group, so that its own children end with it. It does not outlive the parent. */
 _Noreturn static void become_program(const start *s)
 {
     const program_call *const call = s->call;
@@ -126,7 +126,7 @@ _Noreturn static void become_program(const start *s)
         limit_resource(RLIMIT_DATA, call->memory) && limit_resource(RLIMIT_CPU, call->cpu_time) &&
         chdir(call->folder) == 0) {
         const int none = open("/dev/null", O_RDONLY | O_CLOEXEC);
-        // What a program prints must not end in the data of a pipe.
+        // Output of the program must not mix with data in a pipe.
         if (none >= 0 && dup2(none, STDIN_FILENO) >= 0 && dup2(s->words, STDOUT_FILENO) >= 0 &&
             dup2(s->words, STDERR_FILENO) >= 0)
             (void)execvpe(s->path, (char *const *)s->arguments, (char *const *)s->environment);
@@ -136,8 +136,7 @@ _Noreturn static void become_program(const start *s)
     _exit(127);
 }
 
-/* What the child says that it could not become the program for, or 0; closes its end of the pipe.
- */
+/* Returns the errno of a failed exec, or 0. Closes the write end of the pipe. */
 static int why_not_started(int told[2], pid_t child)
 {
     int code = 0;
@@ -152,8 +151,8 @@ static int why_not_started(int told[2], pid_t child)
     return got > 0 ? code : 0;
 }
 
-/* Gives the process, and the end of the pipe that its words come from; *code says why there is
- * none. */
+/* Starts the program and returns its process and the read end of its output pipe. *code is the
+ * errno if it could not be started. */
 static wt_status start_program(const program_call *call, pid_t *child, int *words, int *code,
                                wt_error *err)
 {
@@ -190,8 +189,8 @@ static wt_status start_program(const program_call *call, pid_t *child, int *word
     return status;
 }
 
-/* Waits for the end, the limit or a cancellation, whatever becomes of the pipe: what the program
- * starts may hold it open. The process is left to be reaped. */
+/* Waits for the end of the program, the time limit or a cancellation. The state of the pipe does
+ * not matter, because children of the program may keep it open. The process is not reaped yet. */
 static wt_status await_end(const program_call *call, pid_t child, int fd, last_line *last,
                            program_ending *how, wt_error *err)
 {
@@ -220,7 +219,7 @@ static wt_status await_end(const program_call *call, pid_t child, int fd, last_l
 
 wt_status program_run(const program_call *call, program_end *end, wt_error *err)
 {
-    enum { LEFT = 32 }; // more than a pipe holds, less than for ever
+    enum { LEFT = 32 }; // more than a pipe contains, but finite
     last_line last = {.length = 0};
     pid_t child = 0;
     int words = -1, state = 0;
@@ -229,7 +228,7 @@ wt_status program_run(const program_call *call, program_end *end, wt_error *err)
     if (status != WT_OK || end->code != 0)
         return status;
     status = await_end(call, child, words, &last, &end->how, err);
-    (void)kill(-child, SIGKILL); // before it is reaped: until then the number is its own
+    (void)kill(-child, SIGKILL); // before it is reaped, while its number is valid
     for (int i = 0; i < LEFT && read_words(words, &last); i++)
         ;
     close(words);

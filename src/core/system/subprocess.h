@@ -1,7 +1,6 @@
-/* Running another program: the one place of the library that does so, but for the door of HDF5.
+/* Runs other programs. This is the only place of the library that does so, except for the sandbox.
  *
- * SPDX-License-Identifier: GPL-3.0-or-later
- */
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #ifndef WT_CORE_SYSTEM_SUBPROCESS_H
 #define WT_CORE_SYSTEM_SUBPROCESS_H
 
@@ -9,15 +8,16 @@
 
 typedef struct program_call {
     const char *program;          /* a name looked up in PATH, or a path */
-    const char *const *arguments; /* behind the name, up to NULL */
-    const char *folder;           /* where it runs */
-    const char *const *hidden;    /* beginnings of what it does not get of the environment; NULL */
-    const char *const *added;     /* NAME=VALUE that it gets beside, up to NULL */
-    double limit;                 /* seconds it may take */
-    size_t file_size;             /* bytes that no file it writes gets beyond */
-    size_t memory;                /* bytes of data; 0: as many as there are */
-    size_t cpu_time;              /* seconds of processor time; 0: as many as it likes */
-    bool (*go_on)(void *user);    /* asked all the while; false ends it at once; NULL */
+    const char *const *arguments; /* without the name, terminated by NULL */
+    const char *folder;           /* working directory */
+    const char *const *hidden; /* prefixes of environment variables that the program does not get,
+                                  terminated by NULL; or NULL */
+    const char *const *added;  /* additional NAME=VALUE, terminated by NULL; or NULL */
+    double limit;              /* time limit [s] */
+    size_t file_size;          /* limit for the size of a written file [byte] */
+    size_t memory;             /* limit for the data segment [byte]; 0: none */
+    size_t cpu_time;           /* limit for the processor time [s]; 0: none */
+    bool (*go_on)(void *user); /* called repeatedly; false ends the program; may be NULL */
     void *user;
 } program_call;
 
@@ -32,12 +32,12 @@ typedef enum program_ending {
 typedef struct program_end {
     program_ending how;
     int code;
-    char words[400]; /* the last line it said that is not blank; "" if it said none */
+    char words[400]; /* last line of the output that is not blank; "" without output */
 } program_end;
 
-/* Runs a program without a shell, without standard input, in the C locale. It ends with this
- * process, and what it has started ends with it, unless that has left its process group. WT_OK says
- * that *end is known, whatever it is; WT_E_MEMORY, WT_E_IO or WT_E_TOOL that it is not. */
+/* Runs a program without a shell and without standard input, in the C locale. The program ends with
+ * this process, and its children end with it unless they leave its process group. WT_OK means that
+ * *end is set, whatever the result; WT_E_MEMORY, WT_E_IO or WT_E_TOOL mean that it is not. */
 wt_status program_run(const program_call *call, program_end *end, wt_error *err) WT_NODISCARD;
 
 #endif

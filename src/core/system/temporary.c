@@ -1,4 +1,4 @@
-/* Files and folders that are not finished. SPDX-License-Identifier: GPL-3.0-or-later */
+/* Temporary files and folders. SPDX-License-Identifier: GPL-3.0-or-later */
 #include "core/system/temporary.h"
 
 #include <dirent.h>
@@ -33,7 +33,7 @@ char *temporary_name(const char *folder)
 
 void temporary_hold(int descriptor)
 {
-    /* Where a file system has no locks, a process of this machine that lives is enough. */
+    /* Without file locks the check for a living process of this machine is sufficient. */
     (void)flock(descriptor, LOCK_EX | LOCK_NB);
 }
 
@@ -55,7 +55,7 @@ char *temporary_folder(const char *folder, int *descriptor)
     return NULL;
 }
 
-enum { LEVELS = 8 }; /* of folders in a temporary one; programs that run there make some, too */
+enum { LEVELS = 8 }; /* depth of folders in a temporary one, including those of other programs */
 
 static void remove_at(int parent, const char *name, int deeper)
 {
@@ -79,7 +79,7 @@ void temporary_remove(const char *path)
     remove_at(AT_FDCWD, path, LEVELS);
 }
 
-/* A process that cannot be seen from here, in another container, still holds its lock. */
+/* A process in another container is invisible but still holds its lock. */
 static bool is_abandoned(int folder, const char *name)
 {
     long process = 0;

@@ -1,23 +1,24 @@
-/* Files and folders that are not finished: named ".weartrack-PROCESS-RANDOM", beside what they will
- * be, so that the next run can tell what a killed one has left. SPDX-License-Identifier:
+/* Temporary files and folders with the name ".weartrack-PROCESS-RANDOM". They are in the folder of
+ * the final output, so that the next run can remove those of a killed run. SPDX-License-Identifier:
  * GPL-3.0-or-later */
 #ifndef WT_CORE_SYSTEM_TEMPORARY_H
 #define WT_CORE_SYSTEM_TEMPORARY_H
 
 #include "weartrack/base.h"
 
-/* Where what is no part of an output goes: the folder that TMPDIR names, or /tmp; borrowed. */
+/* Returns the folder for files that are not part of an output: TMPDIR or /tmp; borrowed. */
 const char *temporary_directory(void);
-/* A new name in `folder`; it begins with a dot, so that no pattern picks it up. NULL with errno. */
+/* Returns a new name in `folder`. It begins with a dot, so that no pattern matches it. NULL with
+ * errno. */
 char *temporary_name(const char *folder);
-/* A new folder of such a name; *descriptor says that it is in use until it is closed. NULL with
+/* Creates a folder with such a name. *descriptor marks it as used until it is closed. NULL with
  * errno. */
 char *temporary_folder(const char *folder, int *descriptor);
-/* Says of an open file that it is in use. */
+/* Marks an open file as used. */
 void temporary_hold(int descriptor);
-/* Removes a file, or a folder with all that is in it eight levels deep; links are not followed. */
+/* Removes a file, or a folder with its contents up to eight levels deep; links are not followed. */
 void temporary_remove(const char *path);
-/* Removes what processes that no longer live have left in `folder`. */
+/* Removes the temporary files in `folder` whose processes no longer exist. */
 void temporary_sweep(const char *folder);
 
 #endif

@@ -1,4 +1,4 @@
-/* Wall and processor time. SPDX-License-Identifier: GPL-3.0-or-later */
+/* Wall time and processor time. SPDX-License-Identifier: GPL-3.0-or-later */
 #include "weartrack/base.h"
 
 #include <time.h>

@@ -1,12 +1,13 @@
-/* The words of the lists of columns and keys, as members of a schema_field; SHOWS(member) is given
- * by who includes this. SPDX-License-Identifier: GPL-3.0-or-later */
+/* Macros for the rows of the column and key lists. They expand to members of a schema_field. The
+ * including file defines SHOWS(member). SPDX-License-Identifier: GPL-3.0-or-later */
 #ifndef WT_CORE_TABLE_FIELD_MACROS_H
 #define WT_CORE_TABLE_FIELD_MACROS_H
 
 #include "core/table/schema.h"
 
-/* What may stand in a row of a list. */
-/* In the place of the name: that of the member; of a member of a part. */
+/* Macros for a row of a list. */
+/* AS replaces the name of a column by that of the member; IN does so for a member of a nested
+ * structure. */
 #define AS(own) SHOWS(own), .name = #own
 #define IN(part, own) SHOWS(part.own), .name = #own
 #define NUMBER .quantity = WT_Q_NONE

@@ -1,11 +1,12 @@
-/* The schemas made from the lists. SPDX-License-Identifier: GPL-3.0-or-later */
+/* Schemas, generated from the lists of columns and keys. SPDX-License-Identifier:
+ * GPL-3.0-or-later */
 #include "core/table/registry.h"
 #include "core/table/field_macros.h"
 
-/* Whoever writes the table knows the structure: core/table/table_rows.h. */
+/* Only the code that writes the table knows the structure: core/table/table_rows.h. */
 #define SHOWS(name) .member = #name
 
-/* The row behind the last one stands for none. */
+/* The last row ends an empty list. */
 #define SCHEMA(table, TABLE, table_name, words, subcommand)                                        \
     static const schema_field table##_columns[] = {TABLE##_COLUMNS(COLUMN){.name = NULL}};         \
     static const schema_field table##_keys[] = {TABLE##_KEYS(KEY){.name = NULL}};                  \

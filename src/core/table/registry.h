@@ -1,9 +1,10 @@
-/* All tables that leave the program, each declared once: a column or a key is a row in the list of
- * its table, which names the member that it shows (rows.h); what no member shows is put by a call.
+/* Registry of the tables that leave the program. A column or a key is a row in the list of its
+ * table, which names the member that it shows (table_rows.h). Other cells are set by a function
+ * call.
  *
- * For a table `layer` this header makes the types layer_column and layer_key, the schema
- * layer_schema, and the functions below that take nothing but those. The columns or keys of another
- * table are then an error of the compiler.
+ * For a table `layer` this header defines the types layer_column and layer_key, the schema
+ * layer_schema, and the functions below. These functions accept the columns and keys of this table
+ * only; others are a compiler error.
  *
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #ifndef WT_CORE_TABLE_REGISTRY_H
@@ -35,8 +36,8 @@
 #include "study/tables_what_if.h"
 #include "surface/tables.h"
 
-/* Columns that come together: a number with its standard error behind it; with both errors; the
- * ends of an interval. `heading` is that of the page. */
+/* Groups of columns: a number with its standard error, a number with both errors, or the limits of
+ * an interval. `heading` is the heading on the page. */
 #define COLUMN_AND_ERROR(X, ID, name, words, unit, heading, ...)                                   \
     X(ID, name, words, unit, LABEL(heading), STANDARD_ERROR(ID), __VA_ARGS__)                      \
     X(ID##_STANDARD_ERROR, name "_standard_error", "its standard error", unit, LABEL("± stat."))
@@ -44,7 +45,7 @@
     X(ID, name, words, unit, LABEL(heading), BOTH_ERRORS(ID), __VA_ARGS__)                         \
     X(ID##_STANDARD_ERROR, name "_standard_error", "its standard error", unit, LABEL("± stat."))   \
     X(ID##_NUMERICAL_ERROR, name "_numerical_error", "its numerical error", unit, LABEL("± num."))
-/* The same of tables that earlier versions wrote without them. */
+/* Variant for tables that earlier versions wrote without errors. */
 #define COLUMN_AND_NEW_ERROR(X, ID, name, words, unit, ...)                                        \
     X(ID, name, words, unit, STANDARD_ERROR(ID), __VA_ARGS__)                                      \
     X(ID##_STANDARD_ERROR, name "_standard_error", "its standard error", unit, LABEL("± stat."),   \
@@ -59,7 +60,7 @@
     X(ID##_LOW, prefix "low", "lower end of its 95 % interval", LABEL("95 % interval from"),       \
       __VA_ARGS__)                                                                                 \
     X(ID##_HIGH, prefix "high", "upper end of its 95 % interval", LABEL("to"), __VA_ARGS__)
-/* A number with its error and interval; empty where it is not known. */
+/* Number with its standard error and interval; empty if it is unknown. */
 #define NUMBER_AND_INTERVAL(X, ID, name, words, unit, heading, ...)                                \
     X(ID, name, words, unit, LABEL(heading), STANDARD_ERROR(ID), INTERVAL(ID##_LOW, ID##_HIGH),    \
       SPARSE, __VA_ARGS__)                                                                         \
@@ -67,8 +68,8 @@
       SPARSE)                                                                                      \
     INTERVAL_COLUMNS(X, ID, name "_", unit, SPARSE)
 
-/* name in C, name of its lists, name of the table, title, the subcommand that makes it. Two tables
- * share a name: the counter surface as computed and a spectrum as measured. */
+/* Columns: name in C, name of its lists, name of the table, title, subcommand that writes it. Two
+ * tables share a name: the computed counter surface and a measured spectrum. */
 #define TABLES(X)                                                                                  \
     X(answer, ANSWER, "answer", "The answer", "run")                                               \
     X(inputs, INPUTS, "inputs", "Files that were read", "run")                                     \
@@ -204,7 +205,7 @@
     typedef enum table##_column{TABLE##_COLUMNS(TABLE_ID) TABLE##_N_COLUMNS} table##_column;       \
     typedef enum table##_key{TABLE##_KEYS(TABLE_ID) TABLE##_N_KEYS} table##_key;                   \
     extern const table_schema table##_schema;                                                      \
-    /* a cell of the last row */                                                                   \
+    /* sets a cell of the last row */                                                              \
     static inline void table##_put(table_writer *w, table##_column c, double value)                \
     {                                                                                              \
         writer_number(w, &table##_schema, (unsigned)c, value);                                     \
@@ -213,7 +214,7 @@
     {                                                                                              \
         writer_text(w, &table##_schema, (unsigned)c, text);                                        \
     }                                                                                              \
-    /* keys; the unit of an estimate is that of the schema */                                      \
+    /* set keys; the schema defines the unit of an estimate */                                     \
     static inline void table##_set(table_writer *w, table##_key k, wt_estimate estimate)           \
     {                                                                                              \
         writer_key(w, &table##_schema, (unsigned)k, estimate);                                     \
@@ -236,7 +237,7 @@
         writer_key_print(w, &table##_schema, (unsigned)k, format, list);                           \
         va_end(list);                                                                              \
     }                                                                                              \
-    /* reading what is bound */                                                                    \
+    /* read a bound table */                                                                       \
     static inline bool table##_has(const table_view *v, table##_column c)                          \
     {                                                                                              \
         return view_has(v, &table##_schema, (unsigned)c);                                          \
@@ -259,7 +260,7 @@
     }
 TABLES(TABLE_TYPES)
 
-/* Every schema, in the order of the list. */
+/* All schemas in the order of the list. */
 extern const table_schema *const table_schemas[];
 extern const size_t table_n_schemas;
 

@@ -1,4 +1,5 @@
-/* Results: the tables of one run. SPDX-License-Identifier: GPL-3.0-or-later */
+/* Results: the tables of one run with their provenance. SPDX-License-Identifier:
+ * GPL-3.0-or-later */
 #include "core/table/table.h"
 
 #include "core/base/array.h"
@@ -10,7 +11,7 @@ struct wt_result {
     wt_table **tables;
     size_t n;
     wt_provenance *provenance;
-    char *case_file; /* with a terminating zero that is not counted */
+    char *case_file; /* with a terminating zero that the length does not count */
     size_t case_length;
 };
 
@@ -39,7 +40,7 @@ void wt_result_free(wt_result *result)
     free(result);
 }
 
-/* Whether one name is the other or a folder of the other: a table may not hold tables. */
+/* True if one name equals the other or is a folder of it: a table cannot contain tables. */
 static bool collide(const char *a, const char *b)
 {
     while (*a != '\0' && *a == *b) {

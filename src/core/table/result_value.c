@@ -1,4 +1,5 @@
-/* Findings, from the tables of a result. SPDX-License-Identifier: GPL-3.0-or-later */
+/* Computes the result values from the tables of a result. SPDX-License-Identifier:
+ * GPL-3.0-or-later */
 #include "core/table/result_value.h"
 
 #include "core/base/array.h"
@@ -8,7 +9,7 @@
 #include <stddef.h>
 #include <string.h>
 
-/* Where the view of each table is. */
+/* Offset of the view of each table. */
 static const struct {
     const table_schema *schema;
     size_t view;
@@ -66,7 +67,8 @@ static result_value empty_finding(const char *name, const char *words, wt_quanti
 
 /* ---- groups ---------------------------------------------------------------------------------- */
 
-/* Equivalent frequencies of the rates between two; of one group, or NULL: of all. */
+/* Finds the range of the equivalent frequencies for rates between two limits, for one group or for
+ * all (NULL). */
 static void find_frequencies(const result_value_tables *t, const char *group, double slowest,
                              double fastest, double frequency[2])
 {
@@ -77,7 +79,7 @@ static void find_frequencies(const result_value_tables *t, const char *group, do
              strcmp(modulus_rate_text(&t->rates, i, MODULUS_RATE_GROUP), group) != 0) ||
             rate < slowest || rate > fastest)
             continue;
-        frequency[0] = fmin(frequency[0], omega); /* which leave out NaN */
+        frequency[0] = fmin(frequency[0], omega); /* fmin and fmax ignore NaN */
         frequency[1] = fmax(frequency[1], omega);
     }
 }
@@ -104,9 +106,9 @@ result_value result_value_of_group(const result_value_tables *t, size_t row)
     return f;
 }
 
-/* ---- their ratio ----------------------------------------------------------------------------- */
+/* ---- ratio of the groups --------------------------------------------------------------------- */
 
-/* The first row of the comparison is that over all rates. */
+/* The first row of the table comparison holds the comparison over all rates. */
 result_value result_value_of_ratio(const result_value_tables *t)
 {
     const table_view *c = &t->comparison;
@@ -146,7 +148,7 @@ double result_value_ratio_of_all(const result_value_tables *t)
 
 /* ---- sliding and layer ----------------------------------------------------------------------- */
 
-/* A number of the table what_if in one of its rows. */
+/* Function that returns a number of one row of the table what_if. */
 typedef double what_if_number(const table_view *what_if, size_t row);
 
 #define NUMBER_OF(name, column)                                                                    \
@@ -170,7 +172,7 @@ static double relative_change_of(const table_view *what_if, size_t row)
     return with_layer_of(what_if, row) / total_of(what_if, row) - 1;
 }
 
-/* A choice and how far it alone moves the number. The rows of one choice follow one another. */
+/* Returns the change of the number due to one model choice. The rows of a choice are adjacent. */
 static double reach_of_choice(const table_view *what_if, size_t *row, what_if_number *number)
 {
     const char *choice = what_if_text(what_if, *row, WHAT_IF_CHOICE);
@@ -178,13 +180,14 @@ static double reach_of_choice(const table_view *what_if, size_t *row, what_if_nu
     for (;
          *row < what_if->n_rows && strcmp(what_if_text(what_if, *row, WHAT_IF_CHOICE), choice) == 0;
          ++*row) {
-        low = fmin(low, number(what_if, *row)); /* which leave out NaN */
+        low = fmin(low, number(what_if, *row)); /* fmin and fmax ignore NaN */
         high = fmax(high, number(what_if, *row));
     }
     return high - low;
 }
 
-/* The first row is as used. What lies within the numerical error is the same. */
+/* Computes the range over model choices. The first row has the choices that were used. A range
+ * within the numerical error is empty. */
 static result_value_range range_of(const table_view *what_if, what_if_number *number, double error)
 {
     result_value_range r = {.low = (double)NAN, .high = (double)NAN};
@@ -198,7 +201,7 @@ static result_value_range range_of(const table_view *what_if, what_if_number *nu
         high = value > number(what_if, high) ? i : high;
     }
     if (low == high || number(what_if, high) - number(what_if, low) <= error)
-        return r; /* such as a thickness that was observed */
+        return r; /* for example an observed thickness */
     for (size_t i = 1; i < what_if->n_rows;) {
         const char *choice = what_if_text(what_if, i, WHAT_IF_CHOICE);
         const double reach = reach_of_choice(what_if, &i, number);
@@ -216,7 +219,8 @@ static result_value_range range_of(const table_view *what_if, what_if_number *nu
     return r;
 }
 
-/* Of a normal error; what cannot be negative is not said to be. */
+/* Computes the 95 % interval of a normal error. The lower limit of a positive number is at least
+ * 0. */
 static void set_interval(result_value *f, bool positive)
 {
     const double half = NORMAL_95 * f->number.standard_error;

@@ -1,4 +1,4 @@
-/* What a table consists of. SPDX-License-Identifier: GPL-3.0-or-later */
+/* Names and units of schema fields. SPDX-License-Identifier: GPL-3.0-or-later */
 #include "core/table/schema.h"
 
 #include <string.h>

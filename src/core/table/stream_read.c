@@ -1,5 +1,5 @@
-/* The text stream to tables. Nothing is taken on trust: a stream may have been edited by hand or by
- * another program. SPDX-License-Identifier: GPL-3.0-or-later */
+/* Reads tables from a text stream. All input is validated, because a stream may have been edited by
+ * hand or by another program. SPDX-License-Identifier: GPL-3.0-or-later */
 #include "core/table/stream.h"
 #include "core/table/table.h"
 
@@ -13,13 +13,13 @@
 
 typedef struct reader {
     FILE *in;
-    char *line; /* without its line end */
+    char *line; /* without the line feed */
     size_t size, length;
-    size_t number;     /* of the line, from 1, counted from where this table began */
-    char **long_names; /* of "## column:" lines: name, words, name, words, ... */
+    size_t number;     /* of the line, from 1 at the start of the table */
+    char **long_names; /* of "## column:" lines: name, long name, name, long name, ... */
     size_t n_long_names;
     wt_table *table;
-    bool named; /* a "## table:" line was there: then the end must be marked */
+    bool named; /* the stream has a "## table:" line, and the end of the table must be marked */
 } reader;
 
 static void reader_free(reader *r)
@@ -29,7 +29,7 @@ static void reader_free(reader *r)
     wt_table_free(r->table);
 }
 
-/* Says where; column counts from 1, 0 = the whole line. */
+/* Sets the place of the error; `column` counts from 1, 0 means the whole line. */
 static void set_place(const reader *r, size_t column, wt_error *err)
 {
     char of_table[96] = "", of_column[96] = "";
@@ -43,7 +43,7 @@ static void set_place(const reader *r, size_t column, wt_error *err)
     wt_error_place(err, "line %zu%s%s", r->number, of_table, of_column);
 }
 
-/* WT_OK, WT_END, or an error. */
+/* Returns WT_OK, WT_END or an error. */
 static wt_status next_line(reader *r, wt_error *err)
 {
     errno = 0;
@@ -86,7 +86,7 @@ static wt_status corrupt(const reader *r, size_t column, const char *message, co
     return WT_E_CORRUPT;
 }
 
-/* A name that the table refuses is the file's fault, not an argument's. */
+/* An invalid name is an error of the file, not of an argument. */
 static wt_status fail_name(const reader *r, size_t column, wt_status status, wt_error *err)
 {
     if (status == WT_E_ARG) {
@@ -114,7 +114,7 @@ static wt_status set_title(reader *r, const char *title, wt_error *err)
     return WT_OK;
 }
 
-/* Keeps a string, which it takes, until the columns are made. */
+/* Stores a text until the columns are created. The reader owns the text. */
 static wt_status keep_long_name(reader *r, char *text, wt_error *err)
 {
     char **const kept = array_grow(r->long_names, r->n_long_names, sizeof *kept);
@@ -127,7 +127,7 @@ static wt_status keep_long_name(reader *r, char *text, wt_error *err)
     return WT_OK;
 }
 
-/* "## key: value"; the text is changed in place. */
+/* Parses "## key: value"; the line is changed in place. */
 static wt_status read_key(reader *r, wt_error *err)
 {
     static const char form[] = "a line \"## key: value\"";
@@ -143,7 +143,7 @@ static wt_status read_key(reader *r, wt_error *err)
     char *const tab = has_parts ? strchr(value, '\t') : NULL;
     char *const text = tab != NULL ? tab + 1 : value;
     if (strcmp(key, "input") == 0)
-        return WT_OK; /* for people: the table is what is read */
+        return WT_OK; /* for people only: the table `inputs` has the same contents */
     if (!stream_unescape(text, strlen(text)))
         return corrupt(r, 0, "an escape that is not known",
                        "\\t, \\n, \\r, \\\\, \\#, \\- or \\x41", text, err);
@@ -181,7 +181,7 @@ static wt_status read_key(reader *r, wt_error *err)
     return status == WT_OK ? WT_OK : fail_name(r, 0, status, err);
 }
 
-/* Ends the cell at the next tab and returns what follows it, NULL after the last cell. */
+/* Terminates a cell at the next tab. Returns the next cell, NULL after the last one. */
 static char *end_cell(char *cell)
 {
     char *const tab = strchr(cell, '\t');
@@ -200,7 +200,7 @@ static const char *long_name_of(const reader *r, const char *name)
     return "";
 }
 
-/* "# name[unit]<TAB>name[unit]" */
+/* Parses "# name[unit]<TAB>name[unit]". */
 static wt_status read_header(reader *r, wt_error *err)
 {
     static const char form[] = "a header line \"# name[unit]<TAB>name[unit]...\"";
@@ -274,7 +274,7 @@ wt_status wt_stream_read(FILE *in, const char *name, wt_table **table, wt_error 
         if (r.length > 0 && strcmp(r.line, "##") != 0)
             begun = true;
         if (strcmp(r.line, "##") == 0)
-            ended = begun; /* before a table it parts nothing */
+            ended = begun; /* "##" before a table is ignored */
         else if (r.length == 0)
             status = header ? wt_table_new_block(r.table, err) : WT_OK;
         else if (!header && strncmp(r.line, "##", 2) == 0)

@@ -1,12 +1,12 @@
-/* Text in the cells and keys of a stream. SPDX-License-Identifier: GPL-3.0-or-later */
+/* Escapes text in the cells and keys of a stream. SPDX-License-Identifier: GPL-3.0-or-later */
 #include "core/table/stream.h"
 
 #include "core/base/utf8.h"
 
 #include <string.h>
 
-/* What stands in the text, and the letter that stands for it behind a backslash; the last two are
- * escaped only where a text begins. */
+/* Escaped characters, and their letters after a backslash. The last two are escaped only at the
+ * start of a text. */
 static const char raw[] = "\t\n\r\\#-", letters[] = "tnr\\#-";
 enum { ALWAYS_ESCAPED = 4 };
 
@@ -17,7 +17,7 @@ void stream_put_text(FILE *out, const char *text)
         (void)putc('-', out);
         return;
     }
-    /* A row must not look like a comment, nor a hyphen like the empty text. */
+    /* A row must differ from a comment, and a hyphen from the empty text. */
     if (text[0] == '#' || strcmp(text, "-") == 0)
         (void)putc('\\', out);
     size_t i = 0;

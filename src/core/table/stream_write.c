@@ -1,4 +1,4 @@
-/* Tables to the text stream. SPDX-License-Identifier: GPL-3.0-or-later */
+/* Writes tables as a text stream. SPDX-License-Identifier: GPL-3.0-or-later */
 #include "core/table/stream.h"
 #include "core/table/table.h"
 
@@ -20,7 +20,7 @@ static void put_provenance(FILE *out, const wt_provenance *provenance)
         put_line(out, "command", wt_provenance_command(provenance));
     for (size_t i = 0; i < wt_provenance_n_inputs(provenance); i++) {
         const wt_provenance_input *const input = wt_provenance_get_input(provenance, i);
-        /* Tab-separated like a row, so that a path may hold blanks. */
+        /* The fields are separated by tabs, so that a path may contain blanks. */
         (void)fprintf(out, "## input: ");
         stream_put_text(out, input->path);
         (void)putc('\t', out);
@@ -87,7 +87,7 @@ wt_status wt_stream_write(FILE *out, const wt_table *table, const wt_provenance 
         put_line(out, table->keys[i].name, table->keys[i].text);
     put_columns(out, table);
     put_rows(out, table);
-    /* The end of the table: what comes without it was cut off. */
+    /* The end of a table is marked, so that a truncated stream is detected. */
     (void)fputs("##\n", out);
     if (ferror(out))
         return wt_fail(err, WT_E_IO, "cannot write: %s", strerror(errno));

@@ -71,7 +71,7 @@ const char *wt_table_title(const wt_table *table)
     return table->title;
 }
 
-/* A unit is written between square brackets in a line of tab-separated words. */
+/* A unit is written between square brackets in a line with tabs as separators. */
 static bool unit_is_valid(const char *unit)
 {
     const size_t length = strlen(unit);
@@ -264,7 +264,7 @@ const double *wt_table_numbers(const wt_table *table, size_t column)
 
 wt_status wt_table_new_block(wt_table *table, wt_error *err)
 {
-    /* A block without rows does not exist. */
+    /* A block without rows is not created. */
     if (table->n_blocks == 0 || table->blocks[table->n_blocks - 1] == table->n_rows)
         return WT_OK;
     return begin_block(table) ? WT_OK : wt_fail(err, WT_E_MEMORY, "out of memory");

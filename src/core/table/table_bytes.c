@@ -1,8 +1,8 @@
-/* Tables as bytes. A number is 8 bytes, the low one first; a text ends with a zero. In this order:
- * name, title; the number of keys, each with its name, 1 and value, errors and unit of an estimate,
- * or 0 and a text; the number of columns, each with its name, 1 if it is of text, unit and words;
- * the numbers of rows and of blocks, the first row of each block; the cells, column by column.
- * SPDX-License-Identifier: GPL-3.0-or-later */
+/* Encodes tables as bytes. A number has 8 bytes in little-endian order; a text ends with a zero
+ * byte. The order is: name and title; number of keys, and for each key its name, then 1 with value,
+ * errors and unit of an estimate, or 0 with a text; number of columns, and for each column its
+ * name, 1 for text or 0, unit and long name; numbers of rows and blocks, and the first row of each
+ * block; the cells by column. SPDX-License-Identifier: GPL-3.0-or-later */
 #include "core/table/table_bytes.h"
 
 #include "core/table/table.h"
@@ -12,7 +12,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* ---- to bytes -------------------------------------------------------------------------------- */
+/* ---- encoding -------------------------------------------------------------------------------- */
 
 static void put_count(FILE *out, uint64_t n)
 {
@@ -62,7 +62,7 @@ static void put_columns(FILE *out, const wt_table *table)
         put_text(out, column->unit);
         put_text(out, column->long_name);
     }
-    /* A block that was begun last may have no row. */
+    /* The last block may be empty. */
     size_t n_blocks = table->n_blocks;
     n_blocks -= n_blocks > 0 && table->blocks[n_blocks - 1] == table->n_rows;
     put_count(out, table->n_rows);
@@ -104,12 +104,13 @@ wt_status table_bytes_digest(const wt_table *table, char hex[65], wt_error *err)
     return status;
 }
 
-/* ---- from bytes ------------------------------------------------------------------------------ */
+/* ---- decoding -------------------------------------------------------------------------------- */
 
 typedef struct byte_reader {
     const char *at, *end;
     wt_table *table;
-    wt_status status; /* of the first failure; the functions below are false from then on */
+    wt_status
+        status; /* status of the first failure, after which the functions below return false */
     wt_error *err;
 } byte_reader;
 
@@ -126,7 +127,7 @@ static bool no_memory(byte_reader *r)
     return false;
 }
 
-/* A name that the table refuses is the file's fault, not an argument's. */
+/* An invalid name is an error of the file, not of an argument. */
 static bool is_taken(byte_reader *r, wt_status status)
 {
     r->status = status == WT_E_ARG ? WT_E_CORRUPT : status;
@@ -135,7 +136,7 @@ static bool is_taken(byte_reader *r, wt_status status)
     return status == WT_OK;
 }
 
-/* At most `most`, which the caller knows to be sound. */
+/* Decodes a number, which must not exceed `most`. */
 static bool take_count(byte_reader *r, size_t most, size_t *n)
 {
     uint64_t low_first = 0;
@@ -188,7 +189,7 @@ static bool take_keys(byte_reader *r)
     return good;
 }
 
-/* The columns without their rows. */
+/* Decodes the columns without their rows. */
 static bool take_columns(byte_reader *r)
 {
     size_t n = 0, is_text = 0;
@@ -204,7 +205,7 @@ static bool take_columns(byte_reader *r)
     return good;
 }
 
-/* The least bytes that a row takes: those of its numbers, and the zero of each text. */
+/* Returns the smallest size of an encoded row: 8 bytes for a number, the zero byte for a text. */
 static size_t row_least(const wt_table *table)
 {
     size_t least = 0;
@@ -213,7 +214,8 @@ static size_t row_least(const wt_table *table)
     return least;
 }
 
-/* Rows take room before their cells are read: as many as there are bytes for, no more. */
+/* Rows are allocated before their cells are decoded. Their number is limited by the number of
+ * bytes. */
 static bool take_rows(byte_reader *r)
 {
     size_t n = 0, n_blocks = 0, next = 0;

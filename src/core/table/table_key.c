@@ -1,5 +1,5 @@
-/* The keys of a table. An estimate is a key whose text has one fixed form, so that it passes
- * through a stream as any other key. SPDX-License-Identifier: GPL-3.0-or-later */
+/* Keys of a table. An estimate is a key whose text has a fixed form, so that a stream contains it
+ * like any other key. SPDX-License-Identifier: GPL-3.0-or-later */
 #include "core/table/table.h"
 
 #include "core/base/array.h"
@@ -44,7 +44,8 @@ void table_free_keys(wt_table *table)
     free(table->keys);
 }
 
-/* "17.4 standard_error=0.3 numerical_error=0 unit=K"; new, NULL when out of memory. */
+/* Formats an estimate as "17.4 standard_error=0.3 numerical_error=0 unit=K". The caller frees the
+ * text; NULL when out of memory. */
 static char *estimate_text(const wt_estimate *estimate)
 {
     char value[32], standard_error[32], numerical_error[32];
@@ -60,7 +61,7 @@ static char *estimate_text(const wt_estimate *estimate)
     return text;
 }
 
-/* Reads what estimate_text writes; estimate->unit points into `text`. */
+/* Parses the output of estimate_text; estimate->unit points into `text`. */
 static bool parse_estimate(const char *text, wt_estimate *estimate)
 {
     const char *const second = strstr(text, standard_error_mark);
@@ -79,7 +80,7 @@ static bool parse_estimate(const char *text, wt_estimate *estimate)
                        &estimate->numerical_error);
 }
 
-/* Words that lead other lines of a stream or other attributes of a store. */
+/* True for names with another meaning in a stream or as an attribute in a store. */
 static bool is_reserved(const char *name)
 {
     static const char *const words[] = {"weartrack", "command", "input",        "table",
@@ -91,7 +92,7 @@ static bool is_reserved(const char *name)
     return false;
 }
 
-/* Whether `name` is what the estimate key `estimate` also needs for its parts. */
+/* True if the estimate key `estimate` needs the name for one of its parts. */
 static bool is_part_of(const char *name, const char *estimate)
 {
     const size_t length = strlen(estimate);
@@ -123,7 +124,7 @@ static wt_status check_name(const char *name, wt_error *err)
     return WT_E_ARG;
 }
 
-/* Fills the key from its text; an estimate has one spelling, wherever it came from. */
+/* Fills a key from its text. An estimate is rewritten, so that it has one spelling. */
 static wt_status make_key(const char *name, table_key *key, wt_error *err)
 {
     key->is_estimate = parse_estimate(key->text, &key->parsed);
@@ -142,7 +143,7 @@ static wt_status make_key(const char *name, table_key *key, wt_error *err)
     return WT_OK;
 }
 
-/* The key of that name, or a new empty one. */
+/* Finds the key with the name, or adds an empty one. */
 static wt_status find_place(wt_table *table, const char *name, table_key **place, wt_error *err)
 {
     *place = find_key(table, name);
@@ -159,7 +160,7 @@ static wt_status find_place(wt_table *table, const char *name, table_key **place
     return WT_OK;
 }
 
-/* Takes `text`, also on failure. */
+/* Sets a key. The function takes ownership of `text`, also on failure. */
 static wt_status set_key(wt_table *table, const char *name, char *text, wt_error *err)
 {
     table_key key = {.text = text};

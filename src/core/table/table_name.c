@@ -1,4 +1,4 @@
-/* The rules for the names of tables, columns and keys. SPDX-License-Identifier: GPL-3.0-or-later */
+/* Rules for the names of tables, columns and keys. SPDX-License-Identifier: GPL-3.0-or-later */
 #include "core/table/table.h"
 
 #include <string.h>

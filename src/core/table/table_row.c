@@ -1,12 +1,12 @@
-/* Rows and keys of a table out of the members of a structure.
- * SPDX-License-Identifier: GPL-3.0-or-later */
+/* Fills rows and keys of a table from the members of a structure. SPDX-License-Identifier:
+ * GPL-3.0-or-later */
 #include "core/table/table_writer.h"
 
 #include "core/base/clocale.h"
 
 #include <math.h>
 
-/* A member that is a number in any form, with NaN for what the form does not have. */
+/* Numeric member of any form; missing values are NaN. */
 typedef struct shown_number {
     wt_estimate estimate;
     double low, high;

@@ -1,15 +1,15 @@
-/* Binds the columns and keys of a table to the structure that a row of it is. The list of the table
- * names the members, by AS(member) in the place of the name, IN(part, member) or SHOWS(member); the
- * kind follows from the member, so the two cannot disagree:
+/* Binds the columns and keys of a table to the structure of a row. The list of the table names the
+ * members with AS(member), IN(part, member) or SHOWS(member). The form is derived from the type of
+ * the member, so that both agree:
  *
  *     TABLE_ROW(force_indentation, FORCE_INDENTATION, const char *group;
  *               double indentation, force, fitted_force;)
  *     TABLE_ADD(force_indentation, &writer, group, delta[i], shown[i], model[i]);
  *
- * TABLE_ADD begins a row and puts all that its members show; what none shows is put behind it.
- * TABLE_KEYS and TABLE_SET do the same for keys: those that are optional are left out if they are
- * NaN, NULL or "". A column that is an estimate or an interval fills the columns of its errors and
- * ends, as far as it has them. unit_tables_shown looks at all of them.
+ * TABLE_ADD begins a row and sets all cells that a member shows; other cells are set afterwards.
+ * TABLE_KEYS and TABLE_SET do the same for keys; an optional key is omitted if it is NaN, NULL or
+ * "". An estimate or an interval also fills the columns of its errors and limits, if they exist.
+ * The test unit_tables_shown checks all of them.
  *
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #ifndef WT_CORE_TABLE_TABLE_ROWS_H
@@ -18,7 +18,7 @@
 #include "core/table/field_macros.h"
 #include "core/table/registry.h"
 
-/* A string that is pointed to, or what else a member is. */
+/* Form of a member: a pointer to a string, or one of the other types. */
 #define SHOWN_FORM(of)                                                                             \
     _Generic(&((shown_row *)NULL)->of, char **                                                         \
              : FORM_WORDS, default                                                                 \
@@ -48,7 +48,8 @@
     SHOWN_BY(table, row, TABLE##_COLUMNS(COLUMN), add_row, writer_row)
 #define SHOWN_KEYS(table, TABLE) SHOWN_BY(table, keys, TABLE##_KEYS(KEY), set_keys, writer_keys)
 
-/* With these members, or with a structure that there is. */
+/* TABLE_ROW and TABLE_KEYS define the structure with its members; TABLE_ROW_OF and TABLE_KEYS_OF
+ * use an existing one. */
 #define TABLE_ROW(table, TABLE, ...)                                                               \
     typedef struct table##_row {                                                                   \
         __VA_ARGS__                                                                                \
@@ -66,7 +67,7 @@
     typedef type table##_keys;                                                                     \
     SHOWN_KEYS(table, TABLE)
 
-/* A row of these values, in the order of the members; the same for keys. */
+/* Add a row, or set the keys, with values in the order of the members. */
 #define TABLE_ADD(table, writer, ...) table##_add_row(writer, &(table##_row){__VA_ARGS__})
 #define TABLE_SET(table, writer, ...) table##_set_keys(writer, &(table##_keys){__VA_ARGS__})
 

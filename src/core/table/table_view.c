@@ -1,4 +1,4 @@
-/* Reading a table as its schema says. SPDX-License-Identifier: GPL-3.0-or-later */
+/* Reads tables according to their schemas. SPDX-License-Identifier: GPL-3.0-or-later */
 #include "core/table/table_view.h"
 
 #include <assert.h>
@@ -67,7 +67,8 @@ wt_status table_bind_of(const wt_result *result, const table_schema *schema, con
     return WT_OK;
 }
 
-/* Place of a column that is read as one of the schema `of`, -1 if it is not there. */
+/* Returns the position of a column, -1 if the table lacks it. `of` must be the schema of the
+ * view. */
 static long place_of(const table_view *view, const table_schema *of, unsigned column)
 {
     assert(view->schema == of && column < of->n_columns);

@@ -1,5 +1,5 @@
-/* Reading a table as its schema says: its columns are found once, and one that must be there and is
- * not is an error. The functions here are called through those of core/table/registry.h, which take
+/* Reads tables according to their schemas. Binding finds all columns once; a missing required
+ * column is an error. Other code calls these functions through core/table/registry.h, which accepts
  * the columns and keys of one table only. SPDX-License-Identifier: GPL-3.0-or-later */
 #ifndef WT_CORE_TABLE_TABLE_VIEW_H
 #define WT_CORE_TABLE_TABLE_VIEW_H
@@ -7,29 +7,30 @@
 #include "core/table/schema.h"
 
 typedef struct table_view {
-    const wt_table *table; /* borrowed; NULL: there is none, and no rows and keys */
+    const wt_table *table; /* borrowed; NULL without a table, and then without rows and keys */
     const table_schema *schema;
     const char *suffix; /* of names that end in '/' or '_'; borrowed */
     size_t n_rows;
-    long column[SCHEMA_MOST]; /* places of the columns, -1 = not in this table */
+    long column[SCHEMA_MOST]; /* positions of the columns; -1 if the table lacks the column */
 } table_view;
 
-/* WT_E_MISSING names the table and the column or key, WT_E_UNIT a unit other than the declared. */
+/* Binds a table to a schema. WT_E_MISSING names the table and the column or key; WT_E_UNIT reports
+ * a unit that differs from the schema. */
 wt_status table_bind(const wt_table *table, const table_schema *schema, const char *suffix,
                      table_view *view, wt_error *err) WT_NODISCARD;
-/* The table of this schema in a result; a view without a table if it has none. */
+/* Binds the table of the schema in a result; the view has no table if the result lacks it. */
 wt_status table_bind_of(const wt_result *result, const table_schema *schema, const char *suffix,
                         table_view *view, wt_error *err) WT_NODISCARD;
 
-/* ---- behind core/table/registry.h -------------------------------------------------------------
- */
+/* ---- called by core/table/registry.h --------------------------------------------------------- */
 
 bool view_has(const table_view *view, const table_schema *of, unsigned column);
-/* NaN or "" where an optional column is not there. */
+/* Return a cell; NaN or "" if an optional column is missing. */
 double view_number(const table_view *view, const table_schema *of, size_t row, unsigned column);
 const char *view_text(const table_view *view, const table_schema *of, size_t row, unsigned column);
-/* All NaN if the key is not there or is text in the place of a number. */
+/* Returns an estimate; NaN if the key is missing or is a text. */
 wt_estimate view_key(const table_view *view, const table_schema *of, unsigned key);
-const char *view_key_text(const table_view *view, const table_schema *of, unsigned key); /* NULL */
+const char *view_key_text(const table_view *view, const table_schema *of,
+                          unsigned key); /* NULL if missing */
 
 #endif

@@ -1,4 +1,4 @@
-/* Filling a table as its schema says. SPDX-License-Identifier: GPL-3.0-or-later */
+/* Writes tables according to their schemas. SPDX-License-Identifier: GPL-3.0-or-later */
 #include "core/table/table_writer.h"
 
 #include "core/base/clocale.h"
@@ -56,7 +56,7 @@ table_writer table_continue(wt_table *table, const table_schema *schema, const c
     return w;
 }
 
-/* A mistake of the program, not of its user. */
+/* Reports an error of the program, not of its user. */
 static void fail_column(table_writer *w, const char *name, const char *what)
 {
     w->status =
@@ -103,7 +103,7 @@ wt_status table_end(table_writer *w, wt_table **table)
 
 /* ---- cells and keys -------------------------------------------------------------------------- */
 
-/* Whether a cell of this column can be put. */
+/* Returns true if the cell can be set, and marks it as set. */
 static bool takes_cell(table_writer *w, const table_schema *of, unsigned column, bool text)
 {
     if (w->status != WT_OK)

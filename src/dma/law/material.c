@@ -1,7 +1,5 @@
-/* Materials: what every law shares - construction around a law, its checks and its release.
- *
- * SPDX-License-Identifier: GPL-3.0-or-later
- */
+/* Functions that all material laws share: construction, checks and release.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "dma/law/material.h"
 
 #include <math.h>

@@ -1,7 +1,5 @@
 /* Generalised Maxwell (Prony) material with its angular integrals in closed form.
- *
- * SPDX-License-Identifier: GPL-3.0-or-later
- */
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "core/math/simd.h"
 #include "dma/law/material.h"
 #include "dma/law/prony_law.h"
@@ -15,10 +13,11 @@ typedef struct prony_data {
     double *modulus;         /* E_k [Pa] */
     double *relaxation_time; /* tau_k [s] */
     double *weight;          /* 2 E_k V_k, V_k = E_inf + sum_j E_j tau_j / (tau_j + tau_k) */
-    double numbers[];        /* [3 n] all of them */
+    double numbers[];        /* [3 n] storage of the three arrays */
 } prony_data;
 
-/* prony_add at n frequencies below the limit, where it has no branch and vectorises. */
+/* Adds one term at n frequencies below prony_square_limit. The loop has no branch and
+ * vectorises. */
 WIDE_REGISTERS
 static void add_moduli(const double *restrict omega, size_t n, double modulus, double tau,
                        double *restrict storage, double *restrict loss)
@@ -58,8 +57,8 @@ static void prony_modulus(const wt_material *material, const double *omega, size
     }
 }
 
-/* One term of the series added to J1 and J2: the loop in which friction spends its time. Without
- * the limit it has no branch and vectorises. */
+/* Adds one term to J1 and J2. Friction spends most of its time in this loop. Below the limit it
+ * has no branch and vectorises. */
 WIDE_REGISTERS
 static void add_term(const double *restrict omega, size_t n, double modulus, double tau,
                      double weight, double *restrict j1, double *restrict j2)
@@ -86,9 +85,9 @@ static void add_term_beyond(const double *omega, size_t n, double modulus, doubl
 }
 
 /* With a = w tau, R = sqrt(1 + a^2), s = a / (R (1 + R)):
- *   int cos E'' = 2 pi sum E_k s_k,   int |E|^2 = 2 pi (E_inf^2 + 2 sum E_k V_k a_k s_k).
- * The double sum of |E|^2 collapses because int Re[1 / ((1 + i a c)(1 - i b c))] dphi =
- * 2 pi (a/R_a + b/R_b) / (a + b). All terms are positive: nothing cancels. */
+ *     int cos E'' = 2 pi sum E_k s_k,   int |E|^2 = 2 pi (E_inf^2 + 2 sum E_k V_k a_k s_k).
+ * The double sum of |E|^2 reduces to one sum because int Re[1 / ((1 + i a c)(1 - i b c))] dphi =
+ * 2 pi (a/R_a + b/R_b) / (a + b). All terms are positive, so no digits cancel. */
 static void prony_angular(const wt_material *material, const double *restrict omega, size_t n,
                           double *restrict j1, double *restrict j2)
 {
@@ -113,7 +112,7 @@ static void prony_angular(const wt_material *material, const double *restrict om
     }
 }
 
-/* sqrt(1 + a^2) and E a / sqrt(1 + a^2) for a = omega tau. */
+/* Computes sqrt(1 + a^2) and E a / sqrt(1 + a^2) for a = omega tau. */
 static void loss_parts(double omega, double modulus, double tau, double *root, double *height)
 {
     const double a = omega * tau;
@@ -122,9 +121,9 @@ static void loss_parts(double omega, double modulus, double tau, double *root, d
     *height = square ? modulus * (a / *root) : modulus;
 }
 
-enum { LOSS_BLOCK = 64 }; /* terms at a time: what a stack holds lightly */
+enum { LOSS_BLOCK = 64 }; /* terms in one pass; their arrays fit on the stack */
 
-/* sum_j h_j / (R_j + R_k) of the terms k of a block. */
+/* Adds h_j / (R_j + R_k) to the sums of the terms k of a block. */
 WIDE_REGISTERS
 static void add_pairs(double root, double height, const double *restrict roots, size_t n,
                       double *restrict sums)
@@ -223,7 +222,8 @@ wt_status wt_material_prony(const wt_prony *prony, double poisson_ratio, wt_mate
     for (size_t k = 0; k < d->n; k++) {
         const double tau = d->relaxation_time[k];
         double v = d->equilibrium;
-        for (size_t j = 0; j < d->n; j++) /* the ratio first: a sum of two times may overflow */
+        for (size_t j = 0; j < d->n;
+             j++) /* the ratio avoids a sum of two times, which may overflow */
             v += d->modulus[j] / (1 + tau / d->relaxation_time[j]);
         d->weight[k] = 2 * d->modulus[k] * v;
     }

@@ -16,11 +16,11 @@ typedef struct table_data {
     double *log_omega;   /* [n] */
     double *log_storage; /* [n] */
     double *log_loss;    /* [n] */
-    double slope[2][2];  /* of both moduli at the low and the high end */
-    double numbers[];    /* [4 n] all of them */
+    double slope[2][2];  /* end slopes: [low, high][storage, loss] */
+    double numbers[];    /* [4 n] storage of the four arrays */
 } table_data;
 
-/* Logarithms in the place of the moduli, kept where e^x is a number whose square is none. */
+/* Computes ln E' and ln E''. They are limited to 700, so that e^x stays finite. */
 static void table_logs(const table_data *d, const double *omega, size_t n, double *storage,
                        double *loss)
 {
@@ -41,12 +41,13 @@ static void table_logs(const table_data *d, const double *omega, size_t n, doubl
             loss[i] = fmin(d->log_loss[ends[end]] + slope[1] * beyond, most);
             continue;
         }
-        if (!(x >= d->log_omega[k] && x < d->log_omega[k + 1])) /* mostly that of the one before */
+        if (!(x >= d->log_omega[k] &&
+              x < d->log_omega[k + 1])) /* most frequencies lie in the previous interval */
             k = gsl_interp_bsearch(d->log_omega, x, 0, d->n - 1);
         const double t = (x - d->log_omega[k]) / (d->log_omega[k + 1] - d->log_omega[k]);
         const double e = d->log_storage[k] + t * (d->log_storage[k + 1] - d->log_storage[k]);
         const double f = d->log_loss[k] + t * (d->log_loss[k + 1] - d->log_loss[k]);
-        storage[i] = e > most ? most : e; /* a NaN stays one */
+        storage[i] = e > most ? most : e; /* this form preserves NaN */
         loss[i] = f > most ? most : f;
     }
 }
@@ -54,7 +55,7 @@ static void table_logs(const table_data *d, const double *omega, size_t n, doubl
 static void table_modulus(const wt_material *material, const double *omega, size_t n,
                           double *storage, double *loss)
 {
-    enum { BATCH = 32 }; /* frequencies at a time: what the first cache holds */
+    enum { BATCH = 32 }; /* frequencies in one pass; they fit in the first cache */
     double logs[2][BATCH];
     for (size_t from = 0; from < n; from += BATCH) {
         const size_t left = n - from < BATCH ? n - from : BATCH;
@@ -101,7 +102,8 @@ static wt_status table_check(const double *omega, const double *storage, const d
     return WT_OK;
 }
 
-/* From the quotients: far from the knots what the logarithms have lost would show. */
+/* Computes the end slopes from ratios. Differences of logarithms lose digits, which matters far
+ * outside the knots. */
 static void find_slopes(table_data *d, const double *storage, const double *loss)
 {
     for (size_t end = 0; end < 2; end++) {
@@ -112,11 +114,11 @@ static void find_slopes(table_data *d, const double *storage, const double *loss
     }
 }
 
-/* A steeper modulus goes through all that it may be within three decades, and its integrals take
- * their time. */
+/* A steeper modulus passes through the whole range of a double within three decades, and its
+ * integrals are slow. */
 static const double steepest = 100;
 
-/* Sliding always reaches down to omega = 0, where |E|^2 must stay integrable over the angle. */
+/* Sliding contributes frequencies down to 0, where |E|^2 must stay integrable over the angle. */
 static wt_status check_slopes(const table_data *d, wt_error *err)
 {
     const double low = fmin(d->slope[0][0], d->slope[0][1]);

@@ -1,11 +1,9 @@
-/* Transversely isotropic half-space whose axis is the surface normal, as the isotropic solid that
- * its surface feels like.
+/* Transversely isotropic half-space with its axis along the surface normal, as an equivalent
+ * isotropic solid.
  *
- * u_z(q) = (D / q) sigma_z(q) with the compliance D of the surface, which for the isotropic solid
- * is 2 (1 - nu^2) / E; so E = 2 (1 - nu^2) / D stands for it in every law of the surface.
- *
- * SPDX-License-Identifier: GPL-3.0-or-later
- */
+ * The surface compliance D in u_z(q) = (D / q) sigma_z(q) is 2 (1 - nu^2) / E for an isotropic
+ * solid. The laws of the surface therefore use E = 2 (1 - nu^2) / D.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "dma/law/material_transverse.h"
 #include "dma/law/material.h"
 
@@ -19,11 +17,11 @@
 enum { PLANE, AXIAL, SHEAR, N_MODULI };
 
 typedef struct transverse_data {
-    wt_material *law[N_MODULI]; /* some may be the same */
+    wt_material *law[N_MODULI]; /* entries may share one material */
     wt_transverse given;
     double stiffness; /* 2 (1 - nu^2) */
     size_t n_breaks;
-    double *breaks; /* of all laws, rising */
+    double *breaks; /* breaks of all laws, rising [rad/s] */
 } transverse_data;
 
 wt_transverse wt_transverse_defaults(void)
@@ -68,17 +66,18 @@ static const wt_param rows[] = {
 };
 PARAM_TABLE(wt_transverse_params, wt_transverse, rows, wt_transverse_defaults, NO_PARTS)
 
-/* ---- the surface ----------------------------------------------------------------------------- */
+/* ---- surface compliance ---------------------------------------------------------------------- */
 
 /* In plane strain, with a = Ep / Ez:
- *   b11 = (1 - nu_p^2) / Ep,   b33 = (1 - nu_zp^2 a) / Ez,   b13 = -nu_zp (1 + nu_p) / Ez */
+ *     b11 = (1 - nu_p^2) / Ep,   b33 = (1 - nu_zp^2 a) / Ez,   b13 = -nu_zp (1 + nu_p) / Ez */
 static double complex axial_compliance(const transverse_moduli *m)
 {
     return (1 - m->axial_poisson * m->axial_poisson * (m->plane / m->axial)) / m->axial;
 }
 
-/* sqrt(b11 b33) + b13, which is 0 for an incompressible solid and then the difference of equal
- * numbers: as its product with sqrt(b11 b33) - b13 over that. *scale: of what cancels in it. */
+/* Returns sqrt(b11 b33) + b13. For an incompressible solid this is a difference of equal
+ * numbers. It is therefore computed as its product with sqrt(b11 b33) - b13, divided by the
+ * latter. *scale: size of the terms that cancel. */
 static double complex volume_compliance(const transverse_moduli *m, double *scale)
 {
     const double nu_p = m->plane_poisson, nu_zp = m->axial_poisson;
@@ -105,7 +104,7 @@ static double complex complex_of(double real, double imaginary)
     return z;
 }
 
-/* At so many frequencies at a time: what the first cache holds. */
+/* Number of frequencies in one pass; they fit in the first cache. */
 enum { CHUNK = 32 };
 
 static void moduli_at(const transverse_data *d, const double *omega, size_t n, transverse_moduli *m)
@@ -156,10 +155,10 @@ static const double *transverse_breaks(const wt_material *material, size_t *n)
     return d->breaks;
 }
 
-/* ---- what makes no sense --------------------------------------------------------------------- */
+/* ---- validity checks ------------------------------------------------------------------------- */
 
-/* Rounding of a set that is just stable, as the incompressible ones are: a thousand times that of a
- * double, and far below what a modulus is known to. */
+/* Tolerance for a set of moduli at the limit of stability, such as an incompressible one. It is
+ * 1000 times the rounding error and far below the accuracy of a modulus. */
 static const double slack = 1e-12;
 
 static wt_status fail_moduli(const transverse_moduli *m, double omega, const char *what,
@@ -177,7 +176,7 @@ static wt_status fail_moduli(const transverse_moduli *m, double omega, const cha
     return WT_E_RANGE;
 }
 
-/* At one frequency. *passive: no load gains energy. */
+/* Checks the moduli at one frequency. *passive: false if some load would gain energy. */
 static wt_status check_at(const transverse_data *d, double omega, bool *passive, wt_error *err)
 {
     transverse_moduli m;
@@ -188,7 +187,7 @@ static wt_status check_at(const transverse_data *d, double omega, bool *passive,
     const double share = 2 * m.axial_poisson * m.axial_poisson, rest = 1 - m.plane_poisson;
     *passive = true;
     if (!isfinite(creal(sum)) || !isfinite(cimag(sum)))
-        return WT_OK; /* nothing is left of it: a liquid at rest */
+        return WT_OK; /* the solid is a liquid at rest */
     if (share * creal(axial) > (1 + slack) * rest * creal(plane))
         return fail_moduli(&m, omega, "unstable", "2 nu_zp^2 Re(1/Ez) <= (1 - nu_p) Re(1/Ep)", err);
     if (8 * DBL_EPSILON * scale > slack * cabs(sum))
@@ -201,15 +200,14 @@ static wt_status check_at(const transverse_data *d, double omega, bool *passive,
     return WT_OK;
 }
 
-/* Frequencies at which it is looked at whether it can be: a relaxation time is 1.14 decades wide.
- */
+/* Frequencies per decade of the check. One relaxation time is 1.14 decades wide. */
 enum { PER_DECADE = 8 };
 
 static wt_status transverse_check(const wt_material *material, double low, double high,
                                   char statement[256], wt_error *err)
 {
     const transverse_data *d = material->data;
-    /* the angle always reaches further down */
+    /* the integral over the angle always uses lower frequencies */
     const double first = fmax(1e-3 * low, DBL_MIN / DBL_EPSILON);
     const double decades = fmax(0, log10(high / first));
     const size_t steps = 1 + (size_t)(PER_DECADE * decades);
@@ -290,7 +288,7 @@ static wt_status join_breaks(transverse_data *d, wt_error *err)
     return WT_OK;
 }
 
-/* Both NaN where all are. */
+/* Intersects the frequency ranges of all laws. The limits are NaN if no law has limits. */
 static void join_range(const transverse_data *d, double *low, double *high)
 {
     *low = *high = (double)NAN;
@@ -300,7 +298,7 @@ static void join_range(const transverse_data *d, double *low, double *high)
     }
 }
 
-/* One law for all directions, with one Poisson ratio: the isotropic solid itself. */
+/* Returns true if one law with one Poisson ratio applies in all directions. */
 static bool is_isotropic(const transverse_data *d)
 {
     const wt_transverse *t = &d->given;

@@ -10,11 +10,11 @@
 typedef struct zener_data {
     double e0, rise; /* E0 and Eg - E0 [Pa] */
     double tau, alpha;
-    double cosine, sine; /* of alpha pi / 2 */
+    double cosine, sine; /* cosine and sine of alpha pi / 2 */
 } zener_data;
 
-/* E = E0 + (Eg - E0) z / (1 + z), written in whichever of |z| and 1/|z| is below 1, so that
- * nothing overflows and, cos(alpha pi / 2) being >= 0, nothing cancels. */
+/* E = E0 + (Eg - E0) z / (1 + z) is written with |z| or 1/|z|, whichever is below 1. Nothing
+ * overflows, and because cos(alpha pi / 2) >= 0 no digits cancel. */
 static void zener_modulus(const wt_material *material, const double *omega, size_t n,
                           double *storage, double *loss)
 {

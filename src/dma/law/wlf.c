@@ -1,5 +1,4 @@
-/* Shift laws: Williams-Landel-Ferry and Arrhenius.
- * SPDX-License-Identifier: GPL-3.0-or-later */
+/* Shift laws: Williams-Landel-Ferry and Arrhenius. SPDX-License-Identifier: GPL-3.0-or-later */
 #include "weartrack/model.h"
 
 #include "core/base/quantity.h"
@@ -10,7 +9,7 @@ double wt_wlf_log_shift(const wt_wlf *wlf, double temperature)
 {
     const double rise = temperature - wlf->reference_temperature;
     const double above_pole = wlf->c2 + rise;
-    /* A pole at or above the reference would make the law infinite between the two. */
+    /* With a pole at or above the reference the law is infinite between the two. */
     if (!(above_pole > 0.0) || !(wlf->c2 > 0.0))
         return (double)NAN;
     return -wlf->c1 * rise / above_pole;
@@ -21,7 +20,7 @@ double wt_arrhenius_log_shift(double activation_energy, double reference_tempera
 {
     if (!(temperature > 0.0) || !(reference_temperature > 0.0))
         return (double)NAN;
-    /* 1/T - 1/Tref as one quotient: no cancellation for neighbouring temperatures. */
+    /* One quotient for 1/T - 1/Tref avoids cancellation at neighbouring temperatures. */
     return activation_energy / (GAS_CONSTANT * M_LN10) *
            ((reference_temperature - temperature) / (temperature * reference_temperature));
 }

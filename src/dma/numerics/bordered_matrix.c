@@ -1,5 +1,6 @@
-/* Blocks are eliminated first, each by itself: what they leave of the border is its Schur
- * complement. SPDX-License-Identifier: GPL-3.0-or-later */
+/* Cholesky factorisation of bordered matrices. The blocks are eliminated one by one, which
+ * leaves their Schur complement in the border.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "dma/numerics/bordered_matrix.h"
 
 #include "core/math/arena_gsl.h"
@@ -47,7 +48,7 @@ void bordered_copy(bordered *to, const bordered *from)
     memcpy(to->own, from->own, BLOCK_OWN * from->n * sizeof *from->own);
 }
 
-/* A block's own factor, and the rows of its side by the inverse of that. */
+/* Factors a block and solves its side rows with the factor. */
 static bool factor_block(bordered *b, size_t block)
 {
     double *own = b->own + BLOCK_OWN * block;
@@ -67,14 +68,15 @@ static bool factor_block(bordered *b, size_t block)
     return true;
 }
 
-/* Takes the products of the sides from the upper triangle of the border. */
+/* Subtracts the products of the sides from the upper triangle of the border. */
 WIDE_REGISTERS
 static void take_sides(bordered *b)
 {
     const size_t all = BLOCK_SIDE * b->n, tda = b->side->tda;
     for (size_t k = 0; k < all; k += TILE_NEAR) {
         size_t rows = k + TILE_NEAR < all ? TILE_NEAR : all - k;
-        rows = (rows + TILE_ROWS - 1) / TILE_ROWS * TILE_ROWS; /* those behind the last are zeros */
+        rows =
+            (rows + TILE_ROWS - 1) / TILE_ROWS * TILE_ROWS; /* the rows after the last are zeros */
         const double *row = side_row(b, k);
         for (size_t i = 0; i < b->m; i += TILE)
             for (size_t j = i; j < b->m; j += TILE)
@@ -103,7 +105,7 @@ double bordered_log_det(const bordered *factor)
     return sum;
 }
 
-/* L of a block has own[0], own[1], own[2]. */
+/* The factor L of a block has the elements (1,1), (2,1) and (2,2). */
 static void solve_lower(const double *own, double x[BLOCK_SIDE])
 {
     x[0] /= own[0];
@@ -126,7 +128,7 @@ void bordered_solve(const bordered *factor, double *border, double *side)
         for (size_t j = 0; j < m; j++)
             border[j] -= side[k] * row[j];
     }
-    for (size_t i = 0; i < m; i++) { /* the transpose of the factor is in the rows */
+    for (size_t i = 0; i < m; i++) { /* the rows contain the transpose of the factor */
         const double *row = border_row(factor, i);
         border[i] /= row[i];
         for (size_t j = i + 1; j < m; j++)
@@ -178,7 +180,7 @@ void bordered_inverse(const bordered *factor, gsl_matrix *scratch, bordered *inv
         }
         for (size_t c = 0; c < BLOCK_SIDE; c++)
             solve_upper(own, product[c]);
-        for (size_t c = 0; c < BLOCK_SIDE; c++) { /* the other side */
+        for (size_t c = 0; c < BLOCK_SIDE; c++) { /* second solve */
             double x[BLOCK_SIDE] = {product[0][c], product[1][c]};
             solve_upper(own, x);
             product[0][c] = x[0];

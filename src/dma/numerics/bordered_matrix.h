@@ -1,6 +1,7 @@
-/* Symmetric positive equations of many small blocks that have only a border in common: terms of a
- * spectrum and the shifts of its isotherms. They cost the cube of the border alone. Internal to the
- * fit room. SPDX-License-Identifier: GPL-3.0-or-later */
+/* Symmetric positive definite equations of many small blocks that share only a border: terms of
+ * a spectrum and shifts of its isotherms. The cost is the cube of the size of the border.
+ * Internal to dma.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #ifndef WT_DMA_NUMERICS_BORDERED_MATRIX_H
 #define WT_DMA_NUMERICS_BORDERED_MATRIX_H
 
@@ -9,28 +10,30 @@
 #include <gsl/gsl_matrix.h>
 #include <stdbool.h>
 
-/* Unknowns of a block, and what of it is kept: first with itself, with the second, that with
- * itself. An unknown that is not there has 1 with itself and 0 with all others. */
+/* Unknowns of a block, and its stored elements: (1,1), (2,1) and (2,2). An absent unknown has 1
+ * on the diagonal and 0 elsewhere. */
 enum { BLOCK_SIDE = 2, BLOCK_OWN = 3 };
 
 typedef struct bordered {
-    size_t m, n;        /* of the border; blocks */
+    size_t m, n;        /* size of the border; number of blocks */
     gsl_matrix *border; /* [m * m] */
-    gsl_matrix *side;   /* [BLOCK_SIDE n * m] of the blocks with the border; rows of zeros follow */
+    gsl_matrix *side;   /* [BLOCK_SIDE n * m] blocks with the border; rows of zeros follow */
     double *own;        /* [BLOCK_OWN n] */
 } bordered;
 
-/* Of at most so many; m may then be less. */
+/* Allocates a matrix with a border of m at most and n blocks. m may be reduced later. */
 bordered bordered_new(arena *memory, size_t m, size_t n);
 void bordered_zero(bordered *b);
-/* Of the same m. */
+/* Copies a matrix. The capacity of `to` must suffice. */
 void bordered_copy(bordered *to, const bordered *from);
-/* In place; what counts of the border is its upper triangle. False: not positive. */
+/* Factors in place. Only the upper triangle of the border is read. Returns false if the matrix
+ * is not positive definite. */
 bool bordered_factor(bordered *b);
 double bordered_log_det(const bordered *factor);
-/* In place: border [m], side [BLOCK_SIDE n]. */
+/* Solves in place: border [m], side [BLOCK_SIDE n]. */
 void bordered_solve(const bordered *factor, double *border, double *side);
-/* Of the inverse what lies where the matrix is not zero; scratch: [m * m] or larger. */
+/* Computes the elements of the inverse at the positions of the non-zero elements of the matrix;
+ * scratch: [m * m] or larger. */
 void bordered_inverse(const bordered *factor, gsl_matrix *scratch, bordered *inverse);
 
 #endif

@@ -1,21 +1,21 @@
-/* The closed form of ISO 18437-6 (Gergesova, Zupancic, Saprunov and Emri, J. Rheol. 55 (2011) 1):
- * the area between two neighbouring isotherms of the storage modulus, over the height they share.
- * No vertical shift, no error. SPDX-License-Identifier: GPL-3.0-or-later */
+/* Closed-form shifts of ISO 18437-6 (Gergesova, Zupancic, Saprunov and Emri, J. Rheol. 55 (2011)
+ * 1). The shift is the area between two neighbouring isotherms of E' divided by their shared
+ * height. There is no vertical shift and no error.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "dma/numerics/closed_form.h"
 
 #include <math.h>
 
-/* Ordinates that neighbours share at least [decade], or this share of what the flatter one has (in
- * a glass it has no more to give), and points of each that lie there: the area between two curves
- * needs a stretch of each, and one that is less than some times the noise of a modulus (1 % is
- * 0.004 decade) tells no shift. Chosen; the chain of the overlaps, which begins with these shifts,
- * has errors of its own. */
+/* Minimum shared height [decade], or this share of the height of the flatter curve, because a
+ * glass has no more. 1 % of noise is 0.004 decade. The values are chosen; the overlap chain,
+ * which starts from these shifts, has separate errors. */
 static const double least_height = 0.05, least_share = 0.25;
-/* So many isotherms towards the anchor are tried: one that is bad leaves a gap, not an end. */
+/* Minimum number of points of each curve in the shared range. Two isotherms towards the anchor
+ * are tried, so that one bad isotherm leaves a gap only. */
 enum { LEAST_POINTS = 2, NEIGHBOURS = 2 };
 
-/* The integral of x over the ordinates from low to high along the running maximum of a curve, and
- * how many points lie there. */
+/* Integrates x over the ordinates from low to high along the running maximum of a curve. *n:
+ * number of points in that range. */
 static double area_along_ordinates(const shift_curve *c, double low, double high, size_t *n)
 {
     double sum = 0.0, before = c->y[STORAGE][0];

@@ -1,4 +1,5 @@
-/* A curve through scattered points. SPDX-License-Identifier: GPL-3.0-or-later */
+/* Gaussian process regression of a curve through scattered points.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "dma/numerics/gaussian_process.h"
 
 #include "core/base/array.h"
@@ -16,31 +17,31 @@
 #include <string.h>
 
 enum { PARABOLA = SMOOTH_PARABOLA };
-/* Lengths over which the departure changes, of half the range: from a quarter, below which a
- * parabola and its departure have as many bends as fifteen points, to more than all of it; its
- * variance over that of the scatter of a point: from what is seen of ten points to exact data.
- * Steps of a factor 1.6 and 10, of which the weights change by little from one to the next. */
+/* Correlation lengths of the departure, relative to half the range. They extend from a quarter
+ * (below it the curve has as many slope changes as 15 points) to more than the range. Ratios of
+ * its variance to the noise variance of a point extend from what ten points resolve to exact
+ * data. The steps are so small that the weights change little between neighbours. */
 static const double lengths[] = {0.25, 0.4, 0.6, 1.0, 1.6, 2.5};
 static const double ratios[] = {1e1, 1e2, 1e3, 1e4, 1e5, 1e6, 1e7, 1e8};
 enum { WAYS = COUNT_OF(lengths) * COUNT_OF(ratios) };
-/* Halves of a standard error or some: 1e-12 of it. */
+/* Halvings of an interval of about one standard error: to 1e-12 of it. */
 enum { HALVINGS = 40 };
-/* What weighs less than this share of the best changes no digit that is shown: all 48 ways together
- * are then less than a twentieth, and each by less than its distance. */
+/* Components below this weight relative to the best one are dropped. All 48 together then weigh
+ * less than a twentieth, which changes no shown digit. */
 static const double counts_for_nothing = 1e-3;
 
-/* One smoothness and size of the departure. */
+/* One component of the mixture: a correlation length and a variance ratio. */
 typedef struct gp_hyperparameters {
     double length, ratio;
     double log_weight, weight;
-    double variance;  /* of the scatter */
-    gsl_matrix *root; /* Cholesky factor of the covariance over that variance */
+    double variance;  /* noise variance of a point */
+    gsl_matrix *root; /* Cholesky factor of the covariance divided by the noise variance */
     gsl_matrix *flat; /* [n][PARABOLA] covariance^-1 powers */
     gsl_vector *pull; /* [n] covariance^-1 residual */
     double coefficient[PARABOLA], inverse[PARABOLA][PARABOLA];
 } gp_hyperparameters;
 
-/* Powers of x, or their slopes. */
+/* Computes the powers of x or their derivatives. */
 static void parabola_powers(double x, smooth_order order, double p[PARABOLA])
 {
     p[0] = order == SMOOTH_VALUE ? 1 : 0;
@@ -48,7 +49,7 @@ static void parabola_powers(double x, smooth_order order, double p[PARABOLA])
     p[2] = order == SMOOTH_VALUE ? x * x : 2 * x;
 }
 
-/* Of the departure at x, or its slope, with that at a point. */
+/* Returns the covariance of the departure at x, or its slope, with the departure at a point. */
 static double departure_covariance(const gp_hyperparameters *w, double x, double at,
                                    smooth_order order)
 {
@@ -80,9 +81,9 @@ static wt_status take_points(gaussian_process *s, const double *x, const double 
     return WT_OK;
 }
 
-/* ---- one way --------------------------------------------------------------------------------- */
+/* ---- one component --------------------------------------------------------------------------- */
 
-/* Generalised least squares of the parabola; false if the matrices are singular. */
+/* Fits the parabola by generalised least squares. Returns false if a matrix is singular. */
 static bool solve_parabola(const gaussian_process *s, gp_hyperparameters *w, gsl_vector *powers_y,
                            double *log_det)
 {
@@ -106,7 +107,8 @@ static bool solve_parabola(const gaussian_process *s, gp_hyperparameters *w, gsl
     return true;
 }
 
-/* Fills the way from its length and ratio; false if it cannot be. powers_y: [n] scratch. */
+/* Fits a component with its length and ratio. Returns false if a matrix is singular. powers_y:
+ * [n] scratch. */
 static bool fit_way(const gaussian_process *s, gp_hyperparameters *w, gsl_vector *powers_y)
 {
     double log_det = 0, squares = 0;
@@ -204,9 +206,9 @@ void gaussian_process_free(gaussian_process *s)
     *s = (gaussian_process){.n = 0};
 }
 
-/* ---- what it says ---------------------------------------------------------------------------- */
+/* ---- predictions ----------------------------------------------------------------------------- */
 
-/* By one way, in units of the scaled x. */
+/* Mean of one component, for the scaled x. */
 static double way_mean(const gaussian_process *s, const gp_hyperparameters *w, double x,
                        smooth_order order)
 {
@@ -240,7 +242,7 @@ static double way_error(const gaussian_process *s, const gp_hyperparameters *w, 
     return sqrt(fmax(square, 0) * w->variance);
 }
 
-/* The order counts from the scaled x to x. */
+/* Returns the factor from the scaled x to x. */
 static double scale_of(const gaussian_process *s, smooth_order order)
 {
     return order == SMOOTH_VALUE ? 1 : 1 / s->half;
@@ -254,7 +256,7 @@ double gaussian_process_mean(const gaussian_process *s, double x, smooth_order o
     return mean * scale_of(s, order);
 }
 
-/* What each way says of a place. */
+/* Means and errors of all components at one x. */
 typedef struct model_mixture {
     size_t n;
     double weight[WAYS], mean[WAYS], error[WAYS], freedom;
@@ -301,7 +303,8 @@ static bool less_probable(double x, void *user)
     return probability_below(l->o, x) < l->probability;
 }
 
-/* Begins at `from`, which lies on the other side of it, with steps of the size of `step`. */
+/* Finds a quantile. The search starts at `from`, on the other side of the quantile, with steps
+ * that double. */
 static double opinion_quantile(const model_mixture *o, double probability, double from, double step)
 {
     double other = from + step;
@@ -332,10 +335,10 @@ wt_interval gaussian_process_interval(const gaussian_process *s, double x)
     return interval_of(&o);
 }
 
-/* ---- a number that slopes make ----------------------------------------------------------------
- */
+/* ---- statistics of slopes -------------------------------------------------------------------- */
 
-/* Curves without the number may weigh so much: the share that an interval of 95 % leaves out. */
+/* Maximum weight of components in which the statistic is undefined: the share outside a 95 %
+ * interval. */
 static const double without_number = 0.05;
 
 typedef struct slopes {
@@ -354,7 +357,7 @@ static double slope_covariance(const gp_hyperparameters *w, double x, double y)
     return w->ratio / (w->length * w->length) * (1 - away * away) * exp(-0.5 * away * away);
 }
 
-/* How the slopes by one way depart from their mean together: directions and their squares. */
+/* Finds the principal directions of the slopes of one component and their variances. */
 static bool find_directions(const gaussian_process *s, const gp_hyperparameters *w, slopes *v)
 {
     for (size_t k = 0; k < v->n; k++) {
@@ -393,7 +396,7 @@ static double number_beside(slopes *v, size_t k, double step, gaussian_process_n
     return number(v->x, v->moved, v->n);
 }
 
-/* The number by one way and its error; false: it has none. */
+/* Computes the statistic of one component and its error. Returns false if it is undefined. */
 static bool number_of_way(const gaussian_process *s, const gp_hyperparameters *w, slopes *v,
                           gaussian_process_number *number, double *mean, double *error)
 {

@@ -1,5 +1,5 @@
-/* Time-temperature superposition inside the fit room: isotherms in logarithms, and where two lie to
- * each other. x = log10 w, y = log10 modulus; shifted: x + a, y + b.
+/* Isotherms as logarithms, and the shift between two of them. x = log10 w, y = log10 modulus;
+ * shifted: x + a, y + b. Internal to dma.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #ifndef WT_DMA_NUMERICS_ISOTHERM_H
 #define WT_DMA_NUMERICS_ISOTHERM_H
@@ -9,45 +9,46 @@
 
 enum { STORAGE, LOSS, MODULI };
 
-/* Fewest points of an isotherm, and of the overlap of two in each modulus: one more than what
- * places it, its shifts and its slope, so that something is left over. */
+/* Minimum number of points of an isotherm, and of an overlap in each modulus. It is one more
+ * than shift, vertical shift and slope require. */
 #define SHIFT_MIN_POINTS 4
 
-/* The usable points of one isotherm, rising in x. */
+/* Usable points of one isotherm, rising in x. */
 typedef struct shift_curve {
     double temperature; /* [K] */
     size_t n;
     double *x;         /* [n] */
     double *y[MODULI]; /* [n] */
     size_t n_left_out; /* points with a modulus <= 0 */
-    size_t n_together; /* measured points, if neighbours became one; else 0 */
-    bool given;        /* its shift is not fitted */
-    double given_a;    /* its difference to another given one counts [decade] */
-    bool held;         /* so is its vertical shift */
-    double given_b;    /* it [decade] */
+    size_t n_together; /* measured points if neighbours were merged; otherwise 0 */
+    bool given;        /* the shift is stated and not fitted */
+    double given_a;    /* stated log10 a; only differences to other stated shifts count [decade] */
+    bool held;         /* the vertical shift is stated, too */
+    double given_b;    /* stated log10 b [decade] */
 } shift_curve;
 
-/* All isotherms in the order of rising temperature. */
+/* All isotherms by rising temperature. */
 typedef struct shift_set {
-    wt_shift_by by; /* never MODULI if a modulus is missing */
+    wt_shift_by by; /* not WT_BY_MODULI if a modulus is missing */
     wt_loading loading;
-    bool used[MODULI]; /* by tan delta alone it stands in the place of LOSS */
+    bool used[MODULI]; /* fitted quantities; tan delta takes the place of LOSS */
     size_t n;
     shift_curve *curves;
-    size_t n_points; /* of all curves */
+    size_t n_points; /* points of all curves */
 } shift_set;
 
-/* Takes logarithms of what is asked for, sorts, leaves out points without one. WT_E_RANGE names an
- * isotherm that has too few positive points left, or temperatures that are not kelvin; WT_E_MISSING
- * for a modulus that was not measured. */
+/* Takes logarithms of the requested quantities, sorts the points and skips points without
+ * logarithms. Returns WT_E_RANGE with the isotherm that has too few positive points or a
+ * temperature that is not in kelvin. Returns WT_E_MISSING if a modulus was not measured.
+ * `memory` owns the arrays. */
 wt_status shift_set_new(const wt_sweep *sweep, wt_shift_by by, wt_log *log, arena *memory,
                         shift_set *set, wt_error *err) WT_NODISCARD;
 
-/* By how much the modulus changes along a curve, storage if it is used [decade]. */
+/* Returns the change of the modulus along a curve, of E' if it is used [decade]. */
 double shift_change(const shift_set *set, size_t curve);
 
-/* Where curve s goes relative to curve p (as measured): by least squares of the moduli used and
- * both directions; b is projected out if free_b, else it is given. False: no overlap. */
+/* Fits the shift of curve s relative to curve p by least squares of the used moduli in both
+ * directions. b is fitted if free_b, otherwise it is an input. Returns false without overlap. */
 bool shift_pair_fit(const shift_set *set, size_t p, size_t s, bool free_b, double *a, double *b);
 
 #endif

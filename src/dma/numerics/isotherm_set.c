@@ -1,4 +1,4 @@
-/* Isotherms of a sweep as logarithms, sorted, with unusable points left out and named.
+/* Converts the isotherms of a sweep to sorted logarithms and reports unusable points.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "dma/numerics/isotherm.h"
 
@@ -24,10 +24,11 @@ static int by_temperature(const void *left, const void *right)
     const struct order *a = left, *b = right;
     if (a->temperature != b->temperature)
         return a->temperature > b->temperature ? 1 : -1;
-    return (a->index > b->index) - (a->index < b->index); /* runs of one temperature keep order */
+    return (a->index > b->index) -
+           (a->index < b->index); /* runs at one temperature keep their order */
 }
 
-/* tan delta of a point. */
+/* Returns tan delta of a point. */
 static double factor_of(const wt_isotherm *t, size_t k)
 {
     return t->loss_factor != NULL ? t->loss_factor[k] : t->loss_modulus[k] / t->storage_modulus[k];
@@ -50,7 +51,7 @@ static wt_status check_temperatures(const wt_sweep *sweep, wt_error *err)
     return WT_OK;
 }
 
-/* What of an isotherm is fitted; NaN where it was not measured. */
+/* Returns the quantities of a point that are fitted, NaN if unmeasured. */
 static void values_of(const wt_isotherm *t, wt_shift_by by, size_t k, double value[MODULI])
 {
     value[STORAGE] = t->storage_modulus[k];
@@ -59,19 +60,19 @@ static void values_of(const wt_isotherm *t, wt_shift_by by, size_t k, double val
         value[LOSS] = factor_of(t, k);
 }
 
-/* Measured points that lie within so much of each other become one, their mean [decade]: a
- * relaxation smears moduli over a decade, so that nothing turns within a tenth of one. */
+/* Points within this range are replaced by their mean [decade]. A relaxation broadens moduli
+ * over a decade, so nothing changes within a tenth of it. */
 static const double one_point = 0.09;
-/* Points that stand evenly do so from two of them on, others from so many of all: a few that happen
- * to lie together cost little and are kept as they are. */
+/* Evenly spaced points are merged from two per group on, other points from five on. A few close
+ * points cost little and stay unchanged. */
 enum { LEAST_EVEN = 2, LEAST_TOGETHER = 5 };
-static const double even = 1.5; /* the largest step against the mean one */
-/* Of so many or more, those that lie further from their median are not in the mean [standard
- * deviations]. */
+static const double even = 1.5; /* largest step divided by the mean step */
+/* In groups of LEAST_MANY or more, points farther from the median are excluded from the mean
+ * [standard deviations]. */
 static const double far_off = 5.0;
 enum { LEAST_MANY = 5 };
 
-/* The end of the points that become one from `from` on; alone: none do. */
+/* Returns the end of the group that starts at `from`. With `alone` each point is its own group. */
 static size_t end_of_repeats(const struct point *point, size_t n, size_t from, bool alone)
 {
     size_t to = from + 1;
@@ -89,7 +90,7 @@ static bool is_even(const struct point *point, size_t n)
     return is;
 }
 
-/* Too few points to be worth it, or too few that were left. */
+/* Returns true if merging would save little or would leave too few points. */
 static bool is_sparse(const struct point *point, size_t n)
 {
     size_t left = 0;
@@ -98,7 +99,7 @@ static bool is_sparse(const struct point *point, size_t n)
     return left < SHIFT_MIN_POINTS || n < (is_even(point, n) ? LEAST_EVEN : LEAST_TOGETHER) * left;
 }
 
-/* Mean of the neighbours without those far off; copy: [n]. */
+/* Returns the mean of a group without outliers; copy: [n] scratch. */
 static double middle_of(const struct point *point, size_t n, int q, double *copy)
 {
     double sum = 0.0, weights = 0.0;
@@ -115,10 +116,10 @@ static double middle_of(const struct point *point, size_t n, int q, double *copy
         sum += near ? point[k].y[q] : 0.0;
         weights += near;
     }
-    return sum / weights; /* half of them are nearer than that */
+    return sum / weights; /* weights > 0, because half of the points are inliers */
 }
 
-/* The points, rising, as they are fitted; curve->y is scratch, too. */
+/* Stores the points for the fit, rising and merged. curve->y also serves as scratch. */
 static void fill_points(const struct point *point, size_t n, shift_curve *curve)
 {
     const bool alone = is_sparse(point, n);
@@ -185,7 +186,7 @@ static wt_status fill_curve(const wt_isotherm *isotherm, const shift_set *set,
     return WT_OK;
 }
 
-/* Which quantities all isotherms have at some point. */
+/* Finds the quantities that all isotherms have at some point. */
 static void find_measured_moduli(const wt_sweep *sweep, bool has[MODULI], bool *factor)
 {
     has[STORAGE] = has[LOSS] = *factor = true;

@@ -1,4 +1,4 @@
-/* How a filled rubber softens with strain: what was measured, and the law of Kraus.
+/* Strain softening of a filled rubber: measured characteristics and the law of Kraus.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "dma/numerics/kraus_region.h"
 
@@ -8,16 +8,15 @@
 #include <math.h>
 #include <stdlib.h>
 
-/* Points of an end, whose mean is told; points that a fit of four constants needs, so that three
- * degrees of freedom tell its scatter; a largest point that is one of the outer two is no maximum.
- */
+/* END points are averaged at each end. A fit of four constants needs seven points, so that three
+ * degrees of freedom remain. A largest value among the outer two points is no maximum. */
 enum { END = 3, FEWEST_FIT = 7, FROM_END = 2 };
-/* How far apart in strain the points of the start may be: half a decade. Kraus's law falls there by
- * (start_ratio gamma / gamma_c)^(2 m), the less the smaller the first amplitude is. */
+/* Strain range of the points that are averaged at the start: half a decade. The law of Kraus
+ * falls there by (start_ratio gamma / gamma_c)^(2 m), less for a smaller first amplitude. */
 static const double start_ratio = 3;
-/* What is told of a fall: where it begins to show, and its half. */
+/* Fractions of the initial modulus whose strains are reported: onset of softening and half. */
 static const double tenth = 0.9, half = 0.5;
-/* Intervals of 95 %; a fall that scatter makes by a chance of more than 5 % is none. */
+/* Quantile of the 95 % intervals, and the significance level of the fall. */
 static const double level = 0.975, chance = 0.05;
 
 double wt_kraus_storage(const wt_kraus *law, double strain)
@@ -69,8 +68,8 @@ static void measure_softening(const payne_points *p, wt_payne *payne)
 
 /* ---- the law --------------------------------------------------------------------------------- */
 
-/* Root mean square of the residuals; *wander: neighbours are off to the same side more often than
- * scatter would have it. */
+/* Returns the root mean square of the residuals. The flag is true if neighbouring residuals have
+ * the same sign more often than independent noise. */
 static double law_misfit(const payne_points *p, const double *y, const wt_kraus *law,
                          double (*of)(const wt_kraus *, double), bool *wander)
 {
@@ -85,7 +84,7 @@ static double law_misfit(const payne_points *p, const double *y, const wt_kraus 
     return sqrt(squares / (double)p->n);
 }
 
-/* What lies beyond the amplitudes measured is not told. */
+/* Sets parameters outside the measured amplitudes to NaN. */
 static void withhold_unmeasured(const payne_points *p, wt_payne *payne)
 {
     const wt_interval unknown = {(double)NAN, (double)NAN, (double)NAN, (double)NAN};
@@ -137,7 +136,7 @@ wt_status wt_payne_fit(const double *strain, const double *storage, const double
     const double nan = (double)NAN;
     const wt_interval unknown = {nan, nan, nan, nan};
     const bool alone = loss == NULL;
-    loss = alone ? storage : loss; /* of which nothing is told then */
+    loss = alone ? storage : loss; /* placeholder; its results are set to NaN below */
     if (strain == NULL || storage == NULL || payne == NULL || n == 0)
         return wt_fail(err, WT_E_ARG, "no strain sweep");
     for (size_t i = 0; i < n; i++)

@@ -1,5 +1,5 @@
-/* Which laws of Kraus the points of a strain sweep allow: a plane of two numbers is looked at as a
- * grid that closes in on them, so that no start is needed and valleys may be bent.
+/* Confidence region of the law of Kraus. A grid over two parameters contracts around the allowed
+ * region, so that no start value is needed and curved valleys are handled.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "dma/numerics/kraus_region.h"
 
@@ -7,13 +7,13 @@
 
 #include <math.h>
 
-/* Cells of strain and exponent; the best is looked for among fewer about it, again and
- * again in a box half as wide: to 2e-7 of the range. Rounds in which a box grows by half: 1.5^20 is
- * more than all. */
+/* Grid cells of strain and exponent. A coarse grid around the best cell is refined 18 times,
+ * each time in half the box, to 2e-7 of the range. A box grows by half in each of at most 20
+ * rounds; 1.5^20 exceeds the whole range. */
 enum { SIDE = 48, CELLS = SIDE * SIDE, CLOSER = 9, POLISH = 18, ROUNDS = 20 };
-/* Beyond the amplitudes measured the fall may be as far away as this [ln]: a decade below, where it
- * is over, and two above, where it has hardly begun. Exponents of rubber are about 0.6 (Kraus
- * 1984): six times less and eight times more bound what is looked at. */
+/* Search range of ln strain outside the measured amplitudes: a decade below, where the fall is
+ * complete, and two above, where it has hardly begun. Exponents of rubber are about 0.6 (Kraus
+ * 1984); the range covers a factor of six to eight. */
 static const double below = 2.5, above = 4.7, exponent_min = 0.1, exponent_max = 5;
 
 /* ---- levels ---------------------------------------------------------------------------------- */
@@ -28,7 +28,7 @@ static double loss_shape(double log_x)
     return 1 / cosh(log_x);
 }
 
-/* A straight line against the shape; a level below zero is held at zero. */
+/* Fits value = a + (b - a) shape. A negative level is fixed at zero. */
 static payne_levels fit_levels(const payne_points *p, const double *y, double (*shape)(double),
                                double u, double v)
 {
@@ -63,7 +63,7 @@ static payne_levels fit_levels(const payne_points *p, const double *y, double (*
 payne_levels payne_storage_at(const payne_points *p, double u, double v)
 {
     payne_levels l = fit_levels(p, p->storage, storage_shape, u, v);
-    if (l.b < l.a) /* it would rise with strain */
+    if (l.b < l.a) /* the modulus would rise with strain */
         l.rss = payne_flat(p);
     return l;
 }
@@ -96,7 +96,7 @@ static double cell_place(const payne_box *box, int axis, size_t i, size_t side)
     return box->low[axis] + (box->high[axis] - box->low[axis]) * (double)i / (double)(side - 1);
 }
 
-/* A box of so many cells about a place, within another. */
+/* Returns a box of two cells around a point, limited to another box. */
 static payne_box box_about(const payne_box *in, const payne_box *box, const double at[2],
                            size_t side)
 {
@@ -139,7 +139,7 @@ static bool is_allowed(const payne_points *p, const double at[2], double most)
     return payne_storage_at(p, at[0], at[1]).rss <= most;
 }
 
-/* The best place and as far as one number alone may go from it. */
+/* Returns a box that contains the best point and the one-parameter limits from it. */
 static payne_box start_box(const payne_points *p, const payne_box *all, const double best[2],
                            double most)
 {
@@ -157,7 +157,8 @@ static payne_box start_box(const payne_points *p, const payne_box *all, const do
     return box;
 }
 
-/* The box that holds what is allowed, a cell wider: grown where it is reached. */
+/* Returns the box that contains the allowed points plus one cell. It grows where they reach its
+ * border. */
 static payne_box allowed_box(const payne_points *p, const payne_box *all, const payne_box *box,
                              double most, bool *grown)
 {
@@ -186,8 +187,7 @@ static payne_box allowed_box(const payne_points *p, const payne_box *all, const 
 
 /* ---- intervals ------------------------------------------------------------------------------- */
 
-/* The least and the largest value of a number seen so far, and whether it was seen at the border
- * of the plane. */
+/* Extremes of a parameter so far. open: an extreme lies at the border of the plane. */
 typedef struct extent {
     double low, high;
     bool low_open, high_open;
@@ -207,7 +207,8 @@ static void extend_to(extent *e, double low, double high, bool border)
 
 enum { STRAIN, EXPONENT, STORAGE_0, STORAGE_INF, LOSS_M, LOSS_INF, NUMBERS };
 
-/* One cell: what the moduli may be with its strain and exponent. `left`: of the square of t. */
+/* Includes one cell: the ranges of the moduli at its strain and exponent. left: remaining square
+ * of t. */
 static void see_cell(const payne_points *p, const double at[2], double left, double scatter,
                      double loss_scatter, bool border, extent e[NUMBERS])
 {
@@ -221,7 +222,8 @@ static void see_cell(const payne_points *p, const double at[2], double left, dou
         extend_to(&e[STORAGE_0 + i], value[i] - t * error[i], value[i] + t * error[i], border);
 }
 
-/* What the law may be where the sum of squares is above the least by at most t^2 of the scatter. */
+/* Finds the parameter ranges in which the sum of squares exceeds the minimum by at most t^2
+ * times the variance. */
 static void find_extents(const payne_points *p, const wt_kraus *law, double t, extent e[NUMBERS])
 {
     const double best[2] = {log(law->strain_c), log(law->exponent)};
@@ -232,8 +234,8 @@ static void find_extents(const payne_points *p, const wt_kraus *law, double t, e
     bool grown = true;
     for (int round = 0; round < ROUNDS && grown; round++)
         box = allowed_box(p, &all, &box, least + t * t * square, &grown);
-    /* At the best place for the storage moduli the loss moduli are off by that place's error, too:
-     * their scatter is the least that they have within what is allowed. */
+    /* At the best point of the storage moduli the loss moduli also deviate by its error. Their
+     * variance is therefore the minimum over the allowed region. */
     double loss_least = payne_loss_at(p, best[0], best[1]).rss;
     for (size_t i = 0; i < CELLS; i++) {
         const double at[2] = {cell_place(&box, 0, i / SIDE, SIDE),

@@ -1,6 +1,6 @@
-/* The master curve of a sweep: start, outliers, which isotherms hang together, noise, the fits over
- * the widths of the vertical shift, the law, the verdict. SPDX-License-Identifier: GPL-3.0-or-later
- */
+/* Steps of the master curve fit: start, outliers, connected isotherms, noise and the test of
+ * superposition.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "dma/numerics/master_fit.h"
 
 #include "core/base/param.h"
@@ -11,48 +11,43 @@
 #include <stdio.h>
 #include <string.h>
 
-/* Widths of the prior of the vertical shift to start with [decade]: clamping, departure of the
+/* Initial widths of the prior of the vertical shift [decade]: clamping and departure of the
  * material (master_widths.c). */
 static const double start_geometry = 0.002, start_departure = 0.02;
-/* Noise that is the same all along an isotherm. */
+/* Noise that is uniform along an isotherm. */
 const double master_even[SPECTRUM_SHAPES] = {0.0};
-/* Fits anew after points were left out, or bends were taken over: each finds less to change, and
- * more are only time. */
+/* Maximum number of refits after outliers or curvature weights change. Later refits change
+ * little. */
 enum { MOST_ROUNDS = 4, BEND_ROUNDS = 3 };
 
-/* An isotherm this close to the reference temperature is the reference [K]: what thermometers and
- * chambers agree to. */
+/* An isotherm this close to the reference temperature is the reference [K], as thermometers and
+ * chambers agree. */
 static const double same_temperature = 0.1;
-/* A fit is started anew when a shift has moved so far from its start that the relaxation times no
- * longer reach well beyond the isotherms [decade]: of the 1.5 decades that they go on, a whole one
- * shall be left. */
+/* The fit restarts if a shift moved this far from its start [decade]. The relaxation times
+ * extend 1.5 decades beyond the isotherms, and one decade shall remain. */
 static const double far = 0.5;
-/* Terms per decade that describe a smooth spectrum, and one of sharp lines. E'' of equal terms h
- * apart in ln tau ripples by 2/cosh(pi^2/h) of itself: 1e-5 with 3 a decade, 8e-4 with 2, 5 % with
- * 1. A line may lie half a step from the nearest terms: with 10 a decade that is a factor 1.12 in
- * frequency. A trial has terms enough between, at an eighth of the cost.
- * Where neighbouring terms bend more than `sharp` [ln], it is no smooth one: moduli follow a
- * spectrum that rises and falls with slopes up to 1, for steeper ones hide under the flanks of a
- * Maxwell element, and a corner between two such slopes bends by 1.5 at 3 terms a decade; this is
- * twice that. Lines then lie between the terms, which pull the isotherms towards themselves, all
- * but the one that is held, by more than their errors. */
+/* Terms per decade of a smooth spectrum, of a trial and of a line spectrum. E'' of equal terms h
+ * apart in ln tau ripples by 2/cosh(pi^2/h): 1e-5 at 3 per decade, 8e-4 at 2, 5 % at 1. At 10
+ * per decade a line is within a factor 1.12 of a term. A trial costs an eighth of that. Above
+ * the curvature limit [ln] a spectrum is not smooth. Moduli resolve slopes up to 1, because
+ * steeper ones hide under the flanks of a Maxwell element. A corner between two such slopes has
+ * curvature 1.5 at 3 per decade; the limit is twice that. Lines between the terms then shift the
+ * isotherms by more than their errors. */
 static const double smooth_terms = 3.0, trial_terms = 5.0, sharp_terms = 10.0, sharp = 3.0;
-/* What one spectrum is off a modulus by, beyond the noise within the isotherms, from which on its
- * shifts mean nothing [ln]: over the slope of a plateau, d ln E'/d ln w = 0.1, that is 0.17 decade,
- * about what a shift may be off by to be determined (master_links.c). Isotherms of which
- * superposition holds or nearly holds miss by 0.3 to 3 %, those of glassy polymers by 5 to 20 % of
- * E''. Below the limit the errors of the shifts grow with the misfit (master_overlap.c), so that
- * nothing jumps there but the route. */
+/* Misfit of a modulus beyond its noise from which the shifts are meaningless [ln]. On a plateau
+ * with d ln E'/d ln w = 0.1 it is 0.17 decade, about master_largest_sigma (shift_graph.c). If
+ * superposition holds or nearly holds the misfit is 0.3 to 3 %; glassy polymers have 5 to 20 %
+ * of E''. Below the limit the shift errors grow with the misfit (master_overlap.c), so only the
+ * route changes abruptly. */
 static const double gross_misfit = 0.04;
-/* The same from which on it may be in the shifts: 0.04 decade, twice the error that 1 % of noise
- * leaves of them. */
+/* Misfit from which the shifts may be affected [ln]: 0.04 decade, twice the error from 1 % of
+ * noise. */
 static const double may_move = 0.01;
-/* Bends of lines, to start from: free, a factor 150 from one term to the next. Noise over what
- * lines leave of it, and by how many of its standard errors that is more than none. Six are one
- * false alarm in 1e9 of normal noise, which leaves room for longer tails. Chosen: at 1.3 the lines
- * between the terms add 69 % to the square of the noise; at 1.15, a third, some smooth spectra are
- * taken for lines, which costs ten terms a decade and no precision; at 1.6 lines are not seen that
- * add 1.2 times the noise. */
+/* Initial curvature scale of lines: a factor 150 between terms. The noise must fall by the
+ * factor more_noise and by six standard errors, one false alarm in 1e9 for normal noise. The
+ * factor is chosen: at 1.3 lines between terms add 69 % to the square of the noise. At 1.15 some
+ * smooth spectra count as lines, which costs terms and no precision. At 1.6 lines with 1.2 times
+ * the noise are missed. */
 static const double lines_smooth = 5.0, more_noise = 1.3, surely = 6.0;
 
 wt_master_options wt_master_options_defaults(void)
@@ -92,12 +87,13 @@ PARAM_TABLE(wt_master_options_params, wt_master_options, rows, wt_master_options
 
 /* ---- start ----------------------------------------------------------------------------------- */
 
-/* tan delta knows no vertical shift, and one modulus does not tell it from the horizontal one. */
+/* Adapts the vertical shift to the data. tan delta has none, and one modulus does not separate
+ * it from the horizontal shift. */
 wt_status master_check_vertical(master_work *work, wt_error *err)
 {
     if (work->set.by == WT_BY_LOSS_FACTOR)
         work->options.vertical = WT_VERTICAL_NONE;
-    /* its retardation times are those of a solid; what flows is one with a small modulus */
+    /* the model of creep is a solid; a liquid gets a small equilibrium modulus */
     work->flows = work->set.loading == WT_CREEP && work->options.liquid;
     work->options.liquid = work->options.liquid && !work->flows;
     if (work->set.by == WT_BY_MODULI || work->options.vertical != WT_VERTICAL_FREE)
@@ -108,13 +104,13 @@ wt_status master_check_vertical(master_work *work, wt_error *err)
     return WT_E_ARG;
 }
 
-/* The isotherm to start from: nearest to the reference temperature, or the one in the middle. */
+/* Chooses the start isotherm: nearest to the reference temperature, or the middle one. */
 wt_status master_choose_anchor(master_work *work, wt_error *err)
 {
     const shift_set *set = &work->set;
     const double asked = work->options.reference_temperature;
     double nearest = HUGE_VAL;
-    bool given = false; /* then the anchor is one of these */
+    bool given = false; /* the anchor is then a stated isotherm */
     work->anchor = set->n;
     for (size_t i = 0; i < set->n; i++)
         given = given || (set->curves[i].given && set->curves[i].n >= SHIFT_MIN_POINTS);
@@ -178,7 +174,7 @@ wt_status master_set_widths(master_work *work, wt_vertical_shift kind, double ge
     return status;
 }
 
-/* A spectrum for the placed curves, and what the posterior keeps of each. */
+/* Creates a spectrum for the placed curves and the arrays of the posterior for each curve. */
 wt_status master_make_spectrum(master_work *work, wt_error *err)
 {
     wt_posterior *p = work->posterior;
@@ -190,7 +186,7 @@ wt_status master_make_spectrum(master_work *work, wt_error *err)
     if (status != WT_OK)
         return status;
     const size_t n = work->s->n_curves;
-    arena *m = &work->s->memory; /* these go with the spectrum */
+    arena *m = &work->s->memory; /* freed with the spectrum */
     p->temperature = arena_numbers(m, n);
     p->mean_b = arena_numbers(m, n);
     p->slope = arena_numbers(m, n);
@@ -208,7 +204,7 @@ wt_status master_make_spectrum(master_work *work, wt_error *err)
     return master_set_widths(work, work->options.vertical, start_geometry, start_departure, err);
 }
 
-/* Without the points that are far off. */
+/* Refits without outliers until their set is stable. */
 static wt_status leave_out(master_work *work, wt_error *err)
 {
     wt_status status = WT_OK;
@@ -221,14 +217,14 @@ static wt_status leave_out(master_work *work, wt_error *err)
     return status;
 }
 
-/* First with heavy tails. */
+/* Fits with a heavy-tailed noise distribution, then without outliers. */
 wt_status master_fit_robust(master_work *work, wt_error *err)
 {
     const wt_status status = spectrum_fit(work->s, SPECTRUM_ROBUST, err);
     return status == WT_OK ? leave_out(work, err) : status;
 }
 
-/* Takes the shifts over; how far one has moved. */
+/* Stores the fitted shifts and returns the largest change [decade]. */
 static double take_shifts(master_work *work)
 {
     double most = 0.0;
@@ -243,8 +239,8 @@ static double take_shifts(master_work *work)
     return most;
 }
 
-/* Whether lines leave less noise of a modulus. The standard error of the logarithm of their ratio:
- * by what the parameters that lines have more take from it by chance. */
+/* Returns true if a line spectrum reduces the noise of a modulus significantly. The standard
+ * error of the log ratio follows from the additional parameters. */
 static bool leave_less(const spectrum *lines, const spectrum *s, int q)
 {
     const double less = log(s->noise[q] / lines->noise[q]);
@@ -253,7 +249,7 @@ static bool leave_less(const spectrum *lines, const spectrum *s, int q)
     return s->used[q] && less > log(more_noise) && less * left > surely * sqrt(more / 2.0);
 }
 
-/* Whether more terms leave less noise, as lines and with the vertical shifts as they are. */
+/* Tests if a line spectrum with fixed vertical shifts reduces the noise. */
 static wt_status try_lines(const master_work *work, bool *better, wt_error *err)
 {
     const spectrum *s = work->s;
@@ -286,11 +282,12 @@ static wt_status try_lines(const master_work *work, bool *better, wt_error *err)
     return status;
 }
 
-/* Whether more terms are needed: few of them either bend, or take lines for noise. */
+/* Tests if more terms are needed, because the spectrum has sharp curvature or lines reduce the
+ * noise. */
 static wt_status needs_lines(master_work *work, bool *better, wt_error *err)
 {
     *better = work->s->smooth > sharp;
-    wt_error no_lines = WT_ERROR_INIT; /* a trial without an answer is no reason to give none */
+    wt_error no_lines = WT_ERROR_INIT; /* a failed trial is no failure of the fit */
     (void)take_shifts(work);
     if (!*better && try_lines(work, better, &no_lines) == WT_E_MEMORY)
         return wt_fail(err, WT_E_MEMORY, "%s", no_lines.message);
@@ -310,7 +307,7 @@ static wt_status sharpen_spectrum(master_work *work, wt_error *err)
     return status == WT_OK ? master_fit_robust(work, err) : status;
 }
 
-/* How far the fit is from what is within the isotherms. */
+/* Measures the misfit beyond the noise within the isotherms. */
 wt_status master_measure_misfit(master_work *work, wt_error *err)
 {
     double all[MODULI], within[MODULI];
@@ -326,8 +323,8 @@ wt_status master_measure_misfit(master_work *work, wt_error *err)
     return status;
 }
 
-/* Where one spectrum is far off it may have begun in a wrong place: the overlaps of the storage
- * modulus alone are another one. Sharp lines are far off, too, until there are terms for them. */
+/* Restarts from the overlaps of E' if the misfit is large, because the start may be wrong. A
+ * line spectrum also has a large misfit until it has enough terms. */
 static wt_status start_again(master_work *work, wt_error *err)
 {
     bool lines = false;
@@ -394,8 +391,8 @@ wt_status master_place(master_work *work, wt_error *err)
 
 /* ---- the fits -------------------------------------------------------------------------------- */
 
-/* Noise factors by what is within the isotherms; where the spectrum bends; correlation by the fit,
- * so that what a spectrum misses a little counts as noise. */
+/* Estimates noise factors within the isotherms, then curvature weights, then correlation by the
+ * fit. A small misfit of the spectrum therefore counts as noise. */
 wt_status master_find_noise(master_work *work, wt_error *err)
 {
     wt_status status = spectrum_noise_within(work->s, &work->within, err);
@@ -408,15 +405,15 @@ wt_status master_find_noise(master_work *work, wt_error *err)
     return status == WT_OK ? spectrum_choose_rho(work->s, err) : status;
 }
 
-/* With free vertical shifts, so that those are no part of the verdict, and with the noise as it is
- * along the isotherms: the fit takes it as even, for a misfit at their ends is no reason to believe
- * them less. */
+/* Tests superposition with free vertical shifts, which the verdict excludes. The noise follows
+ * the shape along the isotherms. The fit uses uniform noise, because a misfit at the ends does
+ * not reduce their weight. */
 wt_status master_test(master_work *work, wt_error *err)
 {
     if (work->s->n_curves < 2 || work->set.by != WT_BY_MODULI)
         return WT_OK;
     spectrum *s = work->s;
-    /* also where nobody asks, if what superposition fails by may be in the shifts */
+    /* also tested without a request if the misfit may affect the shifts */
     work->tested = !work->options.series_only || work->part ||
                    fmax(work->missed[STORAGE], work->missed[LOSS]) > may_move;
     const double rho = s->rho;
@@ -429,7 +426,7 @@ wt_status master_test(master_work *work, wt_error *err)
         status = superposition_test(s, work->within.uncertainty, &work->lack, err);
     s->rho = rho;
     spectrum_spread(s, master_even);
-    if (status == WT_OK) /* the columns as the cells have them */
+    if (status == WT_OK) /* restores the columns that the cells use */
         status =
             master_set_widths(work, work->options.vertical, start_geometry, start_departure, err);
     return status;

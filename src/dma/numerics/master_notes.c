@@ -1,4 +1,5 @@
-/* What is odd about isotherms, in words. SPDX-License-Identifier: GPL-3.0-or-later */
+/* Writes notes about unexpected properties of the isotherms.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "dma/numerics/master_fit.h"
 
 #include "core/base/clocale.h"
@@ -7,16 +8,17 @@
 #include <stdarg.h>
 #include <string.h>
 
-/* Words only, no number changes. An isotherm with so many times the noise of the others is named
- * (by chance ten points of both moduli have a third more in one of forty), and a vertical shift so
- * far from the physical one [decade]: 26 %, which no change of density with temperature makes. */
+/* Thresholds of notes; they change no number. An isotherm with three times the noise of the
+ * others is named. By chance ten points of both moduli have a third more noise in one of forty.
+ * A vertical shift 0.1 decade from the physical one is named: 26 %, which no change of density
+ * with temperature causes. */
 static const double noisy = 3.0, odd_vertical = 0.1;
-/* Strain amplitudes that differ by more than this factor are different points of the Payne curve,
- * which falls by a fifth of its height from one to the other where it is steepest (Kraus 1984, with
- * m = 0.6). A word only. */
+/* Strain amplitudes with a larger ratio are different points of the Payne curve. At its steepest
+ * it falls by a fifth of its height between them (Kraus 1984, with m = 0.6). Used for a note
+ * only. */
 static const double odd_strain = 2.0;
-/* Runs at one temperature are so close [K], which a chamber holds, and differ by so many standard
- * errors: by chance one pair in 16,000. */
+/* Runs within 0.5 K, the stability of a chamber, have one temperature. A difference of four
+ * standard errors occurs by chance in one pair of 16,000. */
 static const double one_temperature = 0.5, odd_difference = 4.0;
 
 void master_note(wt_master_shift *shift, const char *format, ...)
@@ -61,7 +63,7 @@ static void note_shift(const master_work *work, size_t i, wt_master_shift *shift
     }
 }
 
-/* Two runs at one temperature should get one shift. */
+/* Notes runs at one temperature with significantly different shifts. */
 static void note_runs(wt_master *m)
 {
     for (size_t i = 1; i < m->n_shifts; i++) {
@@ -78,7 +80,7 @@ static void note_runs(wt_master *m)
     }
 }
 
-/* Largest and smallest mean strain amplitude of the isotherms. */
+/* Warns if the mean strain amplitudes of the isotherms differ too much. */
 static void note_strain(const wt_sweep *sweep, wt_log *log)
 {
     double low = HUGE_VAL, high = 0.0;
@@ -103,7 +105,7 @@ static void note_strain(const wt_sweep *sweep, wt_log *log)
                    low, high);
 }
 
-/* What one quantity leaves open. */
+/* Warns about the limitations of a fit to one quantity. */
 static void note_quantity(const master_work *work, wt_log *log)
 {
     static const char *const open[] = {
@@ -129,7 +131,7 @@ static void note_quantity(const master_work *work, wt_log *log)
         wt_log_add(log, WT_WARNING, NULL, NULL, "%s", open[work->set.by]);
 }
 
-/* The way the shifts were found, where it is not one spectrum. */
+/* Notes the route by which the shifts were found, if it is not one spectrum. */
 static void note_route(const master_work *work, wt_log *log)
 {
     size_t measured = 0, left = 0;

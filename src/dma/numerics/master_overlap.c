@@ -1,5 +1,6 @@
-/* The master curve of isotherms that one spectrum does not describe: shifts by the overlap of
- * neighbours, and a spectrum for them. SPDX-License-Identifier: GPL-3.0-or-later */
+/* Master curve of isotherms that one spectrum does not describe: shifts by the overlap of
+ * neighbours, and a spectrum fitted to them.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "dma/numerics/master_fit.h"
 
 #include "core/math/arena_gsl.h"
@@ -7,11 +8,11 @@
 
 #include <math.h>
 
-/* Shifts of a spectrum and of the overlaps that differ by more than so many standard errors of
- * those do not agree. */
+/* Shifts of the spectrum and of the overlaps disagree if they differ by more standard errors
+ * than this. */
 static const double agree = 2.0;
 
-/* Whether all shifts of the spectrum are what the overlaps say. */
+/* Returns true if all shifts of the spectrum agree with the overlaps. */
 static bool all_agree(const master_work *work, const overlap_link *link)
 {
     const spectrum *s = work->s;
@@ -64,7 +65,7 @@ static size_t isotherms_away(const master_work *work, size_t i)
     return i > work->anchor ? i - work->anchor : work->anchor - i;
 }
 
-/* Squared errors of the steps that two isotherms have in common. */
+/* Returns the sum of squared errors of the steps that two isotherms share. */
 static double common_steps(const master_work *work, size_t one, size_t other)
 {
     double sum = 0.0;
@@ -78,8 +79,8 @@ static double common_steps(const master_work *work, size_t one, size_t other)
     return sum;
 }
 
-/* What a misfit of E' is as a shift, over the slope of the isotherms: it may add up from one to the
- * next, as with a material that changes with temperature. */
+/* Converts a misfit of E' to a shift [decade], from the slope of the isotherms. It may
+ * accumulate from one isotherm to the next if the material changes with temperature. */
 static double missed_shift(const master_work *work, double missed, size_t from, size_t i)
 {
     double sum = 0.0;
@@ -90,22 +91,22 @@ static double missed_shift(const master_work *work, double missed, size_t from, 
     return sum;
 }
 
-/* Where one spectrum misses the isotherms, its shifts are none of one process: slow and fast times
- * part from them, which way is not told. */
+/* Returns the shift error due to the misfit of the spectrum [decade]. If one spectrum fails,
+ * slow and fast times shift differently, in an unknown direction. */
 static double doubt_of_spectrum(const master_work *work, size_t i)
 {
     bool given = false;
     for (size_t k = 0; k < work->set.n; k++)
         given = given || work->set.curves[k].given;
     if (given || master_is_factor(&work->lack))
-        return 0.0; /* what is given may be what misses; a factor on all E'' leaves the shifts */
+        return 0.0; /* stated shifts may cause the misfit; a factor on all E'' does not affect
+                       shifts */
     const double missed = sqrt(work->lack.beyond) * work->missed[STORAGE];
     return hypot(work->lack.parted * work->own_a[i], missed_shift(work, missed, work->anchor, i));
 }
 
-/* What ways that are as good as that of E' alone move a shift by from one isotherm to another:
- * where one spectrum fails, none of them is known to be right. A spectrum that misses all is none,
- * and where its fit ends is chance. */
+/* Returns the squared change of a shift by alternatives as good as E' alone, between two
+ * isotherms. If one spectrum fails, no alternative is known to be right. */
 static double squared_ways(const overlap_link *from, const overlap_link *to)
 {
     const double by_loss = to->by_loss - from->by_loss,
@@ -113,7 +114,8 @@ static double squared_ways(const overlap_link *from, const overlap_link *to)
     return by_loss * by_loss + by_vertical * by_vertical;
 }
 
-/* Of one shift by the overlaps. Where they tell little they are no reason to doubt a spectrum. */
+/* Returns the variance of one shift due to the overlaps [decade^2]. Weak overlaps add no error
+ * to a spectrum. */
 static double squared_doubt(const master_work *work, size_t i)
 {
     const overlap_link *link = &work->link[i];
@@ -127,18 +129,17 @@ static double squared_doubt(const master_work *work, size_t i)
     return alike + pow(fmax(off - agree * sqrt(square), 0.0), 2);
 }
 
-/* By the user: that of the overlaps is held by the fit, too. */
+/* Returns true if the user stated the shift. Shifts of overlaps are also fixed, but do not count
+ * here. */
 static bool is_held(const master_work *work, size_t i)
 {
     return work->route != WT_SHIFTS_OF_OVERLAP && work->set.curves[i].given;
 }
 
-/* The error of a shift where superposition fails or may do so: what the places of the overlaps
- * disagree by, what spectrum and overlaps do, and what the misfit leaves open. The law takes it as
- * that of steps that err one by one, larger by so much that the errors are as large together: that
- * all err in the same way leaves its form alone. What only may be, it takes for nothing: in the
- * place of a law of the shifts as they are it would have none. Shifts that are given have no error
- * of their own. */
+/* Sets the errors of the shifts if superposition fails or may fail. They combine the scatter
+ * within the overlaps, the difference of spectrum and overlaps, and the misfit. The law treats
+ * them as independent step errors of the same total size, because a common error leaves its form
+ * unchanged. An error that is only possible is ignored by the law. Stated shifts have no error. */
 static wt_status doubt_shifts(master_work *work, wt_error *err)
 {
     const size_t n = work->set.n;
@@ -167,7 +168,7 @@ static wt_status doubt_shifts(master_work *work, wt_error *err)
     gsl_matrix_scale(p->doubts, steps > 0.0 ? all / steps : 1.0);
     if (may)
         gsl_matrix_set_zero(p->doubts);
-    for (size_t i = 0; i < n; i++) /* without an overlap it errs alone */
+    for (size_t i = 0; i < n; i++) /* without an overlap the error is independent */
         if (work->placed[i] && !is_held(work, i) && !work->link[i].placed)
             gsl_matrix_set(p->doubts, work->curve[i], work->curve[i],
                            fails ? pow(p->doubt[work->curve[i]], 2) : 0.0);
@@ -229,7 +230,7 @@ wt_status master_by_overlap(master_work *work, wt_error *err)
     return status == WT_OK ? master_fit_robust(work, err) : status;
 }
 
-/* ---- beside a part that one spectrum describes */
+/* ---- isotherms outside the described part */
 
 bool master_beside_part(const master_work *work, size_t i, double *a, double *error)
 {

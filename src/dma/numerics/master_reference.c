@@ -1,5 +1,6 @@
-/* Which temperature is the reference: the one asked for, one that others can be shifted onto, or
- * the glass transition. SPDX-License-Identifier: GPL-3.0-or-later */
+/* Chooses the reference temperature: the requested one, one onto which others can be shifted, or
+ * the glass transition.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "dma/numerics/master_fit.h"
 
 #include "core/base/clocale.h"
@@ -7,13 +8,13 @@
 
 #include <math.h>
 
-/* Steps in which the peak of tan delta is looked for [decade], before a parabola through three: no
- * peak of E'' is narrower than that of one relaxation time, 1.14 decades at half its height. */
+/* Step of the search for the peak of tan delta [decade], before a parabola through three points.
+ * A peak of E'' is at least 1.14 decades wide at half height. */
 static const double step = 0.05;
-/* How far beyond the isotherms its temperature may be [K]; farther a law is not told by what was
- * measured. Chosen; beyond it the reference has to be given. */
+/* Maximum distance of the reference from the isotherms [K]. Farther away the data do not
+ * determine the law. Chosen; beyond it the user must state the reference. */
 static const double beyond = 20.0;
-/* [K], far below what a thermometer knows */
+/* [K], far below the accuracy of a thermometer */
 static const double close = 1e-6;
 
 static double factor_at(const wt_posterior *p, double log_frequency)
@@ -23,8 +24,8 @@ static double factor_at(const wt_posterior *p, double log_frequency)
     return modulus[LOSS_FACTOR].value;
 }
 
-/* log10 of the reduced angular frequency at which tan delta has its largest peak; NaN: it has none
- * within what was measured. */
+/* Returns log10 of the reduced angular frequency of the largest peak of tan delta. NaN if there
+ * is no peak in the measured range. */
 static double find_peak(const wt_master *m)
 {
     const size_t n = (size_t)floor((m->log_frequency[m->n - 1] - m->log_frequency[0]) / step);
@@ -47,14 +48,14 @@ typedef struct reference_search {
     double peak;
 } reference_search;
 
-/* Also below the pole of the law, where it has no value. */
+/* Returns true below the peak, and also below the pole of the law, where it has no value. */
 static bool before_peak(double temperature, void *user)
 {
     const reference_search *s = user;
     return !(log10(2.0 * M_PI) + wt_shift_law_log_a(s->law, temperature) < s->peak);
 }
 
-/* Where the law brings 1 Hz to the peak. */
+/* Finds the temperature at which the law shifts 1 Hz to the peak. */
 static wt_status find_transition(const wt_master *m, double *temperature, wt_error *err)
 {
     const double peak =
@@ -64,7 +65,7 @@ static wt_status find_transition(const wt_master *m, double *temperature, wt_err
     const bool law = m->law.kind != WT_LAW_NONE;
     const double first = law ? log10(2.0 * M_PI) + wt_shift_law_log_a(&m->law, low) : 0.0,
                  last = law ? log10(2.0 * M_PI) + wt_shift_law_log_a(&m->law, high) : 0.0;
-    if (!law || isnan(peak) || first < peak || !(last < peak)) { /* first: NaN below the pole */
+    if (!law || isnan(peak) || first < peak || !(last < peak)) { /* first is NaN below the pole */
         char where[64];
         clocale_print(where, sizeof where,
                       "at 1 Hz tan delta peaks more than %g K %s the isotherms", beyond,
@@ -91,14 +92,14 @@ static void hand_on(const wt_log *from, wt_log *to)
     }
 }
 
-/* Where the isotherm in the middle is one of a glass, flat, the one that changes most is the
- * reference, unless one is asked for. */
+/* Fits, and if the middle isotherm is too flat repeats the fit with the steepest one as
+ * reference, unless a reference is stated. */
 static wt_status fit_somewhere(const wt_sweep *sweep, wt_master_options options, wt_log *log,
                                wt_master *master, wt_error *err)
 {
     double better;
     wt_error flat = WT_ERROR_INIT;
-    wt_log *words = wt_log_new(); /* a second fit has the same to say */
+    wt_log *words = wt_log_new(); /* buffered, because a second fit repeats the messages */
     if (words == NULL)
         return wt_fail(err, WT_E_MEMORY, "no memory for the remarks of a fit");
     const wt_status status = master_fit_once(sweep, &options, words, master, &better, &flat);

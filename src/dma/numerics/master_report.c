@@ -1,5 +1,6 @@
-/* A fitted sweep as it is handed out: shifts with notes, curve, law, series, verdict; and what can
- * be asked of it later. SPDX-License-Identifier: GPL-3.0-or-later */
+/* Converts the fit to its public result: shifts with notes, curve, law, series and verdict. Also
+ * contains the functions that query the result later.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "dma/numerics/master_fit.h"
 
 #include "core/math/normal_quantile.h"
@@ -9,11 +10,11 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* An equilibrium modulus whose interval goes below this share of the lowest storage modulus is a
- * limit only: most of the modulus there is then left to relax, and how the spectrum goes on beyond
- * the measured frequencies decides it. */
+/* If the interval of the equilibrium modulus extends below this share of the lowest storage
+ * modulus, only an upper limit is reported. Most of that modulus then relaxes later, and the
+ * extrapolation of the spectrum decides it. */
 static const double known_equilibrium = 0.5;
-/* Quantile for a one-sided limit of 95 %, squared. */
+/* Squared quantile of a one-sided 95 % limit. */
 static const double one_sided = 2.705543454095404;
 
 void wt_master_clear(wt_master *master)
@@ -60,7 +61,7 @@ static wt_interval interval_between(wt_interval a, wt_interval b, double share)
                          a.low + share * (b.low - a.low), a.high + share * (b.high - a.high)};
 }
 
-/* Whether the level of the moduli is told. */
+/* Returns true if the data determine the level of the moduli. */
 static bool has_level(wt_shift_by by)
 {
     return by == WT_BY_MODULI || by == WT_BY_STORAGE;
@@ -79,7 +80,7 @@ static wt_interval of_pole(const wt_posterior *p, double sign)
                          p->shape.reference - c2.high, p->shape.reference - c2.low};
 }
 
-/* Of C1 and C2 over the mixture, C2 by its derivative. */
+/* Returns the correlation of C1 and C2 over the mixture, with C2 through its derivative. */
 static double correlation_of_constants(const wt_posterior *p)
 {
     const size_t pole = law_pole_index(&p->shape);
@@ -95,7 +96,7 @@ static double correlation_of_constants(const wt_posterior *p)
     return sum[1] / sqrt(sum[0] * sum[2]);
 }
 
-/* Few isotherms do not tell one law from another: between them any goes, beyond them none. */
+/* Returns the law at a temperature. With few isotherms the law is reported only between them. */
 static wt_interval law_of(const wt_posterior *p, double temperature)
 {
     const size_t n = p->frame.n_curves;
@@ -136,7 +137,7 @@ static void fill_law(const wt_posterior *p, wt_master *m)
         m->temperature_spread += p->parts[i].weight * p->parts[i].spread;
 }
 
-/* A law of shifts that are all given has no error of its own. */
+/* Removes the errors of the law if all shifts are stated. */
 static void forget_errors(const spectrum *s, wt_master *m)
 {
     wt_interval *const of_law[] = {&m->c1, &m->c2, &m->pole, &m->activation_energy, &m->slope};
@@ -144,7 +145,7 @@ static void forget_errors(const spectrum *s, wt_master *m)
     bool given = s->n_curves > 1;
     for (size_t i = 0; i < s->n_curves; i++)
         given = given && s->given[i];
-    given = given && m->shift_route != WT_SHIFTS_OF_OVERLAP; /* those have errors */
+    given = given && m->shift_route != WT_SHIFTS_OF_OVERLAP; /* overlap shifts have errors */
     for (size_t i = 0; given && i < sizeof of_law / sizeof *of_law; i++)
         *of_law[i] = (wt_interval){of_law[i]->value, unknown, unknown, unknown};
     if (given)
@@ -183,8 +184,8 @@ static int by_x(const void *left, const void *right)
     return (a->point > b->point) - (a->point < b->point);
 }
 
-/* What the spectrum says at the points (of_step: of what was measured, after a step): on a grid,
- * and between its points by lines, for nothing turns within a tenth of a decade. */
+/* Evaluates the spectrum at the points (of_step: the measured step response). It is computed on
+ * a grid of 0.1 decade and interpolated linearly. */
 static void fill_fitted(const wt_posterior *p, bool of_step, wt_master *m)
 {
     const double step = 0.1;
@@ -212,7 +213,7 @@ static void fill_fitted(const wt_posterior *p, bool of_step, wt_master *m)
     }
 }
 
-/* tan delta as measured at a point of the spectrum. */
+/* Returns the measured tan delta at a point of the spectrum. */
 static double factor_of_point(const spectrum *s, size_t k)
 {
     if (s->ratio)
@@ -220,7 +221,7 @@ static double factor_of_point(const spectrum *s, size_t k)
     return s->used[STORAGE] && s->used[LOSS] ? exp(s->y[LOSS][k] - s->y[STORAGE][k]) : (double)NAN;
 }
 
-/* Points of the determined isotherms, by reduced frequency. */
+/* Fills the points of the determined isotherms, sorted by reduced frequency. */
 static wt_status fill_curve(const master_work *work, wt_master *m, wt_error *err)
 {
     const spectrum *s = work->s;
@@ -245,7 +246,7 @@ static wt_status fill_curve(const master_work *work, wt_master *m, wt_error *err
     m->log_step = m->log_loss + s->n;
     for (size_t i = 0; i < m->n_shifts; i++) {
         if (!m->shifts[i].determined)
-            continue; /* may not be among the curves of the spectrum */
+            continue; /* the isotherm may not be in the spectrum */
         const double a = m->shifts[i].log_a.value - m->offset.value;
         for (size_t k = s->first[work->curve[i]]; k < s->first[work->curve[i] + 1]; k++)
             order[m->n++] = (struct order){s->x[k] / M_LN10 + a, k};
@@ -279,8 +280,9 @@ static wt_status fill_curve(const master_work *work, wt_master *m, wt_error *err
     return WT_OK;
 }
 
-/* The series of unknowns of the spectrum, at the reference temperature; reached: [n_terms] how
- * probable it is that the spectrum reaches a term, what it does not is left at long times. */
+/* Converts unknowns of the spectrum to a series at the reference temperature. `reached` returns
+ * the probability that the spectrum extends to a term. The rest of the term counts as
+ * equilibrium modulus. */
 static wt_status prony_of_terms(const wt_posterior *p, const double *value, double offset,
                                 double (*reached)(const spectrum *s, size_t term, size_t place),
                                 size_t place, wt_prony *prony, wt_error *err)
@@ -313,8 +315,8 @@ static double reached_in_mean(const spectrum *s, size_t term, size_t unused)
     return sum;
 }
 
-/* One-sided limit of 95 % of the equilibrium modulus [ln], if the data give no more, by the rise of
- * the objective above what it is without one to speak of; the spectrum is moved. */
+/* Finds the one-sided 95 % limit of ln of the equilibrium modulus from the rise of the
+ * objective. The function changes the spectrum. */
 static wt_status limit_equilibrium(master_work *work, double *limit, wt_error *err)
 {
     spectrum *s = work->s;
@@ -380,7 +382,7 @@ static wt_status fill_series(master_work *work, wt_master *m, wt_error *err)
     return status;
 }
 
-/* ---- the whole ------------------------------------------------------------------------------- */
+/* ---- report ---------------------------------------------------------------------------------- */
 
 wt_status master_report(master_work *work, const wt_sweep *sweep, wt_log *log, wt_master *master,
                         wt_error *err)
@@ -411,7 +413,7 @@ wt_status master_report(master_work *work, const wt_sweep *sweep, wt_log *log, w
         status = master_check_shifts(work, &m, err);
     if (status == WT_OK) {
         work->posterior->anchor_a = m.shifts[work->anchor].log_a.value;
-        if (!work->measured_reference) /* the shifts are to the reference itself */
+        if (!work->measured_reference) /* the shifts already refer to the reference */
             m.offset = (wt_interval){0};
         set_rms(&m);
     }
@@ -429,14 +431,14 @@ wt_status master_report(master_work *work, const wt_sweep *sweep, wt_log *log, w
     if (!work->options.series_only)
         master_assess(work, &m);
     master_notes(work, sweep, &m, log);
-    work->s->prior = NULL; /* of the work */
+    work->s->prior = NULL; /* the prior belongs to the work */
     m.posterior = work->posterior;
     work->posterior = NULL;
     *master = m;
     return WT_OK;
 }
 
-/* ---- asked later ----------------------------------------------------------------------------- */
+/* ---- queries of the result ------------------------------------------------------------------- */
 
 wt_interval wt_master_law(const wt_master *master, double temperature)
 {

@@ -1,6 +1,6 @@
-/* Which way the master curve of a sweep is found: one spectrum with shifts of its own, that of a
- * part of the isotherms, or one at the shifts of the overlaps. SPDX-License-Identifier:
- * GPL-3.0-or-later */
+/* Selects the route to the master curve: one spectrum with free shifts, a spectrum of a part of
+ * the isotherms, or one at the shifts of the overlaps.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "dma/numerics/master_fit.h"
 
 #include "core/base/param.h"
@@ -10,12 +10,11 @@
 #include <stdio.h>
 #include <string.h>
 
-/* Change along the steepest isotherm over that along the one to start from: from there on the other
- * tells shifts with half the error, for that is noise over slope. */
+/* Ratio of the change along the steepest isotherm to that along the start isotherm. At 2 the
+ * shift error halves, because it is noise divided by slope. */
 static const double much_steeper = 2.0;
 
-/* NaN, or the temperature of an isotherm that changes much more than the one that was started from.
- */
+/* Returns the temperature of an isotherm that changes much more than the start isotherm, or NaN. */
 static double steeper_reference(const master_work *work)
 {
     const shift_set *set = &work->set;
@@ -29,8 +28,8 @@ static double steeper_reference(const master_work *work)
                : (double)NAN;
 }
 
-/* Whether one spectrum describes the isotherms from `first` to `last`: not if it does not end,
- * spans too much, or leaves some without overlap or too few that it could be of. */
+/* Tests if one spectrum describes the isotherms from `first` to `last`. It fails without
+ * convergence, with too large a span, missing overlap or too few isotherms. */
 static wt_status try_part(const master_work *whole, size_t first, size_t last, bool *holds,
                           wt_error *err)
 {
@@ -59,16 +58,18 @@ static wt_status try_part(const master_work *whole, size_t first, size_t last, b
     return none ? WT_OK : status;
 }
 
-/* ---- a part that one spectrum describes ------------------------------------------------------ */
+/* ---- part that one spectrum describes -------------------------------------------------------- */
 
-/* Fewer isotherms than these have no law (shift_law.h). */
+/* Minimum number of isotherms with a law (shift_law.h). */
 enum { LEAST_PART = LAW_LEAST_TOLD };
 
-/* The farthest end with which the part still holds: all there is, then by halves. */
+/* Extends one end of the part as far as the test holds: first to the last isotherm, then by
+ * bisection. */
 static wt_status widen_part(master_work *work, bool warm, wt_error *err)
 {
     size_t *const end = warm ? &work->last : &work->first;
-    size_t steps = warm ? work->set.n - 1 - work->last : work->first; /* that may hold */
+    size_t steps =
+        warm ? work->set.n - 1 - work->last : work->first; /* isotherms that may still be added */
     wt_status status = WT_OK;
     for (size_t tried = steps; status == WT_OK && steps > 0; tried = (steps + 1) / 2) {
         bool holds;
@@ -91,7 +92,7 @@ static wt_status find_part(master_work *work, wt_error *err)
     wt_status status = WT_OK;
     if (work->set.by != WT_BY_MODULI || n <= LEAST_PART)
         return WT_OK;
-    /* about the anchor, rather to the warm side: rubber is above its glass */
+    /* around the anchor, rather on the warm side, above the glass */
     work->first = work->anchor > 0 ? work->anchor - 1 : 0;
     if (work->first + LEAST_PART > n)
         work->first = n - LEAST_PART;
@@ -106,7 +107,8 @@ static wt_status find_part(master_work *work, wt_error *err)
     return status;
 }
 
-/* As if it had never been in doubt; gross: with vertical shifts that are not held it is. */
+/* Fits without a restart. The gross misfit is measured only if the vertical shifts are not
+ * fixed. */
 static wt_status fit_plainly(master_work *work, wt_error *err)
 {
     work->plain = true;
@@ -118,30 +120,30 @@ static wt_status fit_plainly(master_work *work, wt_error *err)
     return status == WT_OK ? master_test(work, err) : status;
 }
 
-/* One spectrum with shifts of its own. */
+/* Fits one spectrum with free shifts. */
 static wt_status fit_own(master_work *work, wt_error *err)
 {
     wt_status status = master_place(work, err);
-    if (status == WT_OK && work->gross) { /* vertical shifts that are held may be all that misses */
+    if (status == WT_OK && work->gross) { /* fixed vertical shifts may cause the whole misfit */
         status = master_set_widths(work, WT_VERTICAL_FREE, 0.0, 0.0, err);
         if (status == WT_OK)
             status = spectrum_fit(work->s, SPECTRUM_ROUGH, err);
         if (status == WT_OK)
             status = master_measure_misfit(work, err);
-        if (status != WT_OK || !work->gross) /* all is well but for those: from the start again */
+        if (status != WT_OK || !work->gross) /* without them the fit is good: start again */
             return status != WT_OK ? status : fit_plainly(work, err);
         status = spectrum_noise_within(work->s, &work->within, err);
         spectrum_spread(work->s, master_even);
     } else if (status == WT_OK) {
         status = master_find_noise(work, err);
-        if (status == WT_OK) /* what was a start that is near enough may have ended far off */
+        if (status == WT_OK) /* a good start may have ended far off */
             status = master_measure_misfit(work, err);
     }
     return status == WT_OK ? master_test(work, err) : status;
 }
 
-/* The misfit is no matter of vertical shifts that are held, or of a factor on E'', which leave the
- * shifts what they are. */
+/* Returns true if the misfit affects the shifts. Fixed vertical shifts or a factor on E'' do
+ * not. */
 static bool is_real(const master_work *work)
 {
     const lack_of_fit *lack = &work->lack;
@@ -149,8 +151,8 @@ static bool is_real(const master_work *work)
                              fabs(lack->factor) < fmax(work->missed[STORAGE], work->missed[LOSS]));
 }
 
-/* Where that is far off, or is not found: of the isotherms about the reference that one describes,
- * or, if there are none, one at the shifts of the overlaps. */
+/* Fits one spectrum. If it fails or is far off, the function fits a part around the reference,
+ * or else a spectrum at the overlap shifts. */
 static wt_status fit_spectrum(master_work *work, wt_error *err)
 {
     wt_error failure = WT_ERROR_INIT;
@@ -180,7 +182,7 @@ static wt_status fit_spectrum(master_work *work, wt_error *err)
         return status;
     }
     master_keep_original(work);
-    work->posterior->doubt = NULL; /* that of the spectrum of all */
+    work->posterior->doubt = NULL; /* belonged to the spectrum of all isotherms */
     work->posterior->doubts = NULL;
     status = find_part(work, err);
     if (status == WT_OK && work->part) {

@@ -1,4 +1,4 @@
-/* The shifts of a fitted sweep with their notes, and whether there is one at all.
+/* Fills the shifts of a fitted sweep with their notes, and checks that at least one exists.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "dma/numerics/master_fit.h"
 
@@ -7,8 +7,8 @@
 #include <math.h>
 #include <stdlib.h>
 
-/* What a vertical shift that nothing ties is off by through geometry and clamping [decade], 5 %:
- * the cross section to 2 %, and the free length between the clamps. */
+/* Error of a free vertical shift due to geometry and clamping [decade]: 5 %, from 2 % of the
+ * cross section and the free length. */
 static const double clamping = 0.02;
 
 static size_t count_outliers(const spectrum *s, size_t curve)
@@ -20,12 +20,11 @@ static size_t count_outliers(const spectrum *s, size_t curve)
     return n;
 }
 
-/* Why it is not determined, else nothing. */
+/* Notes why a shift is not determined. Returns false if it is determined. */
 static bool is_undetermined(const master_work *work, size_t i, const wt_interval *a,
                             wt_master_shift *shift)
 {
-    /* one that may be open because superposition may fail, or E'' is off and a little more with it,
-     * is told, with an error that says so */
+    /* a shift that is only possibly uncertain is reported, with the larger error */
     const bool fails = work->posterior->doubt != NULL && master_misfit_is_real(&work->lack) &&
                        !master_loss_is_off(&work->lack);
     const double own = fails || !work->placed[i]
@@ -38,7 +37,7 @@ static bool is_undetermined(const master_work *work, size_t i, const wt_interval
                                ? "not determined: shares too little of E' with its neighbours"
                                : "not determined: no overlap with the others");
     else if (work->route == WT_SHIFTS_OF_OVERLAP)
-        return false; /* each step is */
+        return false; /* each step is determined */
     else if (fails && !(a->standard_error <= master_largest_sigma) &&
              work->posterior->doubt[work->curve[i]] > master_largest_sigma)
         master_note(shift, "not determined: superposition fails, overlaps leave open %.2g decade",
@@ -54,8 +53,8 @@ static bool is_undetermined(const master_work *work, size_t i, const wt_interval
     return shift->note[0] != '\0';
 }
 
-/* An isotherm beside the part that one spectrum describes is not in the curve, but it has a shift.
- */
+/* Fills the shift of an isotherm outside the part that one spectrum describes. It is not in the
+ * curve. */
 static bool fill_beside(const master_work *work, size_t i, wt_master_shift *shift)
 {
     double a, error;
@@ -122,13 +121,13 @@ wt_status master_fill_shifts(const master_work *work, wt_master *m, wt_error *er
     return WT_OK;
 }
 
-/* ---- whether they do ------------------------------------------------------------------------- */
+/* ---- checks ---------------------------------------------------------------------------------- */
 
-/* Another isotherm that changes by so many times more shows that not all are flat: its shift has
- * half the error of that of this one. */
+/* If another isotherm changes by this factor more, the shift error there is half, and not all
+ * isotherms are flat. */
 static const double much_steeper = 2.0;
 
-/* No slope decides. */
+/* Fails because no slope determines the shifts. */
 static wt_status flat_isotherms(const master_work *work, wt_error *err)
 {
     const shift_curve *at = &work->set.curves[work->anchor];
@@ -158,7 +157,7 @@ static wt_status flat_isotherms(const master_work *work, wt_error *err)
     return WT_E_NO_OVERLAP;
 }
 
-/* An isotherm is shifted onto the reference, or there is nothing to hand out. */
+/* Checks that at least one isotherm is shifted onto the reference. */
 wt_status master_check_shifts(const master_work *work, const wt_master *m, wt_error *err)
 {
     size_t n = 0, placed = 0, doubted = 0;

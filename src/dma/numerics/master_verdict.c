@@ -1,5 +1,4 @@
-/* The verdict on superposition, and what would settle it.
- * SPDX-License-Identifier: GPL-3.0-or-later */
+/* Verdict on superposition and how to decide it. SPDX-License-Identifier: GPL-3.0-or-later */
 #include "dma/numerics/master_fit.h"
 
 #include "core/base/clocale.h"
@@ -8,36 +7,33 @@
 #include <math.h>
 #include <string.h>
 
-/* Lack of fit is real below this probability, with what is not known of the noise. The customary
- * level, one wrong "fails" in a hundred sweeps at most, of the two counts of superposition.c
- * together. A smaller one misses second processes (unit_fit_master); at 0.05 one sound sweep of
- * twenty would fail. */
+/* Significance level of the lack of fit, including the uncertainty of the noise, for both tests
+ * of superposition.c together. At most one valid sweep in a hundred fails. A lower level misses
+ * second processes (unit_fit_master); at 0.05 one valid sweep of twenty fails. */
 static const double significant = 0.01;
-/* Superposition is not said to hold below this one, with the noise as estimated: its factors and
- * their place on the isotherms make small probabilities a few times too small. The same level. */
+/* Level below which superposition is not reported to hold, with the noise as estimated. The
+ * estimated noise factors make small probabilities a few times too small. */
 static const double doubtful = 0.01;
-/* A misfit certainly above the first fails; possibly above the second leaves it open (relative).
- * Measured isotherms of polyisoprene, the example of a simple rubber, miss one spectrum by what a
- * rheometer does, 0.3 to 0.4 %: a lower limit would blame the rubber for it. One per cent of a
- * modulus is what half a per cent in each side of the cross section makes of it: less than that
- * harms nothing that is made of a modulus so measured. */
+/* Relative misfit that fails if certainly exceeded, and that leaves the verdict open if possibly
+ * exceeded. Polyisoprene, a simple rubber, has 0.3 to 0.4 % due to the rheometer, so a lower
+ * limit would blame the rubber. 1 % of a modulus corresponds to half a per cent in each side of
+ * the cross section, which is harmless. */
 static const double matters = 0.004, may_matter = 0.01;
-/* Narrower windows hide a second process [decade]: the E'' of a single relaxation time is 1.14
- * decades wide at half its height, and a window must hold more than one to tell two apart. */
+/* Narrower windows hide a second process [decade]. E'' of one relaxation time is 1.14 decades
+ * wide at half height, and a window must be wider to separate two. */
 static const double least_window = 1.5;
-/* E'' that a spectrum makes of E' and that which was measured differ by at least so much (as for
- * the misfit), and by chance in one sweep of a thousand: it stands beside the other tests, which
- * have the false alarms that are allowed. */
+/* Relevance and significance of the Kramers-Kronig difference between measured and predicted
+ * E''. The level of 0.001 is strict, because this is an additional test. */
 static const double loss_matters = 0.01, loss_significant = 0.001;
-/* By fewer shared frequencies an isotherm tests nothing: the smoothness of the spectrum alone
- * places it [decade]. One step between its terms. */
+/* An isotherm with a smaller overlap does not test superposition, because only the smoothness of
+ * the spectrum places it [decade]. One step between terms. */
 static const double least_overlap = 0.3;
-/* Two isotherms are always placed on one another. */
+/* Two isotherms can always be superposed. */
 enum { LEAST_ISOTHERMS = 3 };
 
 static double widest_of_half(const master_work *work)
 {
-    double widest = 0.0; /* the widest window: one that is wide shows a second process */
+    double widest = 0.0; /* a wide window reveals a second process */
     for (size_t i = 0; i < work->set.n; i++) {
         const shift_curve *c = &work->set.curves[i];
         if (work->placed[i])
@@ -67,13 +63,13 @@ bool master_loss_is_off(const lack_of_fit *lack)
            fabs(lack->factor) - 2.0 * lack->factor_error > loss_matters;
 }
 
-/* A bound in per cent, which rounding does not make smaller. */
+/* Converts a bound to per cent and rounds it up. */
 static double at_most(double share)
 {
     return fmax(0.1, 0.1 * ceil(1e3 * share));
 }
 
-/* Of which temperatures, and by how much one spectrum of all misses them. */
+/* Describes which temperatures one spectrum misses and by how much. */
 static void because_gross(const master_work *work, wt_master *m)
 {
     const shift_curve *c = work->set.curves;
@@ -102,7 +98,7 @@ static void because_gross(const master_work *work, wt_master *m)
 void master_assess(const master_work *work, wt_master *m)
 {
     size_t determined = 0;
-    const bool failed = work->posterior->doubt != NULL; /* why shifts are withheld */
+    const bool failed = work->posterior->doubt != NULL; /* shifts are withheld due to the failure */
     for (size_t i = 0; i < m->n_shifts; i++)
         determined += (m->shifts[i].determined || (failed && work->placed[i])) &&
                       work->overlap[i] >= least_overlap;

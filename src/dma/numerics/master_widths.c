@@ -1,17 +1,16 @@
-/* The fits over the widths of the vertical shift, which are averaged over.
+/* Fits over the widths of the prior of the vertical shift, which are averaged.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "dma/numerics/master_fit.h"
 
 #include <math.h>
 
-/* Widths of the prior of the vertical shift [decade]: clamping, departure of the material, in steps
- * of about four between nothing that is seen and more than is believed. Cells: what of all widths
- * each stands for; in one of three or four sweeps there is next to none of either. What is believed
- * are half widths of Cauchy priors, which twice or half of them hardly moves where an isotherm
- * tells its own: 0.01 decade is the 2.3 % of a cross section whose two sides are measured to 1 to
- * 2 %; 0.05 decade lies between a pure polyisoprene (PI_634.5k of RepTate), whose free shifts are
- * the entropic ones to 0.012, and a filled damping rubber that was measured, whose are off by 0.23.
- */
+/* Widths of the prior of the vertical shift [decade]: clamping and departure of the material, in
+ * steps of about four. Cells: the widths of the grid cells; a quarter to a third of all sweeps
+ * have next to none of either. The priors are Cauchy distributions with the stated half widths.
+ * A factor of 2 hardly matters where an isotherm determines its shift. 0.01 decade is 2.3 % of a
+ * cross section with sides measured to 1 to 2 %. 0.05 decade lies between a pure polyisoprene
+ * (PI_634.5k of RepTate), within 0.012 of the entropic shifts, and a filled damping rubber, 0.23
+ * from them. */
 static const double geometry_widths[] = {0.0003, 0.002, 0.008, 0.03};
 static const double geometry_cells[] = {0.0068, 0.0032, 0.0115, 0.0445};
 static const double departure_widths[] = {0.0, 0.02, 0.1};
@@ -19,9 +18,8 @@ static const double departure_cells[] = {0.02, 0.04, 0.12};
 static const double geometry_believed = 0.01, departure_believed = 0.05;
 enum { GEOMETRIES = 4, DEPARTURES = 3 };
 
-/* Cells with less of the logarithm of the largest weight count for nothing, whatever the law says:
- * exp(-20) is 2e-9 of the mixture, which the law would have to raise by exp(13) to the least share
- * that is kept (posterior.c). */
+/* Cells whose ln weight is this much below the largest are dropped. exp(-20) is 2e-9 of the
+ * mixture; the law would have to raise it by exp(13) to the minimum share (posterior.c). */
 static const double hopeless = 20.0;
 
 static double log_prior_of(double width, double believed, double cell)
@@ -29,7 +27,7 @@ static double log_prior_of(double width, double believed, double cell)
     return log(cell / (1.0 + width * width / (believed * believed)));
 }
 
-/* One pair of widths of the tied vertical shift: ln of what it weighs. */
+/* Fits one pair of widths of the tied vertical shift. *weight: ln of its weight. */
 static wt_status fit_cell(master_work *work, int g, int d, double *weight, wt_error *err)
 {
     wt_status status =
@@ -44,8 +42,8 @@ static wt_status fit_cell(master_work *work, int g, int d, double *weight, wt_er
                : status;
 }
 
-/* From the widest down, for as long as it is not hopeless to be narrower; of[GEOMETRIES]: ln of the
- * weight of each error of the geometry. */
+/* Fits from the widest prior to narrower ones until they become negligible. The array gets ln of
+ * the weight of each geometry error. */
 static wt_status fit_tied(master_work *work, double *of, wt_error *err)
 {
     wt_status status = WT_OK;
@@ -66,8 +64,8 @@ static wt_status fit_tied(master_work *work, double *of, wt_error *err)
     return status;
 }
 
-/* The shifts are free, but the reference was clamped as the others were: what a tied shift makes of
- * their scatter is the error of its level. */
+/* Fits free vertical shifts. The reference is clamped like the others, so the scatter of the
+ * tied shifts is the error of its level. */
 static wt_status fit_free(master_work *work, const double *of, wt_error *err)
 {
     wt_status status = WT_OK;
@@ -83,7 +81,7 @@ static wt_status fit_free(master_work *work, const double *of, wt_error *err)
     return status;
 }
 
-/* All widths that count; the spectrum is left at the best of them. */
+/* Fits all relevant widths. The spectrum ends at the best one. */
 wt_status master_fit_widths(master_work *work, wt_error *err)
 {
     const wt_vertical_shift kind = work->options.vertical;

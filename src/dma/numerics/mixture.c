@@ -1,4 +1,5 @@
-/* What a mixture of normal distributions says. SPDX-License-Identifier: GPL-3.0-or-later */
+/* Quantiles and intervals of a mixture of normal distributions.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "dma/numerics/mixture.h"
 
 #include "core/math/normal_quantile.h"
@@ -7,10 +8,10 @@
 #include <gsl/gsl_cdf.h>
 #include <math.h>
 
-/* Values are to these digits, and so far from the means [standard deviations] nothing is left of a
- * normal distribution in a double: 1e-19. */
+/* Relative accuracy of a quantile, and distance from the means [standard deviations] at which a
+ * normal tail is below 1e-19. */
 static const double close = 1e-12, farthest = 9.0;
-enum { MOST_HALVINGS = 2200 }; /* more than lie between the largest double and the smallest */
+enum { MOST_HALVINGS = 2200 }; /* more than between the largest and the smallest double */
 
 typedef struct mixture_level {
     const mixture_part *part;

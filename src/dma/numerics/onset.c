@@ -1,21 +1,21 @@
-/* Where the storage modulus begins to fall. SPDX-License-Identifier: GPL-3.0-or-later */
+/* Finds the onset temperature of the fall of the storage modulus.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "dma/numerics/gaussian_process.h"
 
 #include <math.h>
 #include <stdlib.h>
 
-/* The glass is where the logarithm falls with this share of its steepest slope: a tenth, for the
- * standards leave to the eye where the tangent of the glass is laid, and that of a glass is a
- * hundredth or so. */
+/* The glass tangent is laid where ln E' falls with this share of its steepest slope. Standards
+ * leave this position to the eye; the slope of a glass is about a hundredth. */
 static const double glass_share = 0.1;
-/* The fall is looked at between these shares of the whole one, in ln E', and as far again and twice
- * as far beside it: from the glass to past the steepest place. */
+/* The analysis covers these shares of the whole fall of ln E', extended by half its width on the
+ * warm and twice on the cold side. It thus contains the glass and the steepest slope. */
 static const double begins = 0.1, ends = 0.6, warmer = 0.5, colder = 2;
-/* Places where slopes are compared: three to a shortest length of the curve. The cold tangent is
- * between two of them. */
+/* Positions at which slopes are compared: three per shortest correlation length. The cold
+ * tangent lies between two of them. */
 enum { PLACES = 41 };
-/* A modulus that falls by less than a factor two on the way shows no glass transition: between
- * glass and rubber lie two decades, and half of one with much filler. */
+/* A fall below a factor of 2 is no glass transition. Glass and rubber differ by two decades, or
+ * half of one with much filler. */
 static const double least_fall = 2;
 
 static size_t steepest_of(const double *slope, size_t n)
@@ -26,7 +26,7 @@ static size_t steepest_of(const double *slope, size_t n)
     return at;
 }
 
-/* Integral of the slope from place `a` to place `b`, trapezia. */
+/* Integrates the slope from position a to position b by the trapezoidal rule. */
 static double fall_between(const double *x, const double *slope, size_t a, size_t b)
 {
     double sum = 0;
@@ -35,7 +35,8 @@ static double fall_between(const double *x, const double *slope, size_t a, size_
     return sum;
 }
 
-/* Where the tangents meet; NaN if the steepest place or that of the glass is not within. */
+/* Returns the intersection of the tangents, or NaN if the steepest slope or the glass is not
+ * inside. */
 static double meeting_place(const double *x, const double *slope, size_t n)
 {
     const size_t top = steepest_of(slope, n);
@@ -53,7 +54,7 @@ static double meeting_place(const double *x, const double *slope, size_t n)
     return at + (fall - steepest * (x[top] - at)) / (glass - steepest);
 }
 
-/* The points about the fall: first and one past the last. */
+/* Selects the points around the fall: first index and end index. */
 static void choose_fall(const double *x, const double *z, size_t n, size_t *first, size_t *last)
 {
     size_t top = 0, low = 0, begin, end;

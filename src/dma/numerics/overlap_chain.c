@@ -1,7 +1,7 @@
-/* Shifts by the overlap of neighbours. A step begins with the closed form and ends with the least
- * squares of the gaps, where points far off count little; what the places of an overlap disagree by
- * is its error. What the loss modulus by itself, or another vertical shift, would make of it is
- * kept beside it. SPDX-License-Identifier: GPL-3.0-or-later */
+/* Shifts by the overlap of neighbours. A step starts from the closed form and ends with robust
+ * least squares of the gaps. Its error includes the scatter along the overlap. The result also
+ * contains the changes by the loss modulus alone and by another vertical shift.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "dma/numerics/overlap_chain.h"
 
 #include "dma/numerics/closed_form.h"
@@ -12,39 +12,39 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* A step with a larger error is none [decade]: as for the shifts of the fit (master_links.c). */
+/* A step with a larger error is rejected [decade], as for the shifts of the fit (shift_graph.c). */
 static const double largest_sigma = 0.2;
-/* Slopes are those of lines over so much to either side [decade]. */
+/* Half width of the line fit that gives a slope [decade]. */
 static const double slope_reach = 0.3;
-/* Gaps of more than so many standard deviations count little (Cauchy weights, which take 5 % of the
- * efficiency where noise is normal). */
+/* Gaps beyond this number of standard deviations get little weight. Cauchy weights cost 5 % of
+ * the efficiency for normal noise. */
 static const double far_off = 2.385;
 static const double settled = 1e-5; /* [decade] */
-/* A correlation of noise is off 0 by less than so many standard errors. */
+/* A noise correlation differs from 0 if it exceeds this number of standard errors. */
 static const double chance = 2.0;
 enum { NEIGHBOURS = 2, MOST_STEPS = 50, LEAST_GAPS = 4 };
 
-/* A gap between two curves, and by how much it closes with the shift. */
+/* A gap between two curves, and its change with the shift. */
 struct gap {
     double off, slope, weight;
 };
 
 struct overlap {
     const shift_curve *p, *s;
-    const double *slope_p, *slope_s; /* of their points */
-    int q;                           /* the modulus */
+    const double *slope_p, *slope_s; /* slopes at their points */
+    int q;                           /* index of the modulus */
     double b;
     struct gap *gap;
-    double *scratch; /* as many */
+    double *scratch; /* scratch of the same size */
     size_t n, n_first;
 };
 
-/* Slope of a modulus at each point. */
+/* Computes the slope of a modulus at each point. */
 static void find_slopes(const shift_curve *c, int q, double *slope)
 {
     size_t from = 0, to = 0;
     for (size_t k = 0; k < c->n; k++) {
-        double sum[4] = {0.0, 0.0, 0.0, 0.0}; /* x, y, xx, xy about the point */
+        double sum[4] = {0.0, 0.0, 0.0, 0.0}; /* sums of x, y, xx, xy relative to the point */
         while (from + 1 < k && c->x[from] < c->x[k] - slope_reach)
             from++;
         while (to < c->n && (to < k + 2 || c->x[to] <= c->x[k] + slope_reach))
@@ -61,7 +61,8 @@ static void find_slopes(const shift_curve *c, int q, double *slope)
     }
 }
 
-/* Points of `from` moved by a onto `onto`; sign: 1 where `from` is the curve that is shifted. */
+/* Adds the gaps of the points of `from`, moved by a, to the curve `onto`; sign: 1 if `from` is
+ * the shifted curve. */
 static void add_gaps(struct overlap *o, const shift_curve *onto, const shift_curve *from,
                      const double *slope, double a, double sign)
 {
@@ -97,7 +98,7 @@ static void find_gaps(struct overlap *o, double a)
     }
 }
 
-/* What the shift lacks by the gaps, and the squares of both. */
+/* Returns the correction of the shift from the gaps, and the sums of squares of gaps and slopes. */
 static double gaps_by_slope(const struct overlap *o, double *gaps, double *slope_squares)
 {
     double cross = 0.0;
@@ -111,7 +112,7 @@ static double gaps_by_slope(const struct overlap *o, double *gaps, double *slope
     return *slope_squares > 0.0 ? -cross / *slope_squares : (double)NAN;
 }
 
-/* By how much gaps beside each other go together, as they do where the curves differ in form. */
+/* Returns the correlation of neighbouring gaps, which is positive if the curves differ in form. */
 static double gap_correlation(const struct overlap *o)
 {
     double product = 0.0, square = 0.0;
@@ -124,7 +125,8 @@ static double gap_correlation(const struct overlap *o)
     return square > 0.0 ? fmax(product / square, 0.0) : 0.0;
 }
 
-/* From the closed form to the least squares; the error has what both disagree by. */
+/* Fits a step by least squares from the closed form. The error includes the difference between
+ * both. */
 static bool find_step(struct overlap *o, double start, double *a, double *error, double *spread)
 {
     double gaps = 0.0, slope_squares = 0.0;
@@ -142,11 +144,11 @@ static bool find_step(struct overlap *o, double start, double *a, double *error,
     find_gaps(o, *a);
     if (o->n < LEAST_GAPS || !isfinite(gaps_by_slope(o, &gaps, &slope_squares)))
         return false;
-    /* so many stand for themselves; both directions have the same points */
+    /* effective number of points; both directions use the same points */
     const double rho = gap_correlation(o), all = sqrt(gaps / slope_squares);
     const double independent = fmax(0.5 * (double)o->n * (1.0 - rho) / (1.0 + rho), 1.0);
     *error = hypot(all / sqrt(independent), 0.5 * (*a - start));
-    /* what is no chance of noise */
+    /* correlation beyond that of noise */
     *spread = fmax(rho - chance / sqrt((double)o->n), 0.0) * all;
     return *error <= largest_sigma;
 }
@@ -155,7 +157,7 @@ struct chain {
     const shift_set *set;
     const double *b, *other_b;
     double *slope[MODULI]; /* [points of the set] */
-    size_t *first;         /* [n] of a curve there */
+    size_t *first;         /* [n] first point of each curve */
     struct overlap overlap;
 };
 
@@ -170,7 +172,7 @@ static void overlap_of(struct chain *c, size_t onto, size_t from, int q, const d
     o->b = b[from] - b[onto];
 }
 
-/* What another way makes of a step; nothing where it tells none. */
+/* Returns the change of a step by an alternative, or 0 if the alternative determines none. */
 static double moved_by(struct chain *c, double start, double a)
 {
     double other, error, spread;

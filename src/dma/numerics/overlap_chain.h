@@ -1,5 +1,5 @@
-/* Shifts by the overlap of neighbours, from the anchor outwards, of the storage modulus alone: what
- * is left where one spectrum does not describe the isotherms (internal to the fit room). Decades.
+/* Shifts [decade] by the overlap of neighbours, from the anchor outwards, for the storage
+ * modulus alone. They are used if one spectrum does not describe the isotherms. Internal to dma.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #ifndef WT_DMA_NUMERICS_OVERLAP_CHAIN_H
 #define WT_DMA_NUMERICS_OVERLAP_CHAIN_H
@@ -8,19 +8,18 @@
 
 typedef struct overlap_link {
     bool placed;
-    size_t onto;    /* the isotherm it hangs on, of those that are placed; the anchor: itself */
-    double a;       /* against the anchor */
+    size_t onto;    /* index of the placed isotherm it is linked to; the anchor: itself */
+    double a;       /* shift relative to the anchor */
     double step;    /* standard error of the step onto it */
-    double error;   /* standard error of a, if steps err the same way */
-    double spread;  /* of a beside it, if one place of each overlap alone is right, everywhere the
-                       same one */
-    double by_loss; /* how far the overlaps of the loss modulus alone would move a */
-    double by_vertical; /* and how far the other vertical shifts */
+    double error;   /* standard error of a for fully correlated steps */
+    double spread;  /* additional error of a if only one position of each overlap is right, the same
+                       in all */
+    double by_loss; /* change of a by the overlaps of the loss modulus alone */
+    double by_vertical; /* change of a by the other vertical shifts */
 } overlap_link;
 
-/* link: [set->n]. b: [set->n] vertical shifts that the moduli are taken with; other_b: [set->n]
- * others that may be right as well, or NULL. Nothing but the anchor is placed without a storage
- * modulus. */
+/* Fills the edges [set->n]. b: [set->n] vertical shifts of the moduli; other_b: [set->n]
+ * alternative vertical shifts, or NULL. Without a storage modulus only the anchor is placed. */
 wt_status overlap_chain(const shift_set *set, size_t anchor, const double *b, const double *other_b,
                         overlap_link *link, wt_error *err) WT_NODISCARD;
 

@@ -1,4 +1,4 @@
-/* Where a curve has its peak, and what it is between its points.
+/* Finds the peaks of a curve and interpolates between its points.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "dma/numerics/gaussian_process.h"
 
@@ -8,20 +8,20 @@
 #include <math.h>
 #include <stdlib.h>
 
-/* A peak is looked at down to this share of its height: a Gaussian is there one standard deviation
- * from its top, where it bends the other way, which no parabola follows. */
+/* The fit includes points above this share of the height. A Gaussian has its inflection there,
+ * which a parabola cannot follow. */
 static const double share = 0.6;
-/* And over at least so many points, three times the constants of a parabola. A largest point that
- * is one of the outer two may be a rise that goes on. */
+/* The fit needs nine points, three times the constants of a parabola. A largest point among the
+ * outer two may belong to a continuing rise. */
 enum { LEAST = 9, FROM_END = 2 };
-/* What lies between two maxima is a valley if the values rise from it by so much on both sides:
- * ten times what a careful sweep scatters, and a shoulder that rises less is no peak. */
+/* A valley separates two maxima if the values rise by this factor on both sides. This is ten
+ * times the scatter of a careful sweep. */
 static const double out_of_valley = 1.1;
-/* Values between points come from so many neighbours: chosen, for half of them tell their scatter
- * to 35 %, and twice as many cover twice the bend. */
+/* Points that interpolate a value. Chosen: half as many determine their scatter to 35 %, and
+ * twice as many cover twice the curvature. */
 enum { NEIGHBOURS = 15 };
-/* Places where the sign of the slope is looked for, far more than a curve of so few points has
- * maxima; halves of one such step end at its 1e-12. */
+/* Positions at which the sign of the slope is tested, far more than a curve of few points has
+ * maxima. Bisection ends at 1e-12 of a step. */
 enum { GRID = 100, HALVINGS = 40 };
 
 static void tell_no_peak(wt_peak *peak, const char *why)
@@ -32,8 +32,8 @@ static void tell_no_peak(wt_peak *peak, const char *why)
                       .why_not = why};
 }
 
-/* First and one past the last point of the peak about the largest one; false: it leaves the range.
- */
+/* Selects the points around the largest one: first index and end index. Returns false if they
+ * leave the range. */
 static bool choose_points(const double *y, size_t n, size_t top, size_t asked, size_t *first,
                           size_t *last)
 {
@@ -57,7 +57,7 @@ static bool choose_points(const double *y, size_t n, size_t top, size_t asked, s
     return true;
 }
 
-/* ---- the place of a maximum ------------------------------------------------------------------ */
+/* ---- position of a maximum ------------------------------------------------------------------- */
 
 static double falling_probability(const gaussian_process *s, double x)
 {
@@ -75,7 +75,7 @@ static bool falls_less(double x, void *user)
     return falling_probability(l->s, x) < l->level;
 }
 
-/* Where it becomes as probable that the curve falls as `level`, between two places. */
+/* Returns the position at which the probability of a falling curve equals `level`. */
 static double slope_crossing(const gaussian_process *s, double low, double high, double level)
 {
     slope_level l = {s, level};
@@ -83,8 +83,8 @@ static double slope_crossing(const gaussian_process *s, double low, double high,
     return 0.5 * (low + high);
 }
 
-/* The maximum nearest to the largest point, with the places where it is 97.5 % sure to rise and to
- * fall; NaN where the points do not tell. */
+/* Finds the maximum nearest to the largest point. The limits are where the curve rises or falls
+ * with 97.5 % probability; NaN if undetermined. */
 static wt_interval find_top(const gaussian_process *s, double from, double to, double largest)
 {
     const double step = (to - from) / GRID;
@@ -128,8 +128,8 @@ static double relative_misfit(const gaussian_process *s, const double *x, const 
     return sqrt(squares / (double)n);
 }
 
-/* Of n points about the largest; z: what is fitted, the logarithm or with `parabola` the value over
- * that of the largest. */
+/* Locates the peak of n points. z: the fitted values, ln y or with `parabola` y, relative to the
+ * largest point. */
 static wt_status place_peak(const double *x, const double *z, size_t n, double largest_x,
                             double largest_y, bool parabola, wt_peak *peak, wt_error *err)
 {
@@ -198,8 +198,8 @@ typedef struct peak_list {
     size_t n, most;
 } peak_list;
 
-/* The lowest point on the way from `from` to `to`, if the values rise from it again; else `from`.
- */
+/* Returns the lowest point between `from` and `to` if the values rise again beyond it, otherwise
+ * `from`. */
 static size_t find_valley(const double *y, size_t from, size_t to)
 {
     size_t lowest = from;
@@ -211,8 +211,7 @@ static size_t find_valley(const double *y, size_t from, size_t to)
     return from;
 }
 
-/* The peaks among the points from `first` to `last`, one past it: that about the largest, unless it
- * is the main one, and what valleys part from it. */
+/* Adds the peaks of the points [first, last), split at valleys. The main peak is skipped. */
 static wt_status add_peaks(peak_list *list, size_t first, size_t last, wt_error *err)
 {
     const double *y = list->y;

@@ -1,5 +1,6 @@
-/* The mixture over widths of the vertical shift and spreads of the temperatures, with the law fed
- * back to spectrum and shifts. SPDX-License-Identifier: GPL-3.0-or-later */
+/* The mixture over widths of the vertical shift and over temperature errors, with the feedback
+ * of the law on spectrum and shifts.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "dma/numerics/posterior.h"
 
 #include "core/math/arena_gsl.h"
@@ -10,11 +11,11 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Parts of the mixture with less than this share are left out: one that
- * lies outside of an interval with all of it moves a tail of 2.5 % to 2.6 %. */
+/* Components below this share are dropped. One that lies entirely outside an interval changes a
+ * tail of 2.5 % to 2.6 %. */
 static const double least_share = 1e-3;
 
-/* ---- making ---------------------------------------------------------------------------------- */
+/* ---- construction ---------------------------------------------------------------------------- */
 
 wt_posterior *posterior_new(void)
 {
@@ -30,7 +31,7 @@ void posterior_free(wt_posterior *p)
     free(p);
 }
 
-/* Its covariance, and the factor of the inverse of that. */
+/* Computes the covariance of a cell and the factor of its inverse. */
 static wt_status fill_cell(const wt_posterior *p, posterior_cell *c, wt_error *err)
 {
     const spectrum *s = &p->frame;
@@ -102,7 +103,7 @@ static void weigh_cells(wt_posterior *p)
     double sum = 0.0;
     for (size_t i = 0; i < p->n_cells; i++) {
         const double weight = exp(p->cells[i].log_weight - most);
-        /* no law brings back what is less than that */
+        /* the law cannot raise a smaller weight enough */
         p->cells[i].weight = weight > least_share * least_share ? weight : 0.0;
         sum += p->cells[i].weight;
     }
@@ -110,8 +111,7 @@ static void weigh_cells(wt_posterior *p)
         p->cells[i].weight /= sum;
 }
 
-/* ---- the law ----------------------------------------------------------------------------------
- */
+/* ---- shift law ------------------------------------------------------------------------------- */
 
 bool posterior_column(const wt_posterior *p, size_t curve, size_t *column)
 {
@@ -120,7 +120,7 @@ bool posterior_column(const wt_posterior *p, size_t curve, size_t *column)
     return c >= 0;
 }
 
-/* Shifts of a cell and their covariance, in decades. */
+/* Sets the shifts of a cell and their covariance, in decades. */
 static void shifts_of(const wt_posterior *p, const posterior_cell *cell)
 {
     gsl_matrix *covariance = p->data.covariance;
@@ -147,7 +147,7 @@ static void part_alloc(wt_posterior *p, posterior_part *part)
     part->inverse = arena_matrix(&p->memory, n, n);
 }
 
-/* What the law does to spectrum and shifts. */
+/* Computes the feedback of the law on spectrum and shifts. */
 static wt_status part_fill(wt_posterior *p, posterior_part *part, wt_error *err)
 {
     const law_data *data = &p->data;
@@ -179,7 +179,7 @@ static wt_status part_fill(wt_posterior *p, posterior_part *part, wt_error *err)
     return WT_OK;
 }
 
-/* All cells and spreads with their weights. */
+/* Fits all cells and temperature errors and computes their weights. */
 static wt_status fit_parts(wt_posterior *p, posterior_part *part, size_t *n, gsl_matrix *root,
                            wt_error *err)
 {
@@ -210,7 +210,7 @@ static wt_status fit_parts(wt_posterior *p, posterior_part *part, size_t *n, gsl
     return WT_OK;
 }
 
-/* Keeps those that count. */
+/* Stores the components with a relevant weight. */
 static wt_status weigh_parts(wt_posterior *p, gsl_matrix *root, wt_error *err)
 {
     size_t n = 0;
@@ -232,7 +232,7 @@ static wt_status weigh_parts(wt_posterior *p, gsl_matrix *root, wt_error *err)
     return status;
 }
 
-/* Without a law the cells are the parts. */
+/* Uses the cells as components if there is no law. */
 static wt_status parts_without_law(wt_posterior *p, wt_error *err)
 {
     p->parts = arena_alloc(&p->memory, p->n_cells, sizeof *p->parts);
@@ -248,7 +248,8 @@ static wt_status parts_without_law(wt_posterior *p, wt_error *err)
     return p->memory.failed ? wt_fail(err, WT_E_MEMORY, "no memory for the mixture") : WT_OK;
 }
 
-/* Factor of the covariance of the doubts; of what has none, as the reference, it is 0. */
+/* Factors the covariance of the additional errors. Rows without such an error, as the reference,
+ * are 0. */
 static wt_status factor_doubts(wt_posterior *p, wt_error *err)
 {
     const size_t n = p->frame.n_curves;

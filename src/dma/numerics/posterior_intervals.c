@@ -1,4 +1,4 @@
-/* What a mixture says: intervals and draws. SPDX-License-Identifier: GPL-3.0-or-later */
+/* Intervals and draws of the posterior mixture. SPDX-License-Identifier: GPL-3.0-or-later */
 #include "dma/numerics/mixture.h"
 #include "dma/numerics/posterior.h"
 
@@ -17,7 +17,7 @@
 
 enum { MOST_PARTS = POSTERIOR_CELLS * LAW_SPREADS };
 
-/* Variance of a shift beside that of the fit. */
+/* Returns the additional variance of a shift. */
 static double doubt_of(const wt_posterior *p, size_t curve)
 {
     return p->doubt != NULL ? p->doubt[curve] * p->doubt[curve] : 0.0;
@@ -52,7 +52,7 @@ double posterior_fit_error(const wt_posterior *p, size_t curve)
         .standard_error;
 }
 
-/* ln b of a curve whose b is no unknown. */
+/* Returns ln b of a curve with a fixed vertical shift. */
 static double held_b(const wt_posterior *p, size_t curve)
 {
     const double given = p->frame.given_b[curve];
@@ -73,15 +73,16 @@ double posterior_tie(const wt_posterior *p, size_t curve)
                : gsl_matrix_get(v, (size_t)a, (size_t)b) / gsl_matrix_get(v, (size_t)b, (size_t)b);
 }
 
-/* Something that hangs on the unknowns of spectrum and law: its value at those of a part before the
- * law has pulled, and its derivatives. */
+/* A quantity that depends linearly on the unknowns of spectrum and law. Its value is that of a
+ * component before the feedback of the law. */
 struct quantity {
     double value;
-    const double *by_unknown; /* [n_unknowns], or NULL: on the law alone */
+    const double *by_unknown; /* [n_unknowns], or NULL if it depends on the law alone */
     double by_law[LAW_MOST];
 };
 
-/* What a quantity has with all unknowns of a cell [n_unknowns], and its variance. */
+/* Computes the covariance of a quantity with all unknowns of a cell [n_unknowns] and returns its
+ * variance. */
 static double spread_in_cell(const wt_posterior *p, const posterior_cell *cell, const double *by,
                              double *with_all)
 {
@@ -96,7 +97,8 @@ static double spread_in_cell(const wt_posterior *p, const posterior_cell *cell, 
     return variance;
 }
 
-/* Mean and variance of a quantity in a part; with: [n_curves] its covariance with log a. */
+/* Returns the mean and variance of a quantity in a component; with: [n_curves] covariance with
+ * log a. */
 static mixture_part of_part(const wt_posterior *p, const posterior_part *part,
                             const struct quantity *x, double *with)
 {
@@ -164,7 +166,7 @@ wt_interval posterior_constant(const wt_posterior *p, size_t unknown)
     return mixture_interval(part, p->n_parts);
 }
 
-/* scratch: with log a, terms, and by the unknowns for both moduli and the loss factor. */
+/* scratch: covariance with log a, terms, and derivatives of both moduli and the loss factor */
 void posterior_moduli(const wt_posterior *p, double x, bool measured,
                       wt_interval modulus[WITH_LOSS_FACTOR])
 {
@@ -198,8 +200,8 @@ void posterior_moduli(const wt_posterior *p, double x, bool measured,
         modulus[q] = mixture_interval(part[q], p->n_parts);
 }
 
-/* One unknown of the spectrum, or what is given in its place with a variance of its own, times
- * `scale`, less the offset of the law times `offset`. */
+/* Interval of an unknown of the spectrum times `scale`, minus the offset of the law times
+ * `offset`. A fixed unknown has the value `given` and `variance`. */
 static wt_interval of_unknown(const wt_posterior *p, long column, double given, double variance,
                               double scale, double offset)
 {
@@ -223,7 +225,8 @@ wt_interval posterior_a_to_reference(const wt_posterior *p, size_t curve)
                       1.0 / M_LN10, 1.0);
 }
 
-/* Sums of terms from one to another, and derivatives of ln of it times `sign` [n_unknowns]. */
+/* Sums the terms [from, end) and computes the derivatives of ln of the sum times `sign`
+ * [n_unknowns]. */
 static double sum_terms(const double *value, size_t from, size_t end, double sign,
                         double *by_unknown)
 {
@@ -235,9 +238,9 @@ static double sum_terms(const double *value, size_t from, size_t end, double sig
     return sum;
 }
 
-/* The modulus at the end of the measured times is measured, and the share of it that relaxes later
- * is not: where terms are not measured their logarithms are normal, and so is that of what they sum
- * up to over what is left. */
+/* The modulus at the end of the measured times is measured, the share that relaxes later is not.
+ * The logarithms of unmeasured terms are normal. The ratio of their sum to the rest is treated
+ * as log-normal. */
 wt_interval posterior_equilibrium(const wt_posterior *p)
 {
     mixture_part share[SPECTRUM_ENDS * MOST_PARTS], measured[MOST_PARTS];
@@ -285,7 +288,7 @@ wt_interval posterior_term(const wt_posterior *p, size_t term, double slope)
 
 /* ---- means and draws ------------------------------------------------------------------------- */
 
-/* Adds to all unknowns what a gap between law and shifts (times S^-1) pulls them by. */
+/* Adds the change of all unknowns due to a gap between law and shifts (times S^-1). */
 static void add_pull(const wt_posterior *p, const posterior_part *part, const gsl_vector *pull,
                      double scale, double *value)
 {
@@ -352,7 +355,8 @@ static double draw_normal(struct stream *s)
     return radius * cos(2.0 * M_PI * draw_uniform(s));
 }
 
-/* Neighbouring draws go through the mixture evenly: steps of the golden section. */
+/* Selects the component of a draw. Consecutive draws cover the mixture evenly, in steps of the
+ * golden ratio. */
 static const posterior_part *part_of_draw(const wt_posterior *p, uint64_t seed, size_t index)
 {
     struct stream start = {splitmix64(seed)};
@@ -365,7 +369,8 @@ static const posterior_part *part_of_draw(const wt_posterior *p, uint64_t seed, 
     return &p->parts[p->n_parts - 1];
 }
 
-/* Where the spectrum of a draw ends, evenly, too: of one part the draws have all places. */
+/* Selects the end of the spectrum of a draw evenly, so that the draws of one component have all
+ * ends. */
 size_t posterior_place(uint64_t seed, size_t index)
 {
     struct stream start = {splitmix64(splitmix64(seed))};
@@ -374,7 +379,7 @@ size_t posterior_place(uint64_t seed, size_t index)
     return (size_t)(at * SPECTRUM_ENDS);
 }
 
-/* Unknowns of the law from their distribution. */
+/* Draws the unknowns of the law. */
 static void draw_law(const posterior_part *part, struct stream *s, double unknown[LAW_MOST])
 {
     double root[LAW_MOST][LAW_MOST] = {{0}}, e[LAW_MOST];
@@ -391,9 +396,9 @@ static void draw_law(const posterior_part *part, struct stream *s, double unknow
     }
 }
 
-/* What is normal is the response of the moduli, and that is linear in ln g about the best fit.
- * Where nothing measures a term its ln spreads over tens, and e to that would be a term that the
- * isotherms deny: above one the draw goes on along the tangent. */
+/* Limits the rise of a term. The response of the moduli is normal and linear in ln g near the
+ * best fit. An unmeasured term has a standard deviation of tens in ln g, which the isotherms
+ * exclude. Above 1 the draw continues along the tangent. */
 static void keep_linear(const wt_posterior *p, const posterior_part *part, double *value)
 {
     for (size_t j = 0; j < p->frame.n_linear; j++) {
@@ -403,7 +408,7 @@ static void keep_linear(const wt_posterior *p, const posterior_part *part, doubl
     }
 }
 
-/* Takes from the gap what the shifts may err by beside the fit; e: [n_curves] scratch. */
+/* Subtracts the drawn additional errors of the shifts from the gap; e: [n_curves] scratch. */
 static void draw_doubts(const wt_posterior *p, struct stream *s, double *e, gsl_vector *gap)
 {
     for (size_t k = 0; k < p->frame.n_curves; k++) {
@@ -413,7 +418,7 @@ static void draw_doubts(const wt_posterior *p, struct stream *s, double *e, gsl_
     }
 }
 
-/* Spectrum and shifts drawn without the law, then pulled to what the drawn law foretells. */
+/* Draws spectrum and shifts without the law, then moves them towards the drawn law. */
 wt_status posterior_draw(const wt_posterior *p, uint64_t seed, size_t index, double *value,
                          double unknown[LAW_MOST], double *log_b, wt_error *err)
 {

@@ -1,8 +1,7 @@
-/* A series with few terms in place of the spectrum of a fit: over the measured frequencies it stays
- * as close to both moduli as is asked for. Times and moduli of the terms are both moved, in
- * logarithms, so that all are positive; from least squares on, points are weighed by what they are
- * off (Lawson), which evens the largest deviations out.
- *
+/* Reduces the spectrum of a fit to a short Prony series. Over the measured frequencies it stays
+ * as close to both moduli as requested. Times and moduli of the terms are fitted as logarithms,
+ * so all are positive. After least squares the points are reweighted by their deviation
+ * (Lawson), which equalises the largest deviations.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "core/math/gsl_quiet.h"
 
@@ -19,25 +18,26 @@
 #include <string.h>
 
 enum { STORAGE, LOSS, MODULI };
-/* Points a decade to fit and to judge: five and thirteen in every term of the densest series. */
+/* Points per decade for the fit and for the check: five and thirteen per term of the densest
+ * series. */
 enum { POINTS = 16, JUDGED = 40 };
-/* Steps of a fit, rounds of weights and steps in each, dampings of one step: bounds of time, for
- * the best that was met is kept. Twice as many make series hardly better; half as many, a term
- * longer. */
+/* Steps of a fit, reweighting rounds, steps in a round, dampings of a step. They limit the time;
+ * the best result is stored. Twice as many hardly improve a series, half as many cost one more
+ * term. */
 enum { STEPS = 60, ROUNDS = 16, ROUND_STEPS = 3, DAMPINGS = 10 };
-/* More terms a decade tell nothing more of two moduli: they ripple by 1e-5 of E''
+/* More terms per decade do not improve the moduli, which then ripple by 1e-5 of E''
  * (dma/numerics/master_fit.c). */
 static const double most_density = 3;
-/* How far outside the measured range a relaxation time may lie [ln]: a term that is faster by two
- * decades has 1e-4 of its modulus in E' and is a dashpot; one that is slower by eight lacks 1e-16
- * of it, and stands for a long-term modulus where that is given as less than there is. */
+/* Range of the relaxation times outside the measured range [ln]. A term two decades faster has
+ * 1e-4 of its modulus in E' and is a dashpot. A term eight decades slower replaces a long-term
+ * modulus that is stated too low. */
 static const double faster = 2 * M_LN10, slower = 8 * M_LN10;
-/* Between the points a deviation may be larger by this share: of a curve whose points are 1/16 of
- * its period apart the top is missed by cos(pi/16), 2 %. */
+/* Allowance for a larger deviation between the points. With 16 points per period the maximum of
+ * a curve is missed by cos(pi/16), 2 %. */
 static const double between = 0.05;
-/* A term with a lesser share of any modulus is none: no digit of a modulus that is told has it. */
+/* A term with a smaller share of any modulus is removed; it changes no reported digit. */
 static const double none = 1e-9;
-/* Of the sum of squares, relative: half of it of what is told as the deviation. */
+/* Relative decrease of the sum of squares that ends the fit; half of it in the deviation. */
 static const double least_gain = 1e-3;
 
 wt_reduction wt_reduction_defaults(void)
@@ -64,12 +64,12 @@ typedef struct reducer {
     double *x;              /* [n] ln w */
     double *y[MODULI];      /* [n] ln of the moduli of the spectrum */
     double *weight[MODULI]; /* [n] */
-    double *off[MODULI];    /* [n] ln of the ratio */
-    double low, high;       /* of the relaxation times [ln] */
-    bool fitted;            /* the long-term modulus is */
-    double long_term;       /* else */
-    size_t most, likely;    /* terms, where their number is looked for */
-    size_t terms;           /* now: unknown[2 i] is ln tau, [2 i + 1] ln E; last ln E_inf */
+    double *off[MODULI];    /* [n] ln of the ratio of the moduli */
+    double low, high;       /* limits of the relaxation times [ln] */
+    bool fitted;            /* the long-term modulus is fitted */
+    double long_term;       /* used if it is not fitted */
+    size_t most, likely;    /* maximum and initial number of terms in the search */
+    size_t terms; /* present number; unknown[2 i] is ln tau, [2 i + 1] ln E; last ln E_inf */
     double *unknown, *trial, *best;
     double *row[MODULI];
     double objective;
@@ -84,7 +84,8 @@ static size_t n_unknowns(const reducer *r)
     return 2 * r->terms + r->fitted;
 }
 
-/* Moduli of the terms at x and, if there are rows, the derivatives of their logarithms. */
+/* Computes the moduli of the terms at x and, if `row` is not NULL, the derivatives of their
+ * logarithms. */
 static void terms_at(const reducer *r, const double *unknown, double x, double modulus[MODULI],
                      double *const row[MODULI])
 {
@@ -115,7 +116,7 @@ static void terms_at(const reducer *r, const double *unknown, double x, double m
             row[q][i] /= modulus[q];
 }
 
-/* Sum of squares; with them the normal equations. */
+/* Returns the weighted sum of squares; with_normal: also fills the normal equations. */
 static double residual_squares(reducer *r, const double *unknown, bool with_normal)
 {
     const size_t n = n_unknowns(r);
@@ -143,7 +144,7 @@ static double residual_squares(reducer *r, const double *unknown, bool with_norm
     return sum;
 }
 
-/* ---- the fit of so many terms ---------------------------------------------------------------- */
+/* ---- fit with a fixed number of terms -------------------------------------------------------- */
 
 static bool solve_normal(reducer *r, double damping)
 {
@@ -157,7 +158,7 @@ static bool solve_normal(reducer *r, double damping)
     for (size_t i = 0; i < n; i++)
         for (size_t j = 0; j <= i; j++)
             gsl_matrix_set(r->factor, i, j, gsl_matrix_get(r->normal, i, j));
-    /* a term that the points do not see stays where it is */
+    /* the regularisation fixes a term that does not affect the points */
     for (size_t i = 0; i < n; i++)
         *gsl_matrix_ptr(r->factor, i, i) +=
             damping * gsl_matrix_get(r->normal, i, i) + 1e-10 * most;
@@ -171,7 +172,7 @@ static void clamp_times(const reducer *r, double *unknown)
         unknown[i] = fmin(fmax(unknown[i], r->low), r->high);
 }
 
-/* Levenberg-Marquardt for the present weights. */
+/* Levenberg-Marquardt steps with the present weights. */
 static void fit_unknowns(reducer *r, int steps)
 {
     const size_t n = n_unknowns(r);
@@ -217,8 +218,8 @@ static void weigh_alike(reducer *r)
             r->weight[q][k] = 1;
 }
 
-/* From where the unknowns are; `best` gets those with the least largest deviation, which is
- * returned. Weights only where they can help to what is asked for. */
+/* Fits from the present unknowns. `best` gets those with the least maximum deviation, which is
+ * returned. Reweighting runs only if it can reach the requested deviation. */
 static double fit_terms(reducer *r, double enough)
 {
     const size_t n = n_unknowns(r);
@@ -244,7 +245,7 @@ static double fit_terms(reducer *r, double enough)
     return best;
 }
 
-/* Times evenly over the measured range, moduli as the spectrum has them about each. */
+/* Sets start values: times evenly over the measured range, moduli from the spectrum. */
 static void spread_terms(reducer *r, size_t terms)
 {
     const double from = -r->x[r->n - 1], step = (r->x[r->n - 1] - r->x[0]) / (double)terms;
@@ -260,7 +261,7 @@ static void spread_terms(reducer *r, size_t terms)
         }
         const double w = exp(-r->unknown[2 * i]);
         prony_moduli(r->from, w, &modulus[STORAGE], &modulus[LOSS]);
-        /* none of the spectrum is nothing to start from */
+        /* a modulus of 0 is no start value */
         r->unknown[2 * i + 1] = log(fmax(r->unknown[2 * i + 1], 0.1 * modulus[LOSS]));
     }
     if (r->fitted) {
@@ -272,9 +273,9 @@ static void spread_terms(reducer *r, size_t terms)
     }
 }
 
-/* ---- how many -------------------------------------------------------------------------------- */
+/* ---- number of terms ------------------------------------------------------------------------- */
 
-/* The largest share that a term has in a modulus. */
+/* Returns the largest share of a term in a modulus. */
 static double largest_share(const reducer *r, size_t i)
 {
     double most = 0;
@@ -294,7 +295,7 @@ static void leave_out(reducer *r, size_t i)
     r->terms--;
 }
 
-/* One term less: the least if it hardly counts, else the two closest to each other become one. */
+/* Removes one term: a negligible one, otherwise the two closest are merged. */
 static void merge_terms(reducer *r, double little)
 {
     for (size_t i = 0; i < r->terms; i++)
@@ -313,7 +314,7 @@ static void merge_terms(reducer *r, double little)
     leave_out(r, at + 1);
 }
 
-/* The best of so many terms, into `kept`; what they are off. */
+/* Stores the best terms without negligible ones and returns their deviation. */
 static double fit_best_terms(reducer *r, double *kept, double off)
 {
     memcpy(r->unknown, r->best, n_unknowns(r) * sizeof *r->best);
@@ -325,8 +326,8 @@ static double fit_best_terms(reducer *r, double *kept, double off)
     return off;
 }
 
-/* The fewest: from evenly spread starts, half as many again until they are enough, then by halves,
- * then by merging for as long as that goes on. */
+/* Finds the smallest number of terms: it increases by half until the deviation suffices, then
+ * bisection, then merging as long as it succeeds. */
 static size_t fewest_terms(reducer *r, double enough, double *kept)
 {
     size_t low = 0, high = 0, n = r->likely;
@@ -356,7 +357,7 @@ static size_t fewest_terms(reducer *r, double enough, double *kept)
     return r->terms;
 }
 
-/* ---- the whole ------------------------------------------------------------------------------- */
+/* ---- interface ------------------------------------------------------------------------------- */
 
 static wt_status prepare_reduction(reducer *r, const wt_reduction *options, wt_error *err)
 {

@@ -1,5 +1,5 @@
-/* One law of the shift factors for several samples: generalised least squares over all their shifts
- * at once, with the error of the temperatures averaged over, beside a law of its own for each.
+/* One shift law for several samples: generalised least squares over all shifts, averaged over
+ * the temperature error. A separate law for each sample is fitted for comparison.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "dma/numerics/shared_shift_law_fit.h"
 #include "dma/numerics/posterior.h"
@@ -15,18 +15,18 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* A law is common to two at least. Steps of Newton's kind double the digits: what has not settled
- * after so many does not. */
+/* Maximum number of Newton steps, which double the digits, and minimum number of samples. */
 enum { MOST_STEPS = 100, FEWEST = 2 };
-/* A step that is so small in standard errors is the last: seven digits of what is told to two. */
+/* Step that ends the iteration [standard errors]: seven digits. */
 static const double settled = 1e-6;
-/* A pole to begin with, below the coldest isotherm [K]: the 51.6 K below the glass transition of
- * Williams, Landel and Ferry (J. Am. Chem. Soc. 77 (1955) 3701). */
+/* Start distance of the pole below the coldest isotherm [K]. Williams, Landel and Ferry (J. Am.
+ * Chem. Soc. 77 (1955) 3701) have it 51.6 K below the glass transition. */
 static const double usual_distance = 50.0;
 
 /* ---- the shifts of a sample ------------------------------------------------------------------ */
 
-/* Means over the cells of the posterior, and the covariance within them and between. */
+/* Reads the mean shifts over the cells of the posterior and their covariance within and between
+ * cells. */
 static void take_shifts(const wt_posterior *p, long left_out, law_member *m)
 {
     size_t row = 0;
@@ -86,7 +86,7 @@ static wt_status add_member(law_samples *c, const wt_master *master, size_t samp
     m->main_constant = constants[1];
     if (shape->kind == WT_LAW_WLF) {
         m->distance = constants[law_pole_index(shape)];
-    } else if (c->kind == WT_LAW_WLF) { /* of the same slope, with a pole as rubbers have it */
+    } else if (c->kind == WT_LAW_WLF) { /* same slope, with a typical pole of rubber */
         m->distance = log(usual_distance);
         m->main_constant *= (m->reference - m->coldest + usual_distance) /
                             (GAS_CONSTANT * M_LN10 * m->reference * m->reference);
@@ -102,7 +102,8 @@ static wt_status add_member(law_samples *c, const wt_master *master, size_t samp
 
 /* ---- the fit --------------------------------------------------------------------------------- */
 
-/* Sum of squares, in units of the errors; with `cross` what the unknowns take from it. */
+/* Returns the sum of squares in units of the errors. If `cross` is not NULL it also fills the
+ * normal equations. */
 static double residual_squares(const law_samples *c, const law_model *model, size_t spread,
                                const double *unknown, gsl_vector *off, gsl_matrix *columns,
                                gsl_matrix *cross, gsl_vector *right)
@@ -153,7 +154,7 @@ static double residual_squares(const law_samples *c, const law_model *model, siz
 
 static void start_law(const law_samples *c, const law_model *model, double *unknown)
 {
-    for (size_t k = c->n_members; k-- > 0;) { /* the first one's law is that of all */
+    for (size_t k = c->n_members; k-- > 0;) { /* the law of the first sample is the start for all */
         const law_member *m = &c->members[k];
         size_t at[LOCAL];
         common_places(c, model, k, at);
@@ -161,11 +162,11 @@ static void start_law(const law_samples *c, const law_model *model, double *unkn
         unknown[at[MAIN]] = m->main_constant;
         if (at[POLE] != NO_PLACE)
             unknown[at[POLE]] = m->distance;
-        if (at[MOVED] != NO_PLACE) /* the poles on one another */
+        if (at[MOVED] != NO_PLACE) /* places the poles on one another */
             unknown[at[MOVED]] = (m->coldest - exp(m->distance)) -
                                  (c->members[0].coldest - exp(c->members[0].distance));
         if (!model->own && k == 0 && common_has_pole(c)) {
-            /* its law for the reference of all, whose pole must lie below all isotherms */
+            /* converts its law to the common reference, with the pole below all isotherms */
             const double pole = m->coldest - exp(m->distance);
             const double product = m->main_constant * (m->reference - pole);
             const double apart = fmax(c->coldest - pole, POLE_NEAREST);
@@ -184,7 +185,7 @@ static void start_law(const law_samples *c, const law_model *model, double *unkn
     }
 }
 
-/* Whether the constants are those of a law that falls and bends as far as is told. */
+/* Returns true if the law falls with temperature and its pole is determined. */
 static bool is_law(const law_samples *c, const law_model *model, const solution *s)
 {
     bool good = true;
@@ -200,7 +201,7 @@ static bool is_law(const law_samples *c, const law_model *model, const solution 
     return good;
 }
 
-/* Damped steps of least squares until none is left. */
+/* Levenberg-Marquardt steps for one temperature error until convergence. */
 static void fit_at_spread(law_samples *c, const law_model *model, size_t spread, solution *s)
 {
     const size_t n = model->n_unknowns;
@@ -254,8 +255,8 @@ static void fit_at_spread(law_samples *c, const law_model *model, size_t spread,
     s->good = is_law(c, model, s);
 }
 
-/* The weights of the spreads of temperatures; false if none is left. What tells samples apart must
- * not hang on what is believed of ovens: then all spreads are alike. */
+/* Computes the weights of the temperature errors; false if none is left. The comparison of
+ * samples must not depend on the prior of ovens, so that it uses equal weights. */
 static bool weigh_spreads(const law_samples *c, bool believed, solution s[LAW_SPREADS])
 {
     const law_data all = {.n = c->n};
@@ -273,9 +274,10 @@ static bool weigh_spreads(const law_samples *c, bool believed, solution s[LAW_SP
     return sum > 0.0;
 }
 
-/* ---- the whole ------------------------------------------------------------------------------- */
+/* ---- interface ------------------------------------------------------------------------------- */
 
-/* Joined laws have constants that others do not share. */
+/* Returns the reason why a sample cannot be used, or NULL. Joined laws have constants that
+ * others lack. */
 static const char *why_not(const wt_master *m)
 {
     if (m == NULL || m->posterior == NULL)
@@ -287,7 +289,7 @@ static const char *why_not(const wt_master *m)
     return isnan(m->slope.standard_error) ? "its shifts are given" : NULL;
 }
 
-/* Arrhenius if no sample shows that it bends: those that do not would be missed elsewhere. */
+/* Returns Arrhenius if no sample shows curvature, otherwise WLF. */
 static wt_law_kind kind_of_all(const wt_master *const *masters, size_t n)
 {
     bool bends = false;

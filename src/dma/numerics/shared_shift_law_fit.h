@@ -1,24 +1,24 @@
-/* One law of the shift factors for several samples: what common_law.c fits and common_law_model.c
- * has as a model and says of it (internal to the fit room). SPDX-License-Identifier:
- * GPL-3.0-or-later */
+/* One shift law for several samples: fit (shared_shift_law_fit.c) and model
+ * (shared_shift_law_model.c). Internal to dma.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #ifndef WT_DMA_NUMERICS_SHARED_SHIFT_LAW_FIT_H
 #define WT_DMA_NUMERICS_SHARED_SHIFT_LAW_FIT_H
 
 #include "core/base/arena.h"
 #include "dma/numerics/shift_law.h"
 
-/* What a shift of one sample hangs on: its offset, the main constant, ln of the distance of the
- * pole, and how far its law is moved. */
+/* Unknowns that a shift of one sample depends on: its offset, the main constant, ln of the pole
+ * distance, and the displacement of its law. */
 enum { OFFSET, MAIN, POLE, MOVED, LOCAL };
 #define NO_PLACE SIZE_MAX
 
-/* Shifts of one sample, without the isotherm that does not belong to its law. */
+/* Shifts of one sample, without the outlier of its law. */
 typedef struct law_member {
-    size_t sample, n, first; /* first: row among all */
+    size_t sample, n, first; /* first: row among all shifts */
     double *temperature, *log_a, *slope;
     gsl_matrix *covariance;
     gsl_matrix *root[LAW_SPREADS];
-    double reference, coldest; /* of its own law */
+    double reference, coldest; /* of the law of this sample */
     double main_constant, distance;
 } law_member;
 
@@ -26,12 +26,12 @@ typedef struct law_samples {
     arena memory;
     wt_common how;
     wt_law_kind kind;
-    double reference, coldest; /* of the common law */
+    double reference, coldest; /* of the shared law */
     law_member *members;       /* [n_members] */
-    size_t n_members, n;       /* n: shifts of all */
+    size_t n_members, n;       /* n: number of all shifts */
 } law_samples;
 
-/* A law for all, or one for each. */
+/* One law for all samples, or a separate law for each. */
 typedef struct law_model {
     bool own;
     size_t n_unknowns;
@@ -46,20 +46,21 @@ typedef struct solution {
 
 bool common_has_pole(const law_samples *c);
 law_model common_model(const law_samples *c, bool own);
-/* Where the unknowns of a sample are; NO_PLACE that it does not have. */
+/* Fills the indices of the unknowns of a sample; NO_PLACE if absent. */
 void common_places(const law_samples *c, const law_model *m, size_t k, size_t place[LOCAL]);
-/* The law of a sample at a temperature, without its offset, with derivatives by its unknowns; NaN
- * at the pole and below. */
+/* Returns the law of a sample at a temperature [K] without its offset, and the derivatives by
+ * its unknowns. NaN at and below the pole. */
 double common_value(const law_samples *c, const law_model *model, size_t k, const double *unknown,
                     double temperature, double by[LOCAL]);
 
-/* Constants, and how far samples are moved. */
+/* Fills the constants and the displacements of the samples. */
 void common_fill_law(const law_samples *c, const solution one[LAW_SPREADS],
                      wt_shared_shift_law *common);
-/* Chance that samples of one law differ so much: by the spreads that their own laws leave. */
+/* Returns the p value of the hypothesis of one law, averaged over the temperature errors of the
+ * separate laws. */
 double common_chance(const law_samples *c, const solution one[LAW_SPREADS],
                      const solution own[LAW_SPREADS]);
-/* Isotherm i of sample k. */
+/* Fills the result for isotherm i of sample k. */
 void common_fill_point(const law_samples *c, size_t k, size_t i, const solution one[LAW_SPREADS],
                        const solution own[LAW_SPREADS], bool compared, wt_shared_law_point *point);
 

@@ -1,5 +1,4 @@
-/* One law of the shift factors for several samples, as a model, and what it says when it is fitted:
- * constants, isotherms, differences.
+/* Model and results of one shift law for several samples: constants, isotherms, differences.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "dma/numerics/shared_shift_law_fit.h"
 
@@ -60,7 +59,7 @@ double common_value(const law_samples *c, const law_model *model, size_t k, cons
     return constant * by[MAIN];
 }
 
-/* ---- what it says ---------------------------------------------------------------------------- */
+/* ---- results --------------------------------------------------------------------------------- */
 
 static double variance_of(const solution *s, const size_t at[LOCAL], const double by[LOCAL])
 {
@@ -72,7 +71,7 @@ static double variance_of(const solution *s, const size_t at[LOCAL], const doubl
     return fmax(sum, 0.0);
 }
 
-/* One unknown of all, over the spreads. */
+/* Returns the interval of an unknown over the temperature errors. */
 static wt_interval of_unknown(const solution s[LAW_SPREADS], size_t u)
 {
     mixture_part part[LAW_SPREADS];
@@ -84,7 +83,8 @@ static wt_interval of_unknown(const solution s[LAW_SPREADS], size_t u)
     return mixture_interval(part, n);
 }
 
-/* A law of a sample between two temperatures at one spread, and its variance. */
+/* Returns the difference of a law between two temperatures for one temperature error, and its
+ * variance. */
 static double law_difference(const law_samples *c, const law_model *model, size_t k,
                              const solution *s, double temperature, double from, double *variance)
 {
@@ -107,9 +107,9 @@ static double middle_temperature(const law_member *m)
     return sum / (double)m->n;
 }
 
-/* What a sample's own law has more than the common one, from the middle of its isotherms on, with
- * the error of its own law: what the common one takes away from it (Hausman 1978) is not known well
- * enough of so few isotherms (tests/unit/test_fit_common_law.c). */
+/* Returns the difference of the separate law of a sample from the shared one, relative to its
+ * mean temperature. The error is that of the separate law. The reduction by the shared law
+ * (Hausman 1978) is not known well enough for few isotherms (tests/unit/test_fit_common_law.c). */
 static wt_interval own_less_common(const law_samples *c, size_t k, const solution one[LAW_SPREADS],
                                    const solution own[LAW_SPREADS], double temperature)
 {
@@ -162,7 +162,7 @@ void common_fill_point(const law_samples *c, size_t k, size_t i, const solution 
                                  : (wt_interval){unknown, unknown, unknown, unknown};
 }
 
-/* Of C1 and ln of the distance, over the spreads. */
+/* Returns the correlation of two unknowns (C1 and ln pole distance) over the temperature errors. */
 static double constant_correlation(const solution s[LAW_SPREADS], size_t a, size_t b)
 {
     double mean[2] = {0.0, 0.0}, sum[3] = {0.0, 0.0, 0.0};
@@ -181,7 +181,7 @@ static double constant_correlation(const solution s[LAW_SPREADS], size_t a, size
     return sum[1] / sqrt(sum[0] * sum[2]);
 }
 
-/* ln of a distance to the constant C2. */
+/* Converts ln of the pole distance to the constant C2. */
 static wt_interval to_c2(wt_interval x, double lead)
 {
     wt_interval y = {lead + exp(x.value), 0.0, lead + exp(x.low), lead + exp(x.high)};

@@ -1,10 +1,10 @@
-/* The overlaps of the isotherms of a fit. SPDX-License-Identifier: GPL-3.0-or-later */
+/* Overlaps of the isotherms of a fit. SPDX-License-Identifier: GPL-3.0-or-later */
 #include "dma/numerics/master_fit.h"
 
 #include "core/math/arena_gsl.h"
 
-/* A shift with a larger error is not determined [decade]: 95 % of it is then most of a decade, and
- * as wide as the step of 5 to 10 K between isotherms that it is to tell. */
+/* A shift with a larger error is not determined [decade]. Its 95 % interval is most of a decade,
+ * as wide as a step of 5 to 10 K between isotherms. */
 const double master_largest_sigma = 0.2;
 
 wt_status master_links(const master_work *work, bool physical, overlap_link *link, wt_error *err)
@@ -23,8 +23,8 @@ wt_status master_links(const master_work *work, bool physical, overlap_link *lin
     return status;
 }
 
-/* Vertical shifts are those of rubber elasticity if they are asked for, else there are none: the
- * storage modulus alone does not tell them from horizontal ones, and a glass has none. */
+/* Uses the vertical shift of rubber elasticity if requested, otherwise none. E' alone does not
+ * separate it from the horizontal shift, and a glass has none. */
 wt_status master_overlaps(master_work *work, wt_error *err)
 {
     return master_links(work, work->options.vertical == WT_VERTICAL_PHYSICAL, work->link, err);

@@ -1,5 +1,5 @@
-/* Laws of the shift factors: generalised least squares with the full covariance of the shifts and
- * an error of temperature for every isotherm, which is averaged over.
+/* Shift laws: generalised least squares with the full covariance of the shifts and a temperature
+ * error of each isotherm, which is averaged.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "dma/numerics/shift_law.h"
 
@@ -14,18 +14,18 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Temperatures are believed to so many kelvin, the tolerance of a platinum thermometer of class B
- * at 0 degC (IEC 60751), as the half width of a Cauchy prior. */
+/* Half width of the Cauchy prior of the temperature error [K]: the tolerance of a class B
+ * platinum thermometer at 0 degC (IEC 60751). */
 const double law_believed = 0.3;
-/* A programme may be so steady that nothing is seen of it: so much weight has the smallest spread
- * beyond its own, which makes it a fifth of all. A belief, which data overrule: without it a law of
- * steady temperatures has errors that are too wide, and twice as much would take scatter as large
- * as the noise for none more often. */
+/* Additional prior weight of the smallest temperature error, a fifth of all, because a program
+ * may be very stable. It is chosen. Without it the errors of stable sweeps are too wide; twice
+ * as much ignores scatter as large as the noise too often. */
 static const double steady = 0.15;
-/* Of n isotherms a law leaves n - 3 degrees of freedom: scatter as large as the noise looks like
- * none, chi^2 below half of its mean, by a chance of 0.39 with five, of 0.26 with seven. */
+/* Minimum number of isotherms for that weight. With n - 3 degrees of freedom scatter as large as
+ * the noise appears absent (chi^2 below half its mean) with probability 0.39 for five, 0.26 for
+ * seven. */
 enum { LEAST_STEADY = 7 };
-/* Places of a pole between the nearest and the farthest, a factor 1.24 apart, before halves. */
+/* Positions of the pole in the scan, a factor 1.24 apart, before bisection. */
 enum { POLE_GRID = 40 };
 
 double law_spread(size_t i)
@@ -43,7 +43,7 @@ static bool has_wlf(const law_shape *shape)
 size_t law_unknowns(const law_shape *shape)
 {
     static const size_t count[] = {
-        [WT_LAW_WLF] = 3, [WT_LAW_ARRHENIUS] = 2, [WT_LAW_JOINED] = 4}; /* of unknowns */
+        [WT_LAW_WLF] = 3, [WT_LAW_ARRHENIUS] = 2, [WT_LAW_JOINED] = 4}; /* number of unknowns */
     return count[shape->kind] + (shape->odd >= 0 ? 1 : 0);
 }
 
@@ -59,7 +59,7 @@ size_t law_pole_index(const law_shape *shape)
     return has_wlf(shape) ? law_unknowns(shape) - 1 : LAW_MOST;
 }
 
-/* -(T - Tref)/(C2 + T - Tref) and its derivative by ln of the distance of the pole. */
+/* Returns -(T - Tref)/(C2 + T - Tref) and its derivative by ln of the pole distance. */
 static double wlf_part(const law_shape *shape, double distance, double temperature, double *by_pole)
 {
     const double rise = temperature - shape->reference;
@@ -73,7 +73,7 @@ static double arrhenius_part(double reference, double temperature)
     return (reference - temperature) / (reference * temperature) / (GAS_CONSTANT * M_LN10);
 }
 
-/* The main part and its derivative by the pole. */
+/* Returns the factor of the main constant and its derivative by the pole. */
 static double part_main(const law_shape *shape, double distance, double temperature,
                         double *by_pole)
 {
@@ -90,7 +90,7 @@ static double part_main(const law_shape *shape, double distance, double temperat
     return part;
 }
 
-/* The part below the joint. */
+/* Returns the factor of the energy below the joint. */
 static double part_below(const law_shape *shape, double temperature)
 {
     return shape->kind == WT_LAW_JOINED ? arrhenius_part(fmin(shape->reference, shape->joint),
@@ -160,8 +160,8 @@ wt_status law_gls_covariance(const law_data *data, double spread, gsl_matrix *co
     return WT_OK;
 }
 
-/* What hangs on the distance of the pole: the main part, and the derivative by it if the matrix has
- * that column. */
+/* Fills the columns that depend on the pole distance: the main one, and its derivative if the
+ * matrix has that column. */
 static void design_pole(const law_data *data, const law_shape *shape, double distance,
                         double main_factor, gsl_matrix *x)
 {
@@ -174,7 +174,7 @@ static void design_pole(const law_data *data, const law_shape *shape, double dis
     }
 }
 
-/* Offset, part below the joint, odd isotherm. */
+/* Fills the columns of offset, branch below the joint and outlier. */
 static void design_fixed(const law_data *data, const law_shape *shape, gsl_matrix *x)
 {
     const size_t odd = law_odd_index(shape);
@@ -193,17 +193,17 @@ void law_design(const law_data *data, const law_shape *shape, const double *unkn
     design_pole(data, shape, pole_distance(shape, unknown), unknown[1], x);
 }
 
-/* Shifts and design in units of the errors. */
+/* Shifts and design matrix divided by the errors. */
 struct gls {
     const law_data *data;
     const law_shape *shape;
     const gsl_matrix *root; /* Cholesky factor of the covariance of the shifts and temperatures */
     gsl_vector_view y;      /* [n] */
     gsl_matrix_view x;      /* [n * unknowns] */
-    double *copy;           /* [n] of a column */
+    double *copy;           /* [n] copy of a column */
 };
 
-/* The columns that hang on the pole, or those that do not. */
+/* Whitens the columns that depend on the pole, or the others. */
 static void whiten_columns(const struct gls *g, gsl_matrix *x, bool of_pole)
 {
     for (size_t u = 0; u < x->size2; u++) {
@@ -234,14 +234,15 @@ static struct gls gls_new(const law_data *data, const law_shape *shape, const gs
     return g;
 }
 
-/* The covariance of the first unknowns, which solve_at_pole() leaves as its inverse. */
+/* Returns a view of the covariance of the first unknowns; solve_at_pole() leaves a factor of its
+ * inverse there. */
 static gsl_matrix_view covariance_of(law_fit *fit, size_t used)
 {
     return gsl_matrix_view_array_with_tda(&fit->covariance[0][0], used, used, LAW_MOST);
 }
 
-/* Least squares for a given distance of the pole, with `used` columns; false if they are
- * dependent. In the place of the covariance is the factor of its inverse. */
+/* Solves the least squares for a pole distance with `used` columns. Returns false if they are
+ * dependent. The covariance gets the factor of its inverse. */
 static bool solve_at_pole(struct gls *g, double distance, double main_factor, size_t used,
                           law_fit *fit)
 {
@@ -270,11 +271,11 @@ static bool solve_at_pole(struct gls *g, double distance, double main_factor, si
 static double chi_square_at(struct gls *g, double log_distance, law_fit *fit)
 {
     const bool good = solve_at_pole(g, exp(log_distance), 1.0, law_unknowns(g->shape) - 1, fit);
-    /* a law that rises with temperature is none */
+    /* a law that rises with temperature is invalid */
     return good && fit->unknown[1] > 0.0 ? fit->chi_square : HUGE_VAL;
 }
 
-/* ln of the distance of the pole that fits best: scanned, then by halves. */
+/* Finds the best ln of the pole distance by a scan and bisection. */
 static double best_pole(struct gls *g, law_fit *fit)
 {
     const double nearest = log(POLE_NEAREST), farthest = log(POLE_FARTHEST);

@@ -1,5 +1,5 @@
-/* Laws of the shift factors and how well the isotherms know them (internal to the fit room).
- * Decades and kelvin. SPDX-License-Identifier: GPL-3.0-or-later */
+/* Shift laws and their fit, in decades and kelvin. Internal to dma.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #ifndef WT_DMA_NUMERICS_SHIFT_LAW_H
 #define WT_DMA_NUMERICS_SHIFT_LAW_H
 
@@ -7,46 +7,45 @@
 
 #include <gsl/gsl_matrix.h>
 
-/* Unknowns of a law: the offset of the reference isotherm, the main factor (C1, or the activation
- * energy), the activation energy below the joint, the shift of an odd isotherm, ln of the distance
- * of the pole below the coldest isotherm. Not every law has all. */
+/* Maximum number of unknowns: offset of the reference, main constant (C1 or activation energy),
+ * energy below the joint, shift of an outlier, ln of the pole distance below the coldest
+ * isotherm. A law has some of them. */
 enum { LAW_MOST = 5 };
-/* With fewer isotherms a law is Arrhenius because more cannot be asked: an offset and two constants
- * leave nothing over of three. */
+/* With fewer isotherms the law is Arrhenius, because an offset and two constants leave no degree
+ * of freedom. */
 enum { LAW_LEAST_TOLD = 4 };
 
-/* Standard deviations of the temperature of an isotherm that are averaged over: from 4 mK, which
- * no chamber holds, by factors of 2 to 4 K, which none is off by. */
+/* Number of temperature errors that are averaged: 4 mK, below any chamber, to 4 K, above any, in
+ * factors of 2. */
 enum { LAW_SPREADS = 11 };
 double law_spread(size_t i);
-/* What temperatures are believed to [K]. */
+/* Half width of the prior of the temperature error [K]. */
 extern const double law_believed;
 
-/* The pole of WLF lies so far below the coldest isotherm [K]: closer, no rubber is measured, for
- * the pole is 51.6 K below the glass transition (Williams, Landel and Ferry 1955); farther, the law
- * is a straight line, which bends by 1 % over 100 K. */
+/* Range of the pole distance below the coldest isotherm [K]. Measurements end above it, because
+ * the pole is 51.6 K below the glass transition (Williams, Landel and Ferry 1955). A farther
+ * pole gives a straight line, with 1 % of curvature over 100 K. */
 #define POLE_NEAREST 2.0
 #define POLE_FARTHEST 1e4
-/* A pole whose distance is known to less than this (error of its ln, a factor 50 to either side at
- * 95 %) bends nothing that is seen: constants and draws of such a law would mean nothing, and it
- * counts as impossible. */
+/* Maximum error of ln of the pole distance (a factor 50 to either side at 95 %). A less certain
+ * pole has no visible curvature, its constants are meaningless, and the law is rejected. */
 #define POLE_ERROR 2.0
 
 typedef struct law_shape {
     wt_law_kind kind;
     double reference; /* [K] */
-    double joint;     /* Arrhenius below it [K]; used by the joined law */
-    long odd;         /* an isotherm whose temperature is not believed, -1: none */
+    double joint;     /* joint of a joined law [K]: Arrhenius below, WLF above */
+    long odd;         /* index of an outlier isotherm; -1: none */
     double coldest;   /* the pole is below it [K] */
 } law_shape;
 
-/* The shifts a law is asked to describe. */
+/* Shifts to which a law is fitted. */
 typedef struct law_data {
     size_t n;
     const double *temperature; /* [n] */
     double *log_a;             /* [n] */
     gsl_matrix *covariance;    /* [n * n] of log_a */
-    double *slope;             /* [n] of the law [decade/K], found by law_choose */
+    double *slope;             /* [n] slope of the law [decade/K], set by law_choose */
     double *scratch;           /* [n * (LAW_MOST + 2)] */
 } law_data;
 
@@ -54,34 +53,35 @@ typedef struct law_fit {
     size_t n_unknowns;
     double unknown[LAW_MOST];
     double covariance[LAW_MOST][LAW_MOST];
-    double chi_square, log_det, log_det_design; /* of the covariance; of X'S^-1X */
+    double chi_square, log_det,
+        log_det_design; /* log_det: of the covariance; log_det_design: of X'S^-1X */
 } law_fit;
 
 size_t law_unknowns(const law_shape *shape);
-/* Index of the unknown, or LAW_MOST if the law has none. */
+/* Returns the index of the unknown, or LAW_MOST if the law has none. */
 size_t law_odd_index(const law_shape *shape);
 size_t law_pole_index(const law_shape *shape);
-/* log10 a at a temperature without the offset, and by the unknowns; gradient may be NULL. */
+/* Returns log10 a at a temperature without the offset, and its gradient; gradient may be NULL. */
 double law_at(const law_shape *shape, const double *unknown, double temperature, double *gradient);
-/* log10 a that the law has for an isotherm, with the offset and what is odd about it. */
+/* Returns log10 a of the law for an isotherm, with the offset and the shift of an outlier. */
 double law_of_isotherm(const law_data *data, const law_shape *shape, const double *unknown,
                        size_t i);
-/* The constants as they are reported. */
+/* Returns the constants in their public form. */
 wt_shift_law law_constants(const law_shape *shape, const double *unknown);
 
-/* Chooses the law, and the isotherm that does not belong to it, by likelihood; sets data->slope.
- * root: [n * n] scratch. WT_E_RANGE if the shifts do not fall with temperature. */
+/* Chooses the law and its outlier by likelihood; sets data->slope. root: [n * n] scratch.
+ * Returns WT_E_RANGE if the shifts do not fall with temperature. */
 wt_status law_choose(law_data *data, double reference, gsl_matrix *root, law_shape *chosen,
                      wt_error *err) WT_NODISCARD;
-/* Factor (core/math/cholesky_dense.h) of covariance + (spread * slope)^2. */
+/* Computes the Cholesky factor (core/math/cholesky_dense.h) of covariance + (spread * slope)^2. */
 wt_status law_gls_covariance(const law_data *data, double spread, gsl_matrix *root,
                              wt_error *err) WT_NODISCARD;
-/* How the shifts depend on the unknowns: x[n * law_unknowns]. */
+/* Computes the design matrix x[n * law_unknowns]. */
 void law_design(const law_data *data, const law_shape *shape, const double *unknown, gsl_matrix *x);
 wt_status law_fit_with(const law_data *data, const law_shape *shape, const gsl_matrix *root,
                        law_fit *fit, wt_error *err) WT_NODISCARD;
 double law_reml(const law_fit *fit);
-/* Times the width of its cell in the grid of spreads. */
+/* Returns the prior density of a temperature error times the width of its grid cell. */
 double law_spread_prior(const law_data *data, double spread);
 
 #endif

@@ -1,5 +1,5 @@
-/* Which law the shift factors follow, by a criterion: kind, joint, and the isotherm that does not
- * belong to it. SPDX-License-Identifier: GPL-3.0-or-later */
+/* Selects the shift law by an information criterion: kind, joint and outlier isotherm.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "dma/numerics/shift_law.h"
 
 #include "core/math/arena_gsl.h"
@@ -10,36 +10,35 @@
 #include <gsl/gsl_linalg.h>
 #include <math.h>
 
-/* The isotherm whose own shift gains more than this of -2 ln likelihood is odd: chi^2 of one degree
- * of freedom is above 20 by a chance of 8e-6, in none of a hundred isotherms. */
+/* An isotherm is an outlier if a separate shift improves -2 ln likelihood by more than this.
+ * chi^2 with one degree of freedom exceeds 20 with probability 8e-6. */
 static const double odd_gain = 20.0;
-/* By the offset, two constants, the scatter and its own shift: the fewest isotherms that leave one
- * over. */
+/* Minimum number of isotherms for an outlier: offset, two constants, scatter, its shift, and one
+ * degree of freedom. */
 enum { LEAST_ODD = 6 };
-/* From so many isotherms on Akaike's term for few data is 40 or less: of six it is 40 for WLF and
- * 12 for Arrhenius, and no bend that rubber has would be worth 28. Fewer are told by the mean
- * likelihood over the spreads. */
+/* From seven isotherms on the small-sample term of Akaike is 40 or less. For six it is 40 for
+ * WLF and 12 for Arrhenius, a difference that no curvature of a rubber justifies. Fewer
+ * isotherms use the mean likelihood over the temperature errors. */
 enum { LEAST_CORRECTED = 7 };
-/* The criterion is finite for more isotherms than the six constants of the joined law and one. */
+/* Minimum number of isotherms of the joined law, with six constants and one more. */
 enum { LEAST_JOINED = 8 };
-/* Joints that are tried all over the isotherms; between the two beside the best of them all are. A
- * matter of time alone, as long as the best is not between two that are both bad: isotherms 24
- * times as many as are usual would ask for more. */
+/* Number of joints in the coarse search; between the neighbours of the best one all are tried.
+ * It only limits the time. */
 enum { JOINTS = 24 };
-/* An isotherm is tried as the odd one from this share of the gain on, by the linearised law, which
- * sees less of a gain than there is. A matter of time: half of it tries more in vain. */
+/* Share of the limit from which an isotherm is tested as an outlier. The linearised law
+ * underestimates the gain. It only limits the time. */
 static const double odd_tried = 0.25;
 
 struct search {
     law_data *data;
     arena memory;
-    gsl_matrix *root[LAW_SPREADS]; /* of the covariance with each spread */
+    gsl_matrix *root[LAW_SPREADS]; /* factor of the covariance for each temperature error */
     double best;                   /* score */
-    double largest;                /* likelihood that goes with it */
+    double largest;                /* its likelihood */
     law_shape chosen;
 };
 
-/* For the slopes as they are. */
+/* Factors the covariances for the present slopes. */
 static wt_status make_roots(struct search *search, wt_error *err)
 {
     const size_t n = search->data->n;
@@ -54,7 +53,7 @@ static wt_status make_roots(struct search *search, wt_error *err)
     return status;
 }
 
-/* -2 ln of the largest likelihood over the spread of temperatures, and of the mean one. */
+/* Computes -2 ln of the largest and of the mean likelihood over the temperature errors. */
 static wt_status law_likelihoods(const struct search *search, const law_shape *shape,
                                  double *largest, double *mean, wt_error *err)
 {
@@ -82,7 +81,7 @@ static wt_status law_likelihoods(const struct search *search, const law_shape *s
 static double law_criterion(const law_data *data, const law_shape *shape, double largest,
                             double mean)
 {
-    /* offset, constants and spread; the odd isotherm counts for every law alike */
+    /* offset, constants and spread; the outlier counts equally for all laws */
     const double n = (double)data->n,
                  k = (double)law_unknowns(shape) + 1.0 + (shape->kind == WT_LAW_JOINED ? 1.0 : 0.0);
     if (data->n < LEAST_CORRECTED)
@@ -90,7 +89,7 @@ static double law_criterion(const law_data *data, const law_shape *shape, double
     return n > k + 1.0 ? largest + 2.0 * k + 2.0 * k * (k + 1.0) / (n - k - 1.0) : HUGE_VAL;
 }
 
-/* better: whether it is the best so far. */
+/* Tests one law. *better: true if it is the best so far. */
 static wt_status consider_law(struct search *search, law_shape shape, bool *better, wt_error *err)
 {
     double largest, mean;
@@ -113,7 +112,8 @@ static wt_status consider_law(struct search *search, law_shape shape, bool *bett
     return WT_OK;
 }
 
-/* Joints from `first` to before `end`; the best of them, if one is better than all before. */
+/* Tests the joints from `first` to before `end`. *best: the best one, if it improves on all
+ * before. */
 static wt_status consider_joints(struct search *search, law_shape shape, size_t first, size_t end,
                                  size_t step, size_t *best, wt_error *err)
 {
@@ -151,8 +151,8 @@ static wt_status consider_all(struct search *search, const law_shape *start, wt_
     return status;
 }
 
-/* What -2 ln likelihood each isotherm would take away with a shift of its own, by the law made
- * linear at its best. */
+/* Computes the decrease of -2 ln likelihood by a separate shift of each isotherm, for the
+ * linearised law. */
 static wt_status odd_gains(struct search *search, const law_shape *shape, double *gain,
                            wt_error *err)
 {
@@ -189,7 +189,7 @@ static wt_status odd_gains(struct search *search, const law_shape *shape, double
     return status;
 }
 
-/* An isotherm that does not belong to the law. */
+/* Searches the isotherm that does not belong to the law. */
 static wt_status find_odd(struct search *search, wt_error *err)
 {
     const struct search plain = *search;
@@ -200,7 +200,8 @@ static wt_status find_odd(struct search *search, wt_error *err)
     if (status == WT_OK)
         status = odd_gains(search, &plain.chosen, gain, err);
     if (status == WT_E_RANGE)
-        return WT_OK; /* at some spread the law does not fall: none is odd by it */
+        return WT_OK; /* for some temperature error the law does not fall, so it defines no outlier
+                       */
     for (size_t i = 0; status == WT_OK && i < n; i++) {
         double largest, mean;
         law_shape shape = plain.chosen;
@@ -209,7 +210,7 @@ static wt_status find_odd(struct search *search, wt_error *err)
             continue;
         status = law_likelihoods(search, &shape, &largest, &mean, err);
         if (status == WT_E_RANGE) {
-            status = WT_OK; /* without this isotherm there is no such law */
+            status = WT_OK; /* no such law exists without this isotherm */
             continue;
         }
         if (status == WT_OK && largest < search->largest && largest < plain.largest - odd_gain) {
@@ -220,7 +221,8 @@ static wt_status find_odd(struct search *search, wt_error *err)
     return status;
 }
 
-/* Slopes of the law at the isotherms, by which an error of temperature moves a shift. */
+/* Sets the slopes of the law at the isotherms, which convert a temperature error to a shift
+ * error. */
 static void set_slopes(law_data *data, const law_shape *shape, const double *unknown)
 {
     const double step = 0.01; /* K */
@@ -230,7 +232,7 @@ static void set_slopes(law_data *data, const law_shape *shape, const double *unk
                          (2.0 * step);
 }
 
-/* Slopes of a WLF law first, then with the law that is chosen. */
+/* Selects the law, first with the slopes of a WLF law, then with those of the selected one. */
 static wt_status choose_law(struct search *search, const law_shape *start, gsl_matrix *root,
                             wt_error *err)
 {
@@ -239,7 +241,7 @@ static wt_status choose_law(struct search *search, const law_shape *start, gsl_m
     for (int round = 0; status == WT_OK && round < 3; round++) {
         law_fit fit;
         if (round == 2 && !(search->best < HUGE_VAL))
-            break; /* with the spread of the temperatures no law falls */
+            break; /* with the temperature error no law falls */
         const law_shape *shape = round == 2 ? &search->chosen : start;
         status = law_gls_covariance(data, law_believed, root, err);
         if (status == WT_OK)

@@ -1,24 +1,22 @@
-/* The shift between two neighbouring isotherms: least squares over their overlap, both moduli, both
- * directions, vertical shift projected out, on a grid. The start of the joint fit.
+/* Shift between two neighbouring isotherms: least squares over their overlap on a grid, with
+ * both moduli, both directions and a fitted vertical shift. It starts the joint fit.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "dma/numerics/isotherm.h"
 
 #include <gsl/gsl_statistics_double.h>
 #include <math.h>
 
-/* These place isotherms before the fit of one spectrum moves them: they decide where that begins,
- * and no number that is told.
- * Shared range of ordinates below which two curves do not overlap [decade]: 12 %, beyond noise and
- * clamping. */
+/* These values only set the start of the joint fit and affect no reported number. Minimum shared
+ * range of ordinates [decade]: 12 %, beyond noise and clamping. */
 static const double least_overlap = 0.05;
-/* A point outside the overlap counts as one that is off by this much: what a shift that uses few
- * points has to beat. Below it, more overlap wins; above it, less residual. [decade] As the shared
- * range above; at half of it noise of 5 % would be taken for a wrong place. */
+/* A point outside the overlap counts with this residual [decade]. A smaller residual favours
+ * more overlap, a larger one less residual. At half this value noise of 5 % is taken for a wrong
+ * position. */
 static const double indifferent_residual = 0.05;
 /* Residuals below this are equally good [decade]: 0.7 %, the noise of a good rheometer. */
 static const double equal_residual = 0.003;
 
-/* Shifts that are tried over the range in which two overlap: 40 a decade where it is ten. */
+/* Number of tested shifts over the range of overlap: 40 per decade for ten decades. */
 enum { GRID = 400 };
 
 struct pair {
@@ -30,11 +28,11 @@ struct pair {
 
 struct overlap {
     size_t n[MODULI];
-    double sum, square; /* of the gaps y_p - y_s */
+    double sum, square; /* sums over the gaps y_p - y_s */
 };
 
-/* Gaps y_onto(x + a) - y_from(x) times `sign` for the points of `from` that fall on `onto`. Both
- * abscissas rise, so one pass over `onto` is enough. */
+/* Adds the gaps y_onto(x + a) - y_from(x) times `sign` for the points of `from` within `onto`.
+ * Both abscissas rise, so one pass over `onto` suffices. */
 static void add_gaps(const shift_curve *onto, const shift_curve *from, const bool *used, double a,
                      double sign, double pivot, struct overlap *sum)
 {
@@ -69,7 +67,7 @@ static struct overlap overlap_at(const struct pair *pair, double a)
     return sum;
 }
 
-/* Mean square residual; b is the vertical shift that belongs to it. */
+/* Returns the mean square residual; *b: the corresponding vertical shift. */
 static double mean_square(const struct pair *pair, const struct overlap *sum, double *b)
 {
     const double n = (double)(sum->n[STORAGE] + sum->n[LOSS]);
@@ -78,8 +76,8 @@ static double mean_square(const struct pair *pair, const struct overlap *sum, do
     return fmax(sum->square / n - (pair->free_b ? mean * mean : 0.0), 0.0);
 }
 
-/* Log likelihood lost against all points lying off by `indifferent_residual`; smaller is better.
- * The plain mean square would prefer a chance match of a few points at the ends. */
+/* Returns the log likelihood relative to residuals of `indifferent_residual` at all points;
+ * smaller is better. The plain mean square would prefer a chance match of a few end points. */
 static double cost_of(const struct overlap *sum, double square)
 {
     const double n = (double)(sum->n[STORAGE] + sum->n[LOSS]);
@@ -87,9 +85,8 @@ static double cost_of(const struct overlap *sum, double square)
                    (indifferent_residual * indifferent_residual));
 }
 
-/* E' shares a twentieth of a decade, or a quarter of the flatter curve (a plateau has no more to
- * give). E'' may turn back and meet anything; E' rises with frequency, so it decides if it is
- * there. */
+/* Returns true if the ordinates overlap by a twentieth of a decade, or a quarter of the flatter
+ * curve. E'' is not monotonic, so E' decides if available. */
 static bool ordinates_overlap(const struct pair *pair)
 {
     const int q = pair->used[STORAGE] ? STORAGE : LOSS;
@@ -102,7 +99,7 @@ static bool ordinates_overlap(const struct pair *pair)
     return shared > 0.0 && shared >= fmin(least_overlap, 0.25 * flatter);
 }
 
-/* Whether enough points lie on the other curve. */
+/* Returns true if enough points lie on the other curve. */
 static bool overlap_suffices(const struct pair *pair, const struct overlap *sum)
 {
     bool enough = true;
@@ -139,7 +136,7 @@ bool shift_pair_fit(const shift_set *set, size_t onto, size_t from, bool free_b,
             b_closest = vertical;
         }
     }
-    /* where nothing fits within `indifferent_residual` the measure above favours few points */
+    /* if no shift fits within `indifferent_residual` the cost favours few points */
     if (best_cost >= 0.0) {
         *a = closest;
         *b = b_closest;

@@ -1,5 +1,6 @@
-/* How noise goes together along an isotherm: a first-order autoregression, by the criterion of the
- * fit, or within the isotherms alone. SPDX-License-Identifier: GPL-3.0-or-later */
+/* Correlation of the noise along an isotherm: a first-order autoregression, by the criterion of
+ * the fit or within the isotherms.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "dma/numerics/spectrum.h"
 
 #include <gsl/gsl_blas.h>
@@ -9,8 +10,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Correlations of neighbours along an isotherm, of which the criterion takes one: steps of about
- * one standard error of a correlation of 30 points. */
+/* Correlations of neighbouring points from which the criterion selects. The steps are about one
+ * standard error for 30 points. */
 static const double rhos[] = {0.0, 0.2, 0.4, 0.6, 0.75, 0.88};
 enum { RHOS = sizeof rhos / sizeof *rhos };
 
@@ -22,7 +23,7 @@ wt_status spectrum_choose_rho(spectrum *s, wt_error *err)
         s->rho = rhos[i];
         status = spectrum_fit(s, SPECTRUM_ROUGH, err);
         if (status != WT_OK || s->criterion >= best)
-            break; /* it has one minimum */
+            break; /* the criterion has one minimum */
         best = s->criterion;
         chosen = rhos[i];
     }
@@ -32,25 +33,23 @@ wt_status spectrum_choose_rho(spectrum *s, wt_error *err)
 
 /* ---- within the isotherms -------------------------------------------------------------------- */
 
-/* A polynomial of its own through the residuals of an isotherm in a modulus, of as many
- * coefficients as its points allow: what a second process leaves bends more than a parabola, and
- * would be taken for noise that goes together over decades. Two points a coefficient are left. */
+/* Coefficients of the polynomial of an isotherm, depending on its number of points. The residual
+ * of a second process needs more than a parabola, otherwise it looks like correlated noise. At
+ * least two points per coefficient are required. */
 enum { LEAST_COEFFICIENTS = 3, MOST_COEFFICIENTS = 5, MOST_WIDTH = MOST_COEFFICIENTS + 1 };
-/* Points beyond the coefficients below which an isotherm says nothing: a correlation is of two
- * neighbours at least, and their mean. */
+/* Minimum number of points beyond the coefficients. */
 enum { LEAST_LEFT = 3 };
-/* atanh of the correlation is looked for in such steps, the standard error of 30 points,
- * 1/sqrt(n - 3) (R. A. Fisher 1921), up to a correlation of 0.97. Few points, of which a polynomial
- * takes the slow part, do not tell it from 0: it is believed to be about so much (half width of a
- * Cauchy prior). Chosen: many points overrule it; with half of it a correlation of few points
- * counts for chance, and with twice as much few points make noise of what a second process leaves.
- */
+/* Grid of atanh of the correlation, up to a correlation of 0.97; the step is the standard error
+ * for 30 points, 1/sqrt(n - 3) (R. A. Fisher 1921). The polynomial removes slow components, so
+ * few points do not distinguish it from 0. A Cauchy prior with this half width applies. Chosen:
+ * half of it treats real correlation of few points as chance. Twice as much makes noise of a
+ * second process. */
 enum { CORRELATIONS = 15 };
 static const double correlation_first = -0.36, correlation_step = 0.18, correlation_believed = 0.3;
-/* Noise that changes along all isotherms alike: ln of its size by their place from -1 to 1, a line
- * and a parabola, each believed to be below so much: a factor 2.2 from one end to the other.
- * Chosen: the standard error of such a slope is 0.2 with 30 values, so that a whole sweep overrules
- * it. Rounds: each shape moves the other little. */
+/* Shape of ln noise along all isotherms: a line and a parabola in the position from -1 to 1. The
+ * prior width is a factor 2.2 from one end to the other. Chosen: the standard error of a slope
+ * is 0.2 with 30 values, so a whole sweep overrules it. The rounds suffice because the shapes
+ * are nearly independent. */
 enum { SHAPES = SPECTRUM_SHAPES, NOISE_ROUNDS = 4 };
 static const double shape_believed = 0.4;
 
@@ -60,20 +59,20 @@ struct within {
 
 struct noise_work {
     double *v;            /* [n * MOST_WIDTH] */
-    double *rest, *left;  /* [n] what the polynomial leaves: residual, share of the point */
-    double scale[MODULI]; /* variances */
-    double score[SHAPES]; /* of the shape */
+    double *rest, *left;  /* [n] residual of the polynomial; remaining share of the point */
+    double scale[MODULI]; /* variances of the moduli */
+    double score[SHAPES]; /* score of the shape */
     double information[SHAPES * SHAPES];
 };
 
-/* Where on its isotherm a point lies, -1 to 1. */
+/* Returns the position of a point on its isotherm, -1 to 1. */
 static double place_on_isotherm(const spectrum *s, size_t curve, size_t k)
 {
     const double from = s->x[s->first[curve]], to = s->x[s->first[curve + 1] - 1];
     return to > from ? (2.0 * s->x[k] - from - to) / (to - from) : 0.0;
 }
 
-/* Fills rest and left of the curve in a modulus. */
+/* Fits the polynomial of a curve in a modulus; fills rest and left. */
 static struct within residual_within(const spectrum *s, size_t curve, int q, struct noise_work *w)
 {
     const size_t from = s->first[curve], to = s->first[curve + 1];
@@ -100,7 +99,7 @@ static struct within residual_within(const spectrum *s, size_t curve, int q, str
     gsl_matrix_view cross = gsl_matrix_view_array(cross_block, width, width);
     if (gsl_linalg_cholesky_decomp1(&cross.matrix) != GSL_SUCCESS)
         return (struct within){0.0, 0.0, 0.0};
-    /* row by row times the inverse of the factor: an orthogonal polynomial, and what it leaves */
+    /* multiplies each row by the inverse factor: orthogonal polynomials and the residual */
     const double last = gsl_matrix_get(&cross.matrix, n, n);
     for (size_t k = from; k < to; k++) {
         gsl_vector_view row = gsl_vector_view_array(v + k * width, width);
@@ -116,7 +115,7 @@ static struct within residual_within(const spectrum *s, size_t curve, int q, str
     return sum;
 }
 
-/* -2 ln restricted likelihood of the polynomials, and the variance of each modulus. */
+/* Returns -2 ln restricted likelihood of the polynomials, and sets the variance of each modulus. */
 static double within_all(const spectrum *s, struct noise_work *w)
 {
     double criterion = spectrum_log_det_correlation(s);
@@ -134,7 +133,7 @@ static double within_all(const spectrum *s, struct noise_work *w)
     return criterion;
 }
 
-/* Sets the correlation to its mean; the variance of atanh of it. */
+/* Sets the correlation to its posterior mean. Returns the variance of its atanh. */
 static double correlate_within(spectrum *s, struct noise_work *w)
 {
     double criterion[CORRELATIONS], least = HUGE_VAL, sum[3] = {0.0, 0.0, 0.0};
@@ -153,12 +152,12 @@ static double correlate_within(spectrum *s, struct noise_work *w)
         sum[2] += weight * z * z;
     }
     const double mean = sum[1] / sum[0];
-    s->rho = tanh(fmax(mean, 0.0)); /* below 0 it is chance */
+    s->rho = tanh(fmax(mean, 0.0)); /* a negative value is chance */
     return sum[2] / sum[0] - mean * mean;
 }
 
-/* What a curve says of the shape in a modulus; its place less the mean, which is the factor of the
- * isotherm. */
+/* Adds the score and information of a curve for the shape. The mean position is removed, because
+ * it is the factor of the isotherm. */
 static void add_shape(const spectrum *s, size_t curve, int q, struct noise_work *w)
 {
     double sum = 0.0, mean[SHAPES] = {0.0};
@@ -179,12 +178,12 @@ static void add_shape(const spectrum *s, size_t curve, int q, struct noise_work 
     }
 }
 
-/* Factors of the isotherms and the shape from what the polynomials leave; the variance of ln of
- * the noise towards the ends. */
+/* Updates the noise factors and the shape from the polynomials. Returns the variance of ln noise
+ * at the ends. */
 static double shape_within(spectrum *s, struct noise_work *w, double shape[SHAPES])
 {
     const double belief = 1.0 / (shape_believed * shape_believed);
-    const double end = 0.25; /* where the columns of the test have their weight, by the parabola */
+    const double end = 0.25; /* weight of the test columns, by the parabola */
     (void)within_all(s, w);
     for (int i = 0; i < SHAPES; i++) {
         w->score[i] = -belief * shape[i];

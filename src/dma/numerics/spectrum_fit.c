@@ -1,6 +1,7 @@
-/* The fit of one spectrum to all isotherms: Levenberg-Marquardt over terms and shifts, noise and
- * smoothness after each step by Fellner-Schall (Wood and Fasiolo, Biometrics 73 (2017) 1071), which
- * is restricted maximum likelihood. SPDX-License-Identifier: GPL-3.0-or-later */
+/* Fits one spectrum to all isotherms: Levenberg-Marquardt over terms and shifts. After each step
+ * noise and smoothness are updated by Fellner-Schall (Wood and Fasiolo, Biometrics 73 (2017)
+ * 1071), which is restricted maximum likelihood.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "dma/numerics/spectrum.h"
 
 #include "core/math/gsl_quiet.h"
@@ -8,37 +9,35 @@
 #include <math.h>
 #include <string.h>
 
-/* Bounds of time for what does not settle. Twelve dampings by ten leave a trillionth of a step.
- * What is steep across is curved along where one spectrum is far off: there a half or an eighth of
- * the way gains what a damped step, which goes across alone, does not. */
+/* Limits of a step. Twelve dampings by ten leave 1e-12 of it. With a large misfit the objective
+ * has curved valleys, where a half or an eighth of a step gains more than a damped one. */
 enum { MAX_DAMPINGS = 12, MAX_HALVINGS = 4 };
-/* What has not settled by then is said to be unsettled; a start need not. */
+/* Maximum number of steps. A fit that reaches it is reported as not converged, except a start. */
 static const int most_steps[] = {[SPECTRUM_NOISE] = 300,
                                  [SPECTRUM_ROUGH] = 80,
                                  [SPECTRUM_ROBUST] = 40,
                                  [SPECTRUM_HELD] = 80,
                                  [SPECTRUM_TRIAL] = 80};
-/* Each step follows noise and smoothness, and they follow it: where one spectrum is far off the two
- * may go round in a circle. What has not settled after so many steps, three times what a sweep that
- * holds takes, goes less and less of the way (Robbins and Monro, Ann. Math. Stat. 22 (1951) 400).
- */
+/* Steps and noise depend on each other, so the iteration may cycle if the misfit is large. After
+ * this number of steps, three times that of a valid sweep, the updates shrink (Robbins and
+ * Monro, Ann. Math. Stat. 22 (1951) 400). */
 static const double whole_steps = 30.0;
-/* Done when a step gains less than this of -2 ln likelihood (a standard error is 1), and noise and
- * smoothness change by less than this share. */
+/* The fit ends if a step gains less than this of -2 ln likelihood (1 is a standard error), and
+ * noise and smoothness change by less than this share. */
 static const double least_gain = SPECTRUM_LEAST_GAIN, least_change = 2e-3;
-/* The same where that is good enough: a third of a standard error, and noise to 2 %, while points
- * that are five standard deviations off are looked for; and where only the objective is wanted, by
- * differences of which weights are made, exp(-0.01). */
+/* Limits of rough fits: a third of a standard error and 2 % of the noise suffice to find points
+ * with five standard deviations. With fixed noise only the objective matters, whose differences
+ * become weights, exp(-0.01). */
 static const double rough_gain = 0.1, rough_change = 0.02, held_gain = 0.02;
-/* Where a trial only asks whether much less is left, 30 % of the noise, which is half of the
- * objective: shares of that which a step gains, and which the next may. */
+/* Limits of a trial, which must only detect 30 % less noise, half of the objective. They are
+ * shares of the objective gained by a step and left for the next. */
 static const double trial_gain = 0.005, trial_left = 0.1;
 
-/* Of a diagonal: more is no rounding. */
+/* Maximum relative addition to a diagonal that rounding explains. */
 static const double most_rounding = 1e-8;
 
-/* Factor of precision + damping * its diagonal. What is smooth in the vertical shifts is no
- * unknown: it is not damped, and the diagonal of a vertical shift is that which it leaves. */
+/* Factors precision + damping * diagonal. The smooth part of the vertical shifts is no unknown
+ * and is not damped. The diagonal of a vertical shift is the one without it. */
 static bool factor_damped(spectrum *s, double damping)
 {
     bordered_copy(&s->factor, &s->precision);
@@ -82,8 +81,8 @@ double spectrum_variance(const spectrum *s, size_t curve)
 
 static wt_status invert_precision(spectrum *s, wt_error *err)
 {
-    /* little noise beside a loose prior: rounding may leave no more than a part in 1/(n epsilon) of
-     * a diagonal, which is given back */
+    /* With little noise and a loose prior, rounding may remove a diagonal element; the loop adds
+     * it back. */
     double rounding = 0.0;
     while (!factor_damped(s, rounding) && rounding < most_rounding)
         rounding = fmax(10.0 * rounding, (double)s->n_unknowns * DBL_EPSILON);
@@ -104,18 +103,19 @@ double spectrum_step_left(const spectrum *s)
     return sqrt(fmax(sum, 0.0));
 }
 
-/* Noise and smoothness may ask for another step, and a part of one gains little. */
+/* Returns true if a Newton step gains little. Noise and smoothness may require further steps,
+ * and a damped step gains little. */
 static bool is_at_end(spectrum *s, double enough_gain)
 {
     return !factor_damped(s, 0.0) || spectrum_step_left(s) < sqrt(enough_gain);
 }
 
-/* The whole of a direction, or less of it, as long as it raises the objective; what that gained, or
- * a negative number. */
+/* Tries a step and shortens it until the objective does not rise. Returns the gain, or a
+ * negative number. */
 static double go_along(spectrum *s)
 {
     double gain = -1.0, share = 1.0;
-    for (int i = 0; i < MAX_HALVINGS && !(gain >= 0.0); i++, share *= 0.5) { /* also for NaN */
+    for (int i = 0; i < MAX_HALVINGS && !(gain >= 0.0); i++, share *= 0.5) { /* also handles NaN */
         for (size_t u = 0; u < s->n_unknowns; u++)
             s->trial[u] = s->value[u] + share * gsl_vector_get(s->direction, u);
         spectrum_evaluate(s, s->trial, false);
@@ -124,7 +124,7 @@ static double go_along(spectrum *s)
     return gain >= 0.0 ? gain : -1.0;
 }
 
-/* A step that does not raise the objective; what it gained. */
+/* Performs a damped step that does not raise the objective. *gain: its gain. */
 static wt_status take_step(spectrum *s, double *damping, double *gain, wt_error *err)
 {
     *gain = 0.0;
@@ -148,7 +148,7 @@ static wt_status take_step(spectrum *s, double *damping, double *gain, wt_error 
                : wt_fail(err, WT_E_CONVERGENCE, "no spectrum describes the isotherms");
 }
 
-/* Noise and smoothness have changed. */
+/* Assembles the equations after a change of noise or smoothness. */
 static void assemble_objective(spectrum *s)
 {
     spectrum_assemble(s);

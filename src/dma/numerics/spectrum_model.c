@@ -1,5 +1,6 @@
-/* The model of all isotherms by one relaxation spectrum: rows of residuals and derivatives, normal
- * equations, priors. SPDX-License-Identifier: GPL-3.0-or-later */
+/* Model of all isotherms by one relaxation spectrum: residuals, derivatives and normal
+ * equations.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "dma/numerics/spectrum.h"
 
 #include "core/math/arena_gsl.h"
@@ -8,20 +9,20 @@
 #include <math.h>
 #include <string.h>
 
-/* Standard deviation of the prior of ln E_inf about a third of the lowest storage modulus: a factor
- * 20 either way, so that it holds what the data leave open, and is nothing beside what they say. */
+/* Standard deviation of the prior of ln E_inf about a third of the lowest E': a factor 20 either
+ * way. It covers what the data leave open and is weak compared to them. */
 static const double equilibrium_spread = 3.0;
-/* Isotherms that span more once shifted have frequencies or shifts of another unit [decade]: from
- * vibrations of molecules, 1e13 Hz, to a century, 1e-10 Hz, are 23, and WLF of universal constants
- * gives 17 above the glass transition. It bounds the terms, too. */
+/* Maximum span of the shifted isotherms [decade]; a larger one indicates a wrong unit. Molecular
+ * vibrations, 1e13 Hz, to a century, 1e-10 Hz, span 23, and WLF with universal constants gives
+ * 17. It also limits the number of terms. */
 static const double most_decades = 100.0;
-/* Slope of the terms to start from beyond the slowest measured point: that of Rouse's spectrum. */
+/* Start slope of the terms beyond the slowest measured point: that of the Rouse spectrum. */
 static const double start_fall = 0.5;
-/* Slopes of ln E' to start from. A spectrum makes 0 to 2, and both ends have no start: of slope 0
- * there is no loss, and with 2 all relaxes beyond the range. */
+/* Limits of the start slope of ln E'. A spectrum allows 0 to 2: slope 0 has no loss, and 2
+ * relaxes outside the range. */
 static const double flattest = 0.01, steepest = 1.5;
 
-/* ---- making ---------------------------------------------------------------------------------- */
+/* ---- construction ---------------------------------------------------------------------------- */
 
 static wt_status allocate_spectrum(spectrum *s, wt_error *err)
 {
@@ -73,8 +74,8 @@ void spectrum_free(spectrum *s)
     *s = (spectrum){0};
 }
 
-/* ln of what is nearest to E'' at a point: E'' itself, what the slope of E' makes of it
- * (Kramers-Kronig in its local form), or tan delta. */
+/* Returns ln E'' of a point, an estimate from the slope of E' (local Kramers-Kronig), or ln tan
+ * delta. */
 static double near_loss(const spectrum *s, size_t curve, size_t k)
 {
     if (s->used[LOSS])
@@ -86,7 +87,7 @@ static double near_loss(const spectrum *s, size_t curve, size_t k)
     return s->y[STORAGE][k] + log(slope * M_PI / 2.0);
 }
 
-/* The same at ln w = `at`, of the nearest points once shifted. */
+/* Interpolates that value at ln w = `at` from the nearest shifted points. */
 static double loss_at(const spectrum *s, double at, const double *a, const double *b)
 {
     double sum = 0.0, weights = 0.0;
@@ -100,8 +101,8 @@ static double loss_at(const spectrum *s, double at, const double *a, const doubl
     return sum / weights;
 }
 
-/* Terms to start from: E'' at the frequency of a term. By tan delta alone E' begins at 1 and rises
- * by 2/pi delta. */
+/* Sets the start terms from E'' at the frequency of each term. For tan delta alone E' starts at
+ * 1 and rises by 2/pi delta. */
 static void start_terms(spectrum *s, const double *a, const double *b)
 {
     double lowest = HUGE_VAL, slowest = HUGE_VAL, fastest = -HUGE_VAL, level = 0.0;
@@ -119,7 +120,8 @@ static void start_terms(spectrum *s, const double *a, const double *b)
         const double at = -(s->log_tau + (double)j * s->step), near = loss_at(s, at, a, b);
         if (s->ratio && at > slowest && at < fastest)
             level += 2.0 / M_PI * atan(exp(near)) * s->step;
-        /* beyond the measured range falling: what is slow is left to the equilibrium modulus */
+        /* the start falls beyond the measured range; slow terms belong to the equilibrium
+         * modulus */
         s->value[j] = near + level + log(s->step * 2.0 / M_PI) - start_fall * fmax(slowest - at, 0);
         s->level += s->value[j] / (double)s->n_terms;
     }
@@ -199,7 +201,7 @@ wt_status spectrum_new(const shift_set *set, const bool *use, size_t anchor, con
     spectrum_set_bends(s);
     for (int q = 0; q < MODULI; q++)
         s->noise[q] = 0.05;
-    /* until a prior is set: shifts lie behind the terms, the anchor's among them */
+    /* until a prior is set: the shifts follow the terms, including the anchor */
     s->n_unknowns = s->n_linear;
     for (size_t i = 0; i < s->n_curves; i++) {
         s->column_a[i] = (long)s->n_unknowns;
@@ -256,12 +258,12 @@ void spectrum_set_prior(spectrum *s, const spectrum_prior *prior)
         }
 }
 
-/* ---- the moduli ------------------------------------------------------------------------------ */
+/* ---- moduli ---------------------------------------------------------------------------------- */
 
-/* Sums over the terms at a frequency: E', E'', and their slopes. */
+/* Sums over the terms at a frequency: E', E'' and their slopes. */
 enum { SUMS = 2 * MODULI };
 
-/* Terms from j on, as many as there are lanes; gradient: E' and E'' of each, or NULL. */
+/* Adds one SIMD vector of terms; storage_at, loss_at: E' and E'' of each term, or NULL. */
 WIDE_PART void add_terms(const double *term, const double *time, double first, wide sum[SUMS],
                          double *storage_at, double *loss_at)
 {
@@ -280,7 +282,7 @@ WIDE_PART void add_terms(const double *term, const double *time, double first, w
     }
 }
 
-/* The moduli and their rises at a frequency by all terms, whose times are first * s->time. */
+/* Sums the moduli and their slopes at a frequency over all terms with times first * s->time. */
 WIDE_REGISTERS
 static void sum_terms(const spectrum *s, const double *term, double first, double total[SUMS],
                       double *const by[MODULI])
@@ -352,7 +354,7 @@ double spectrum_weight(const spectrum *s, size_t k, int q)
     return sqrt(s->weight[q][k]) / s->spread[q][k];
 }
 
-/* The point that counts before point k of a curve; false if there is none. */
+/* Finds the included point before point k of a curve. Returns false if there is none. */
 static bool point_before(const spectrum *s, size_t curve, int q, size_t k, size_t *before)
 {
     while (k > s->first[curve] && s->weight[q][k - 1] == 0.0)
@@ -390,7 +392,7 @@ double spectrum_log_det_correlation(const spectrum *s)
     return sum;
 }
 
-/* tan delta in the place of E''. */
+/* Converts ln E'' and its derivatives to those of ln tan delta. */
 static void to_factor(const spectrum *s, double modulus[MODULI], double slope[MODULI],
                       double *const row[MODULI])
 {
@@ -433,19 +435,18 @@ void spectrum_evaluate(spectrum *s, const double *value, bool with_rows)
 
 /* ---- normal equations ------------------------------------------------------------------------ */
 
-/* Adds the products of all rows to the block of the terms; the upper triangle is whole, and some of
- * what is below. */
+/* Adds the products of all rows to the block of the terms. The upper triangle is complete. */
 WIDE_REGISTERS
 static void add_rows(gsl_matrix *normal, size_t m, const double *row, size_t width, size_t rows)
 {
-    rows = (rows + TILE_ROWS - 1) / TILE_ROWS * TILE_ROWS; /* those behind the last are zeros */
+    rows = (rows + TILE_ROWS - 1) / TILE_ROWS * TILE_ROWS; /* the rows after the last are zeros */
     for (size_t i = 0; i < m; i += TILE)
         for (size_t j = i; j < m; j += TILE)
             tile_add(gsl_matrix_ptr(normal, i, j), m - i, m - j, normal->tda,
                      (tile_rows){row + i, row + j, width, width, rows}, false);
 }
 
-/* Adds what the shifts of a curve have with the terms and each other. */
+/* Adds the products of the shifts of a curve with the terms and with each other. */
 static void add_shifts(spectrum *s, size_t curve, int q)
 {
     const size_t m = s->n_linear, width = m + 2;
@@ -476,7 +477,7 @@ void spectrum_normal(spectrum *s)
                      k + TILE_NEAR < s->n ? TILE_NEAR : s->n - k);
         for (size_t i = 0; i < s->n_curves; i++)
             add_shifts(s, i, q);
-        for (size_t i = 0; i < m; i++) /* the other triangle */
+        for (size_t i = 0; i < m; i++) /* lower triangle */
             for (size_t j = 0; j < i; j++)
                 gsl_matrix_set(normal, i, j, gsl_matrix_get(normal, j, i));
     }

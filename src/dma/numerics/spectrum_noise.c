@@ -1,5 +1,5 @@
-/* Noise of the moduli: its size, which isotherms have more of it, how it goes together along them,
- * and single points far off. SPDX-License-Identifier: GPL-3.0-or-later */
+/* Noise of the moduli: size, smoothness of the spectrum, curvature weights and outliers.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "dma/numerics/spectrum.h"
 
 #include <gsl/gsl_sort.h>
@@ -7,24 +7,23 @@
 #include <math.h>
 #include <stdlib.h>
 
-/* No instrument knows a modulus better than this, and exports of four or five digits hold no more:
- * so exact data do not make rounding decide. */
+/* Minimum relative noise. No instrument is more accurate, exports have four or five digits, and
+ * rounding must not decide for exact data. */
 static const double least_noise = 1e-4;
-/* Second differences of ln of the terms below this are a straight line: over ten decades of three
- * terms they bend it by 0.45 if all of them go one way. */
+/* Minimum scale of the second differences. Over ten decades with three terms each, such
+ * differences of equal sign change the line by 0.45. */
 static const double least_smooth = 1e-3;
-/* How much a spectrum bends somewhere is that of so many decades to either side, about the width of
- * a single relaxation time in E'', 1.14 decades at half its height, for less is not seen; with as
- * much belief that it is what it bends everywhere as so many second differences would give: those
- * of 3 terms a decade in the window are 7. Chosen: what is near has 7 of 12 parts of the weight; it
- * would have 7 of 9 with 2 of them, which noise moves, and 7 of 27 with 20, which makes all alike.
- */
+/* The local curvature is averaged over this many decades to either side, about the width of one
+ * relaxation time in E'' (1.14 decades at half height). The prior of equal curvature has the
+ * weight of 5 second differences; the window has 7 at 3 terms per decade. Chosen: the share of
+ * the window is 7 of 12. It would be 7 of 9 with 2, which noise disturbs, and 7 of 27 with 20,
+ * which equalises all. */
 static const double bend_reach = 1.0, bend_belief = 5.0;
-/* Degrees of freedom of the Student distribution while outliers are looked for: those that
- * did well on measured data in Lange, Little and Taylor (J. Am. Stat. Assoc. 84 (1989) 881). */
+/* Degrees of freedom of the Student distribution during the search for outliers, as in Lange,
+ * Little and Taylor (J. Am. Stat. Assoc. 84 (1989) 881). */
 static const double student = 4.0;
-/* A point is left out beyond so many standard deviations, and taken back below the second. Of a
- * thousand points with normal noise one in a hundred sweeps is lost. */
+/* A point is excluded beyond the first number of standard deviations and restored below the
+ * second. For normal noise, one of a thousand points is lost in one of a hundred sweeps. */
 static const double outlier = 5.0, no_outlier = 4.5;
 
 static double count_used(const spectrum *s, int q)
@@ -35,7 +34,7 @@ static double count_used(const spectrum *s, int q)
     return n;
 }
 
-/* Of the covariance with normal equations, which tell nothing of what is smooth. */
+/* Returns the trace of covariance times normal equations, which do not contain the smooth part. */
 static double trace_of_product(const bordered *covariance, const bordered *normal)
 {
     double sum = 0.0, sides = 0.0;
@@ -70,7 +69,7 @@ double spectrum_noise_update(spectrum *s, double share)
     const double next = fmax(sqrt(rough / fmax(used, 1e-3)), least_smooth);
     double move = log(next / s->smooth);
     change = fmax(change, 0.1 * fabs(move));
-    /* its steps shrink geometrically: the ratio of two tells how far there is to go */
+    /* the steps shrink geometrically: the ratio of two predicts the remaining distance */
     const double ratio = s->smooth_move != 0.0 ? move / s->smooth_move : 0.0;
     s->smooth_move = move;
     if (share < 1.0) {
@@ -93,9 +92,9 @@ void spectrum_criterion(spectrum *s)
                 s->criterion += 2.0 * log(s->noise[q] * s->spread[q][k]);
 }
 
-/* ---- where the spectrum bends ---------------------------------------------------------------- */
+/* ---- curvature weights ----------------------------------------------------------------------- */
 
-/* What a second difference has, in units of smooth^2: squared, and how much of it is known. */
+/* Returns the information about a second difference; *square: its square in units of smooth^2. */
 static double bend_known(const spectrum *s, size_t j, double *square)
 {
     static const double weight[3] = {1.0, -2.0, 1.0}; /* second difference */
@@ -142,7 +141,7 @@ void spectrum_student_weights(spectrum *s)
             }
 }
 
-/* Standard deviation from the median of absolute residuals; of n of them, sorted here. */
+/* Returns the standard deviation from the median of n absolute residuals, which it sorts. */
 static double robust_spread(double *residual, size_t n)
 {
     for (size_t k = 0; k < n; k++)

@@ -1,5 +1,5 @@
-/* What is believed of a spectrum before it is measured: that it is smooth, its equilibrium modulus,
- * the vertical shifts; and the equations of the fit with that.
+/* Priors of a spectrum: smoothness, equilibrium modulus and vertical shifts, and the complete
+ * equations of the fit.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "dma/numerics/spectrum.h"
 
@@ -8,7 +8,7 @@
 #include <math.h>
 #include <string.h>
 
-/* Of terms j to j + 2: by the measured range, or beyond one of its ends. */
+/* Prior of the second difference of terms j to j + 2, in the measured range or beyond an end. */
 typedef struct bend_law {
     const double *weight;
     double mean, precision;
@@ -62,7 +62,8 @@ static double off_mean_b(const spectrum *s, const double *value, size_t curve)
     return spectrum_b_of(s, value, curve) - s->prior->mean[curve];
 }
 
-/* By tan delta alone the level is held, loosely: it is no part of what is told. */
+/* Residual of the level, which a loose prior fixes for tan delta alone. The level is not
+ * reported. */
 static double off_level(const spectrum *s, const double *value)
 {
     double sum = -s->level;
@@ -71,7 +72,7 @@ static double off_level(const spectrum *s, const double *value)
     return sum;
 }
 
-/* S' P times how far the vertical shifts are from their mean, into prior->at. */
+/* Computes S' P times the deviation of the vertical shifts from their mean, into prior->at. */
 static void find_smooth(const spectrum *s, const double *value)
 {
     const spectrum_prior *p = s->prior;
@@ -83,7 +84,7 @@ static void find_smooth(const spectrum *s, const double *value)
     }
 }
 
-/* What is left of a vertical shift without what is smooth. */
+/* Returns the deviation of a vertical shift without its smooth part. */
 static double off_smooth(const spectrum *s, const double *value, size_t curve)
 {
     const spectrum_prior *p = s->prior;
@@ -217,7 +218,7 @@ void spectrum_assemble(spectrum *s)
         add_gradient(s, q, scale);
     }
     add_priors(s);
-    for (size_t i = 0; i < s->n_curves; i++) { /* what is no unknown */
+    for (size_t i = 0; i < s->n_curves; i++) { /* fixed shifts */
         double *own = s->precision.own + BLOCK_OWN * i;
         if (s->column_a[i] < 0)
             own[0] = 1.0;
@@ -249,7 +250,7 @@ void spectrum_precision(const spectrum *s, gsl_matrix *precision)
                 if (column[d] >= 0)
                     gsl_matrix_set(precision, at, (size_t)column[d], p->own[BLOCK_OWN * i + c + d]);
         }
-        /* what is smooth is taken out: P - P S S' P */
+        /* removes the smooth part: P - P S S' P */
         for (size_t k = 0; s->column_b[i] >= 0 && s->prior->n_smooth > 0 && k < s->n_curves; k++) {
             const double *one = gsl_matrix_const_ptr(p->side, BLOCK_SIDE * i + 1, m),
                          *other = gsl_matrix_const_ptr(p->side, BLOCK_SIDE * k + 1, m);

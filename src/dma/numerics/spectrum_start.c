@@ -1,15 +1,14 @@
-/* The start of the fit: isotherm by isotherm from the anchor outwards.
+/* Start of the fit: places the isotherms one by one from the anchor outwards.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "dma/numerics/spectrum_start.h"
 
 #include <math.h>
 
-/* Isotherms to one side that one is tried on before it counts as unplaced: a bad one, and another.
- */
+/* Number of neighbours on which an isotherm is tried before it counts as unplaced. */
 enum { NEIGHBOURS = 3 };
 
-/* Places curve i on one of the placed curves towards the anchor: the next one, or one behind it if
- * that is not to be had. */
+/* Places curve i on the nearest placed curve towards the anchor, or on the one after it if that
+ * fails. */
 static void place_isotherm(const shift_set *set, size_t anchor, wt_vertical_shift kind, size_t i,
                            bool *placed, double *a, double *b)
 {
@@ -38,7 +37,7 @@ static void place_isotherm(const shift_set *set, size_t anchor, wt_vertical_shif
 void spectrum_start(const shift_set *set, size_t anchor, wt_vertical_shift kind,
                     const double *physical, bool *placed, double *a, double *b)
 {
-    /* a table for another reference has the factor of this one in all of its own */
+    /* a table for another reference includes the vertical shift of this one in all rows */
     const shift_curve *at = &set->curves[anchor];
     const double off = at->held && at->given_a != 0.0 ? at->given_b - physical[anchor] : 0.0;
     for (size_t i = 0; i < set->n; i++) {
@@ -66,8 +65,7 @@ size_t spectrum_connected(const shift_set *set, size_t anchor, const double *a, 
     size_t count = 1;
     for (size_t i = 0; i < set->n; i++)
         overlap[i] = i == anchor || (placed[i] && set->curves[i].given) ? HUGE_VAL : 0.0;
-    /* an isotherm hangs by its largest overlap, or by that of the one it hangs on if that is less
-     */
+    /* The overlap of an isotherm is the largest minimum overlap on a path to the anchor. */
     for (bool grown = true; grown;) {
         grown = false;
         for (size_t i = 0; i < set->n; i++)

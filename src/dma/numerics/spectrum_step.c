@@ -1,8 +1,8 @@
-/* What a step of strain or of stress shows of a relaxation spectrum: the relaxation modulus E(t),
- * which is a sum of its terms, and the creep compliance, whose transform is one over that of E
- * (J. D. Ferry, Viscoelastic properties of polymers, 3rd ed., chapter 3). For terms of a series it
- * is a sum again, of as many retardation times, each between two relaxation times: exact, without
- * an integral. SPDX-License-Identifier: GPL-3.0-or-later */
+/* Step responses of a relaxation spectrum. The relaxation modulus E(t) is a sum over its terms.
+ * The transform of the creep compliance is the inverse of that of E (J. D. Ferry, Viscoelastic
+ * properties of polymers, 3rd ed., chapter 3). For a series the compliance is a sum over as many
+ * retardation times, each between two relaxation times. It is exact, without an integral.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "dma/numerics/spectrum.h"
 
 #include "core/math/root.h"
@@ -10,8 +10,8 @@
 #include <math.h>
 #include <string.h>
 
-/* A term of less than this share of all moduli slower than it moves no compliance by a digit that a
- * double has, and its retardation time lies on it. */
+/* A term below this share of all slower moduli does not change the compliance in double
+ * precision. Its retardation time equals its relaxation time. */
 static const double least_share = 1e-14;
 
 /* ---- relaxation ------------------------------------------------------------------------------ */
@@ -40,22 +40,22 @@ static void relaxation_at(const spectrum *s, const double *term, double x, doubl
 /* ---- retardation times ----------------------------------------------------------------------- */
 
 /* The transform p E~(p) = E_inf + sum E_j p / (p + r_j) at p = -x, where x is exp(+-u) times the
- * rate `near`: a root lies between two rates, and u is its distance to the nearer one, so that the
- * share x / (r - x) of that one is exact however near it is. */
+ * rate `near`. A root lies between two rates. u is its distance to the nearer one, so the share
+ * x / (r - x) of that rate is exact. */
 typedef struct between {
     const double *modulus, *rate; /* [n], rates rising */
     size_t n, near;
     double equilibrium, sign;
 } between;
 
-/* x / (r_j - x). */
+/* Returns x / (r_j - x). */
 static double share_of(const between *b, size_t j, double u)
 {
     return j == b->near ? 1.0 / expm1(-b->sign * u)
                         : 1.0 / (b->rate[j] / b->rate[b->near] * exp(-b->sign * u) - 1.0);
 }
 
-/* Times u, which takes the pole at 0 away; positive beyond the root. */
+/* Returns the transform times u, which removes the pole at 0. It is positive beyond the root. */
 static double beyond_root(double u, void *user)
 {
     const between *b = user;
@@ -65,19 +65,20 @@ static double beyond_root(double u, void *user)
     return -b->sign * u * sum;
 }
 
-/* The root between rate k - 1 (0 before the first) and rate k: u, and which it is near. */
+/* Finds the root between rate k - 1 (0 before the first) and rate k. Returns u; b has the nearer
+ * rate. */
 static double find_root(between *b, size_t k)
 {
     *b = (between){b->modulus, b->rate, b->n, k, b->equilibrium, -1.0};
     double far = k > 0 ? 0.5 * log(b->rate[k] / b->rate[k - 1]) : 1.0;
-    /* below the first rate only E_inf stands against the terms */
+    /* below the first rate only E_inf opposes the terms */
     while (k == 0 && beyond_root(far, b) < 0.0 && far < 700.0)
         far *= 2.0;
     if (k > 0 && beyond_root(far, b) < 0.0) {
         b->near = k - 1;
         b->sign = 1.0;
     }
-    const double least = far * 1e-18; /* at 0 itself the product is not a number */
+    const double least = far * 1e-18; /* at 0 the product is NaN */
     double u = (double)NAN;
     return root_find(beyond_root, b, least, far, 0.0, &u, NULL) == WT_OK ? u : (double)NAN;
 }
@@ -88,7 +89,7 @@ void spectrum_modes_new(spectrum *s)
     spectrum_modes *modes = arena_alloc(m, 1, sizeof *modes);
     const size_t n = s->n_terms;
     if (modes == NULL)
-        return; /* the pool says so */
+        return; /* the arena records the failure */
     modes->of = arena_numbers(m, s->n_linear);
     modes->index = arena_alloc(m, n, sizeof *modes->index);
     modes->modulus = arena_numbers(m, n);
@@ -101,7 +102,7 @@ void spectrum_modes_new(spectrum *s)
     s->modes = modes;
 }
 
-/* Roots and what hangs on them alone, for these terms. */
+/* Finds the roots and the derived values for these terms. */
 static void find_modes(const spectrum *s, const double *term)
 {
     spectrum_modes *m = s->modes;
@@ -135,7 +136,7 @@ static void find_modes(const spectrum *s, const double *term)
 
 /* ---- creep ----------------------------------------------------------------------------------- */
 
-/* Derivatives of the compliance are what a double pole at each root leaves. */
+/* Computes the derivatives of the compliance from the double pole at each root. */
 static void creep_derivatives(const spectrum *s, double time, double compliance, double *gradient)
 {
     const spectrum_modes *m = s->modes;

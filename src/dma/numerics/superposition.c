@@ -1,6 +1,6 @@
-/* Lack of fit of one spectrum: what a line and a parabola of every isotherm of its own would still
- * explain, and what slow times would that shift more than fast ones. A spectrum ties E' and E''
- * (Kramers-Kronig); a common factor on E'' tests that alone.
+/* Lack of fit of one spectrum. It tests what a separate line and parabola of each isotherm
+ * explains, and what a different shift of slow times explains. A common factor on E'' tests the
+ * Kramers-Kronig relation separately.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "dma/numerics/superposition.h"
 
@@ -14,46 +14,47 @@
 #include <math.h>
 #include <string.h>
 
-/* Columns of an isotherm: powers of its frequency from the first one on, in each modulus. A factor
- * on both moduli is the vertical shift. */
+/* First power of the frequency in the columns of an isotherm, in each modulus. A factor on both
+ * moduli is the vertical shift. */
 static const int first_power[MODULI] = {1, 0};
-/* From so many points on a parabola too: six are twelve values, of which five columns and two
+/* Minimum number of points for a parabola. Six points are twelve values; five columns and two
  * shifts leave five. */
 enum { LEAST_PARABOLA = 6, POWERS = 3 };
-/* Places in the spectrum where slow times may part from fast ones: few, so that they see what grows
- * with the shift and is small in each isotherm. */
+/* Positions in the spectrum at which slow and fast times may separate. They are few, to detect
+ * an effect that grows with the shift and is small in each isotherm. */
 enum { PARTINGS = 3, FACTOR = PARTINGS, WITH_FACTOR };
-/* The smaller p of so many counts, times their number. */
+/* Number of tests; the smallest p is multiplied by it. */
 static const double tests = 2.0;
-/* What is left of a column, of its square, below which the model has it: 1e-3 of its
- * length, far above rounding, and too little to tell anything beside noise. */
+/* A column is dropped if the model leaves less than this share of its square: 1e-3 of its
+ * length, above rounding and below any information. */
 static const double least_left = 1e-6;
-/* Of the squares the columns leave at least so much: where the fit is far from its minimum, as with
- * exchanged moduli, they seem to explain more than there is. Then p is nothing either way, and the
- * misfit is what the columns explain, whatever this share is. */
+/* Minimum share of the squares that the columns leave. Far from the minimum, as with exchanged
+ * moduli, they seem to explain more than there is. p is then negligible, and the misfit does not
+ * depend on this share. */
 static const double least_squares = 0.01;
 
-/* A misfit that is large makes noise within the isotherms that hardly is one: not less is believed
- * to be known of it than so many degrees of freedom would tell. The variance of ln of a variance is
- * 2 over them: 12 are a factor 1.5 in it. Chosen: of 20 columns the F that 1 % exceed is 3.9, and
- * would be 7.4 with half and 2.7 with twice as many. */
+/* Minimum degrees of freedom of the noise estimate, because a large misfit may cause apparent
+ * noise within the isotherms. The variance of ln of a variance is 2 divided by them: 12 are a
+ * factor 1.5. Chosen: the 1 % point of F for 20 columns is 3.9. It would be 7.4 with half and
+ * 2.7 with twice as many. */
 static const double least_known = 12.0;
 
-/* To this part the end of a stated interval is made; of 2 digits that are told. */
+/* Relative accuracy of the limits of the misfit; two digits are reported. */
 static const double misfit_close = 1e-4;
-enum { MOST_HALVINGS = 100 }; /* of [0, high] down to that part of what may be 1e-25 of it */
+enum { MOST_HALVINGS = 100 }; /* halvings of [0, high] */
 
-/* Columns that have data in common: those of one isotherm, or those of all. */
+/* Columns that share data: those of one isotherm, or those of all. */
 enum { MOST_COLUMNS = MODULI * POWERS - 1 };
 struct columns {
     size_t n;
-    double product[MOST_COLUMNS * MOST_COLUMNS]; /* of each other; later what the model leaves */
-    double right[MOST_COLUMNS];                  /* with the residuals */
-    double length[MOST_COLUMNS];                 /* of a column before it is 1 */
-    double *border[MOST_COLUMNS];                /* [n_linear] with the terms, shifts taken out */
+    double product[MOST_COLUMNS *
+                   MOST_COLUMNS]; /* products of the columns; later what the model leaves */
+    double right[MOST_COLUMNS];   /* products with the residuals */
+    double length[MOST_COLUMNS];  /* length of a column before it is scaled to 1 */
+    double *border[MOST_COLUMNS]; /* [n_linear] products with the terms, without the shifts */
 };
 
-/* Squares of the residuals that so many columns explain, which have only the terms in common. */
+/* Squares of the residuals that the columns explain, which share only the terms. */
 typedef struct explanation {
     double explained;
     size_t rank;
@@ -62,15 +63,15 @@ typedef struct explanation {
 struct extra {
     const spectrum *s;
     arena memory;
-    size_t n;             /* columns that are filled */
-    double *column;       /* [MOST_COLUMNS * 2 longest] of one isotherm: whitened, E' then E'' */
-    size_t longest;       /* points of an isotherm */
-    gsl_matrix *together; /* [n_linear^2] what the columns have in common through the terms */
+    size_t n;       /* number of filled columns */
+    double *column; /* [MOST_COLUMNS * 2 longest] whitened columns of one isotherm, E' then E'' */
+    size_t longest; /* largest number of points of an isotherm */
+    gsl_matrix *together; /* [n_linear^2] products of the columns through the terms */
     double *toward;       /* [n_linear] the same with the residuals */
-    double *share;        /* [PARTINGS * n_terms] how much a term follows a parting */
+    double *share;        /* [PARTINGS * n_terms] dependence of a term on a separation */
     explanation got;
     double squares, points, freedom;
-    double uncertainty; /* variance of ln of the variance of what columns explain */
+    double uncertainty; /* variance of ln of the noise variance of the columns */
 };
 
 static double *column_of(const struct extra *x, size_t column, int q)
@@ -78,7 +79,7 @@ static double *column_of(const struct extra *x, size_t column, int q)
     return x->column + (column * MODULI + (size_t)q) * x->longest;
 }
 
-/* Whitened and divided by the noise. */
+/* Adds a power of the frequency as a column, whitened and divided by the noise. */
 static void add_column(struct extra *x, size_t curve, int q, int power)
 {
     const spectrum *s = x->s;
@@ -92,7 +93,6 @@ static void add_column(struct extra *x, size_t curve, int q, int power)
     spectrum_whiten(s, curve, q, v, 1);
 }
 
-/* No columns. */
 static void clear_columns(struct extra *x)
 {
     x->n = 0;
@@ -108,7 +108,8 @@ static void fill_columns(struct extra *x, size_t curve)
             add_column(x, curve, q, p);
 }
 
-/* How much the terms follow each parting: rising from -1 to 1 across it [PARTINGS * n_terms]. */
+/* Computes the dependence of the terms on each separation: rising from -1 to 1 across it
+ * [PARTINGS * n_terms]. */
 static void follow_partings(const spectrum *s, double *share)
 {
     double low = HUGE_VAL, high = -HUGE_VAL;
@@ -124,8 +125,8 @@ static void follow_partings(const spectrum *s, double *share)
         }
 }
 
-/* What the moduli of a point change by when each term moves by its share of the isotherm's shift.
- */
+/* Adds the change of the moduli of a point if each term moves by its share of the shift of the
+ * isotherm. */
 static void add_parted(struct extra *x, size_t curve, size_t k, const double *share,
                        double *const part[MODULI])
 {
@@ -146,8 +147,8 @@ static void add_parted(struct extra *x, size_t curve, size_t k, const double *sh
 
 /* ---- products -------------------------------------------------------------------------------- */
 
-/* Products of the columns of a curve with its rows, which are divided by the noise, and residuals;
- * its shifts are taken out. */
+/* Computes the products of the columns of a curve with its rows, divided by the noise, and with
+ * the residuals. The shifts are projected out. */
 static void add_products(const struct extra *x, size_t curve, struct columns *to)
 {
     const spectrum *s = x->s;
@@ -196,7 +197,7 @@ static void clear_products(const struct extra *x, size_t n, struct columns *c)
     }
 }
 
-/* As if each column had been of length 1. */
+/* Scales all products to columns of length 1. */
 static void scale_products(const struct extra *x, struct columns *c)
 {
     for (size_t i = 0; i < c->n; i++)
@@ -211,15 +212,15 @@ static void scale_products(const struct extra *x, struct columns *c)
     }
 }
 
-/* Times the inverse of the factor of the border, from the left. */
+/* Multiplies by the inverse of the factor of the border. */
 static void by_border(const spectrum *s, double *v)
 {
-    const size_t m = s->n_linear; /* free shifts have nothing behind the terms */
+    const size_t m = s->n_linear; /* with free shifts the border has only terms */
     gsl_matrix_const_view root = gsl_matrix_const_submatrix(s->factor.border, 0, 0, m, m);
     dense_forward(&root.matrix, v);
 }
 
-/* Takes out the terms, too. */
+/* Projects out the terms. */
 static void take_out_terms(const struct extra *x, struct columns *c)
 {
     for (size_t i = 0; i < c->n; i++) {
@@ -230,8 +231,8 @@ static void take_out_terms(const struct extra *x, struct columns *c)
     }
 }
 
-/* How far the times of the measured range part from the shifts, as a share of those: half of the
- * range of what the partings, fitted together with the factor, make of the terms. */
+/* Returns the separation of the times of the measured range as a share of the shifts. It is half
+ * the range of the fitted separations, with the factor. */
 static double parted_share(const struct extra *x, const struct columns *c)
 {
     const spectrum *s = x->s;
@@ -243,7 +244,7 @@ static double parted_share(const struct extra *x, const struct columns *c)
             matrix[p * WITH_FACTOR + k] = c->product[p * MOST_COLUMNS + k];
     }
     if (!cholesky_solve(matrix, WITH_FACTOR, WITH_FACTOR, 0.0, by))
-        return 1.0; /* too little is left of them to tell: it may be all of a shift */
+        return 1.0; /* undetermined: it may be the whole shift */
     for (size_t j = s->n_fast; j < s->n_measured; j++) {
         double sum = 0.0;
         for (size_t p = 0; p < PARTINGS; p++)
@@ -261,8 +262,8 @@ static void swap(double *a, double *b)
     *b = keep;
 }
 
-/* Makes the columns that the model leaves orthogonal and of length 1, those of which most is left
- * first, and adds what they explain of the residuals. */
+/* Orthogonalises the remaining columns, largest remainder first, and adds the squares that they
+ * explain. */
 static void orthogonalise(struct extra *x, struct columns *c)
 {
     double *a = c->product;
@@ -303,7 +304,7 @@ static void orthogonalise(struct extra *x, struct columns *c)
     x->got.rank += c->n;
 }
 
-/* What orthogonal columns of an isotherm have in common with all others. */
+/* Adds the products of the orthogonal columns of an isotherm through the terms. */
 static void add_together(struct extra *x, const struct columns *c)
 {
     const size_t m = x->s->n_linear;
@@ -315,8 +316,8 @@ static void add_together(struct extra *x, const struct columns *c)
     }
 }
 
-/* Takes the terms out of the columns of all isotherms at once: of what they have in common, by its
- * eigenvectors, the model leaves 1 less the eigenvalue. */
+/* Projects the terms out of the columns of all isotherms together. For each eigenvector of the
+ * common products the model leaves 1 minus the eigenvalue. */
 static wt_status take_out_together(struct extra *x, wt_error *err)
 {
     const size_t m = x->s->n_linear;
@@ -346,7 +347,7 @@ static wt_status take_out_together(struct extra *x, wt_error *err)
     return WT_OK;
 }
 
-/* A line and a parabola of each isotherm. */
+/* Computes the squares explained by a line and a parabola of each isotherm. */
 static wt_status explain_isotherms(struct extra *x, struct columns *c, wt_error *err)
 {
     x->got = (explanation){0.0, 0};
@@ -361,8 +362,8 @@ static wt_status explain_isotherms(struct extra *x, struct columns *c, wt_error 
     return take_out_together(x, err);
 }
 
-/* A second process has a law of its own: slow and fast times part in proportion to the shift. With
- * the columns of the partings is that of a factor on E''. */
+/* Fills the columns of all isotherms: a second process shifts slow and fast times differently in
+ * proportion to the shift. The last column is the factor on E''. */
 static wt_status fill_of_all(struct extra *x, struct columns *c, wt_error *err)
 {
     const spectrum *s = x->s;
@@ -389,7 +390,7 @@ static wt_status fill_of_all(struct extra *x, struct columns *c, wt_error *err)
     return WT_OK;
 }
 
-/* What the partings explain. */
+/* Computes the squares explained by the separations. */
 static void explain_partings(struct extra *x, struct columns *c)
 {
     c->n = PARTINGS;
@@ -397,7 +398,7 @@ static void explain_partings(struct extra *x, struct columns *c)
     orthogonalise(x, c);
 }
 
-/* Distribution of noncentral chi-square: a Poisson mixture of central ones. */
+/* Returns the noncentral chi-square distribution as a Poisson mixture of central ones. */
 static double noncentral_below(double x, double freedom, double lambda)
 {
     const double mean = 0.5 * lambda, width = 10.0 * sqrt(mean) + 20.0;
@@ -412,8 +413,8 @@ static double noncentral_below(double x, double freedom, double lambda)
     return sum;
 }
 
-/* Beyond it the square root of noncentral chi-square is normal to four digits, and the sum above
- * has too many terms. */
+/* Above this value the square root of noncentral chi-square is normal to four digits, and the
+ * sum is too long. */
 static const double many = 1e4;
 
 typedef struct noncentral {
@@ -426,7 +427,7 @@ static bool more_probable(double lambda, void *user)
     return noncentral_below(c->x, c->freedom, lambda) > c->probability;
 }
 
-/* Lambda with which x has this probability to be exceeded from below. */
+/* Returns lambda for which the distribution function at x has this probability. */
 static double noncentrality(double x, double freedom, double probability)
 {
     const double half = 0.5 * (freedom - 1.0);
@@ -440,13 +441,13 @@ static double noncentrality(double x, double freedom, double probability)
     return 0.5 * (low + high);
 }
 
-/* Degrees of freedom by which the noise is known that slow columns have. */
+/* Returns the degrees of freedom of the noise estimate for the columns. */
 static double known_freedom(const struct extra *x, double left)
 {
     return fmax(2.0 / (2.0 / left + x->uncertainty), fmin(least_known, left));
 }
 
-/* Degrees of freedom that k columns leave, and the variance that is left once they explain q. */
+/* Returns the degrees of freedom that k columns leave. */
 static double left_by(const struct extra *x, double k)
 {
     return fmax(x->points - x->freedom - k, 1.0);
@@ -457,8 +458,8 @@ static double variance_left(const struct extra *x, double q, double k)
     return fmax(x->squares - q, least_squares * x->squares) / left_by(x, k);
 }
 
-/* Probability and misfit of what the columns explain, if that is less likely than what is in
- * `result`; the misfit is the larger one. */
+/* Updates the probability and misfit in `result` if the columns are less likely. The misfit is
+ * the larger one. */
 static void judge_columns(const struct extra *x, lack_of_fit *result)
 {
     const spectrum *s = x->s;
@@ -476,8 +477,8 @@ static void judge_columns(const struct extra *x, lack_of_fit *result)
         fmax(result->misfit_high, sqrt(noncentrality(above, k, 0.025) * to_misfit));
 }
 
-/* The column of all isotherms is a factor on E''. It is among those of the isotherms, of which
- * `lines` explain so much: what they explain beside it is no matter of a factor. */
+/* Tests the factor on E''. `lines` is the result of the isotherm columns; what they explain
+ * beyond the factor is another misfit. */
 static void test_factor(const struct extra *x, const struct columns *c, explanation lines,
                         lack_of_fit *result)
 {

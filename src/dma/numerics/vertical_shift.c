@@ -1,5 +1,6 @@
-/* The prior of the vertical shifts: tied to the physical one, about which every clamping scatters
- * and the material departs smoothly with temperature. SPDX-License-Identifier: GPL-3.0-or-later */
+/* Prior of the vertical shifts: the physical shift, with independent clamping scatter and a
+ * smooth departure of the material.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "dma/numerics/vertical_shift.h"
 
 #include "core/math/arena_gsl.h"
@@ -8,12 +9,12 @@
 #include <float.h>
 #include <math.h>
 
-/* Over how many degrees the departure of the material keeps its course [K]: a filler network or a
- * transition changes over some tens of kelvin. Chosen; at 20 the departure follows isotherms 10 K
- * apart nearly one by one, as clamping does; at 80 it is nearly a line over what is measured. */
+/* Correlation length of the departure of the material [K]; a filler network or a transition
+ * changes over tens of kelvin. Chosen: at 20 the departure follows isotherms 10 K apart
+ * individually, as clamping does. At 80 it is nearly a line. */
 static const double reach = 40.0;
 
-/* Covariance of the smooth departure at two temperatures, 0 at the reference. */
+/* Returns the covariance of the smooth departure at two temperatures; it is 0 at the reference. */
 static double departure_covariance(const vertical *v, double t1, double t2)
 {
     const double r = v->reference_temperature;
@@ -39,8 +40,8 @@ void vertical_make_room(arena *memory, size_t n, vertical *v)
     v->room.at = arena_numbers(memory, most);
 }
 
-/* The departure as a few numbers times `smooth`: the covariance by the factor of Cholesky with the
- * largest pivots first, until nothing but rounding is left. */
+/* Factors the covariance of the departure by pivoted Cholesky down to rounding. Returns the
+ * number of components. */
 static size_t factor_departure(const vertical *v, const double *temperature, size_t n,
                                gsl_matrix *smooth)
 {
@@ -72,8 +73,8 @@ static size_t factor_departure(const vertical *v, const double *temperature, siz
     return m;
 }
 
-/* From the factor F of the departure to S = F R^-T, R the factor of 1 + F' P F; ln of its
- * determinant. */
+/* Converts the factor F of the departure to S = F R^-T, where R is the factor of 1 + F' P F.
+ * *log_det: ln of its determinant. */
 static bool smooth_of_departure(const vertical *v, size_t n, double clamped, size_t m,
                                 gsl_matrix *smooth, double *log_det)
 {

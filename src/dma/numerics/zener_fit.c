@@ -1,6 +1,6 @@
-/* A fractional Zener law through the points of a master curve: four constants in place of a series,
- * and whether they describe the points as well. Its constants carry no errors: what it is off is
- * not noise. SPDX-License-Identifier: GPL-3.0-or-later */
+/* Fits a fractional Zener law to the points of a master curve and compares it with the series.
+ * The constants have no errors, because the residuals are not noise.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "core/math/gsl_quiet.h"
 #include "dma/law/prony_law.h"
 #include "weartrack/fit.h"
@@ -9,15 +9,15 @@
 #include <gsl/gsl_linalg.h>
 #include <math.h>
 
-/* Bounds of time for what does not settle; twelve dampings by ten leave a trillionth of a step. */
+/* Limits of the iteration; twelve dampings by ten leave 1e-12 of a step. */
 enum { CONSTANTS = 4, STEPS = 200, DAMPINGS = 12 };
-/* A glass modulus so many times what was measured is none that the points tell: less than a tenth
- * of the transition is seen; a modulus after a long time of such a share of the least storage
- * modulus is nothing, for no modulus is known to that. */
+/* Above this ratio to the measured moduli the glass modulus is undetermined, because less than a
+ * tenth of the transition is visible. A long-term modulus below this share of the lowest E'
+ * counts as 0. */
 static const double beyond = 10, negligible = 1e-3;
 enum { LN_E0, LN_RISE, LN_TAU, LOGIT_ALPHA };
 
-/* ln E', ln E'' of E0 + rise z/(1 + z), z = (i w tau)^alpha. */
+/* Computes ln E' and ln E'' of E0 + rise z/(1 + z), z = (i w tau)^alpha. */
 static void law_at(const double *p, double ln_w, double ln[2])
 {
     const double alpha = 1 / (1 + exp(-p[LOGIT_ALPHA])), exponent = alpha * (ln_w + p[LN_TAU]);
@@ -27,13 +27,14 @@ static void law_at(const double *p, double ln_w, double ln[2])
     ln[1] = p[LN_RISE] + log(r * s / below);
 }
 
-/* Both moduli of the point were measured and neither is far off. */
+/* Returns true if both moduli of the point are measured and not excluded. */
 static bool point_counts(const wt_master *m, size_t i)
 {
     return !m->left_out[i] && isfinite(m->log_storage[i]) && isfinite(m->log_loss[i]);
 }
 
-/* Sum of squares of ln at the points that were not left out, and of each modulus. */
+/* Returns the sum of squared ln residuals of the included points, and fills the sum of each
+ * modulus. */
 static double residual_squares(const wt_master *m, const double *p, double of[2])
 {
     of[0] = of[1] = 0;
@@ -119,7 +120,7 @@ static double descend_from(const wt_master *m, double *p)
     return sum;
 }
 
-/* Akaike's criterion for few points, the variance of all alike and itself one of the constants. */
+/* Returns the small-sample Akaike criterion for equal variances, which count as one constant. */
 static double akaike_criterion(double sum, double n, double constants)
 {
     const double k = constants + 1;

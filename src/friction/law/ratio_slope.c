@@ -1,9 +1,9 @@
-/* The ratio of two moduli as a power of the frequency, and the phase that goes with it.
+/* Ratio of two moduli as a power of the frequency, with the phase that causality requires.
  *
- * The logarithm of a ratio of minimum phase is analytic, so its phase follows from its modulus
+ * The logarithm of a minimum-phase ratio is analytic, so that its phase follows from its modulus
  * (Bode, Bell Syst. Tech. J. 19 (1940) 421), with u = ln omega:
  *   phase(u) = 1/pi int (d ln|ratio| / du') ln coth(|u - u'| / 2) du'
- * which is exponent / pi [L(u - u_low) - L(u - u_high)], L(y) = int_0^y ln coth(|t| / 2) dt.
+ * The result is exponent / pi [L(u - u_low) - L(u - u_high)], L(y) = int_0^y ln coth(|t| / 2) dt.
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
@@ -12,13 +12,13 @@
 #include <float.h>
 #include <math.h>
 
-/* A coefficient of chi. */
+/* Coefficient of the series of chi. */
 #define TERM(k) (1.0 / ((k) * (k)))
 
-/* Legendre's chi, sum of z^k / k^2 over odd k, for 0 <= z <= sqrt(2) - 1. */
+/* Legendre's chi function, the sum of z^k / k^2 over odd k, for 0 <= z <= sqrt(2) - 1. */
 static double chi_2(double z)
 {
-    /* from the k whose term is 1e-16 of the first down to it */
+    /* The series starts at the k whose term is 1e-16 of the first. */
     static const double term[] = {TERM(35), TERM(33), TERM(31), TERM(29), TERM(27), TERM(25),
                                   TERM(23), TERM(21), TERM(19), TERM(17), TERM(15), TERM(13),
                                   TERM(11), TERM(9),  TERM(7),  TERM(5),  TERM(3),  TERM(1)};
@@ -29,7 +29,7 @@ static double chi_2(double z)
     return z * sum;
 }
 
-/* L from z = e^-|y|, with chi_2(z) + chi_2((1 - z) / (1 + z)) in closed form. */
+/* L as a function of z = e^-|y|, by the closed form of chi_2(z) + chi_2((1 - z) / (1 + z)). */
 static double phase_integral(double z)
 {
     const double other = (1 - z) / (1 + z);

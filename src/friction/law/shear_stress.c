@@ -1,4 +1,4 @@
-/* The shear stress of the real contact against velocity and temperature: Lorenz, Oh, Nam, Jeon and
+/* Shear stress of the real contact against velocity and temperature: Lorenz, Oh, Nam, Jeon and
  * Persson, J. Chem. Phys. 142 (2015) 194701.
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
@@ -9,7 +9,7 @@
 
 #include <math.h>
 
-/* Of that paper, in words of SI: 0.97 eV. */
+/* Values of that paper in SI units; the activation energy is 0.97 eV. */
 wt_shear_law wt_shear_law_defaults(void)
 {
     return (wt_shear_law){.kind = WT_SHEAR_CONSTANT,
@@ -22,7 +22,7 @@ wt_shear_law wt_shear_law_defaults(void)
 double wt_shear_peak_velocity(const wt_shear_law *law, double temperature)
 {
     const double reference = law->reference_temperature;
-    /* 1/Tref - 1/T as one quotient: no cancellation for neighbouring temperatures */
+    /* 1/Tref - 1/T as one quotient avoids cancellation for similar temperatures */
     return law->peak_velocity * exp(law->activation_energy / BOLTZMANN *
                                     ((temperature - reference) / (temperature * reference)));
 }
@@ -30,7 +30,7 @@ double wt_shear_peak_velocity(const wt_shear_law *law, double temperature)
 double wt_shear_factor(const wt_shear_law *law, double velocity, double temperature)
 {
     if (law->kind == WT_SHEAR_CONSTANT || law->width == 0)
-        return 1; /* at rest, too, where 0 times infinity is no number */
+        return 1; /* also at rest, where 0 times infinity is undefined */
     const double decades = log10(fabs(velocity) / wt_shear_peak_velocity(law, temperature));
     return exp(-law->width * decades * decades);
 }

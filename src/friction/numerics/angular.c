@@ -1,5 +1,5 @@
-/* Angular integrals: the closed form of the law, or Chebyshev series in ln w over what the panels
- * give.
+/* Angular integrals: the closed form of the law, or Chebyshev series in ln w through values from
+ * subintervals.
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
@@ -16,39 +16,40 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Degrees of the series, each twice the one before: its nodes are among those of the next. A closed
- * form begins at the second: one of 4 leaves 6e-4 on its pieces. */
+/* Degrees of the series. Each is twice the previous one, so that its nodes are a subset of the
+ * next. A closed form starts at the second degree, because degree 4 leaves 6e-4 on its segments. */
 enum { SHORT_DEGREE = 4, CLOSED_DEGREE = 8, DEGREES = 3 };
-/* A piece is halved down to 1/4096 of its width, or until three cuts in a row gained less than ten:
- * then it is rounding that is left. */
+/* Limits of the refinement: 1/4096 of the width, or three successive halvings that each reduce the
+ * error by less than a factor of ten. Rounding then dominates. */
 enum { MOST_CUTS = 12, VAIN_CUTS = 3 };
 
-/* Pieces end at the whole multiples of this in ln w and at the knots of the law. A closed form is
- * smooth: its poles lie at pi/2 beside the axis. */
+/* Segments end at the integer multiples of this width in ln w and at the knots of the law. A closed
+ * form is smooth: its poles have the distance pi/2 from the real axis. */
 static const double law_width = 0.7, closed_width = 1;
-/* Two bounds in ln w closer than this are one: their difference is rounding. */
+/* Two limits in ln w closer than this are equal up to rounding. */
 static const double same_bound = 1e-12;
-/* Relative error at which a series is good enough: of the tolerance, so that panels and rules have
- * the rest; at the best, some dozens of roundings; and at most, for more of it saves no
- * coefficient. */
+/* Relative error goal of a series: a share of the tolerance, which leaves the rest to subintervals
+ * and rules. It is at least some dozens of roundings. It is at most 1e-6, because a larger goal
+ * saves no coefficient. */
 static const double goal_share = 0.01, least_goal = 2e-14, most_goal = 1e-6;
-/* Of J1 and J2 from a sum of positive terms, each good to some roundings. */
+/* Relative error of J1 and J2 from a sum of positive terms with a few roundings each. */
 static const double closed_error = 16 * DBL_EPSILON;
-/* A series costs as much as so many terms of a closed form (100 velocities and set-up at 1e-10:
- * 0.29 ms both ways with 7 terms, 0.31 and 0.28 ms with 10), and is good to these. */
+/* Number of terms at which a series costs as much as the closed form. 100 velocities and setup at
+ * 1e-10 take 0.29 ms either way with 7 terms; with 10 terms 0.31 and 0.28 ms. */
 enum { MANY_TERMS = 8 };
-/* Where squares and powers of omega tau are numbers. */
+/* Range in which squares and powers of omega tau neither overflow nor underflow. */
 static const double least_frequency = 1e-250, most_frequency = 1e250;
 
-/* J1 and J2 on a piece. To the right of a knot w_k both integrals have a (ln w - ln w_k)^(3/2)
+/* J1 and J2 on a segment. To the right of a knot w_k both integrals have a (ln w - ln w_k)^(3/2)
  * singularity: the series there runs in u = sqrt(ln w - ln w_k). */
 typedef struct series {
     double low, high;    /* ln w */
-    double anchor;       /* ln w_k, NaN = the series runs in ln w itself */
+    double anchor;       /* ln w_k; NaN if the series runs in ln w */
     double middle, half; /* of u */
     size_t degree;
-    double error, of_values; /* relative: without and from that of its values */
-    double j1[LONG_DEGREE + 1], j2[LONG_DEGREE + 1]; /* of powers of z = (u - middle) / half */
+    double error, of_values; /* relative error of the series, and of the values at its nodes */
+    double j1[LONG_DEGREE + 1], j2[LONG_DEGREE + 1]; /* coefficients of the powers of z = (u -
+                                                        middle) / half */
 } series;
 
 typedef struct series_list {
@@ -58,23 +59,25 @@ typedef struct series_list {
 
 struct angular_law {
     const wt_material *material;
-    const angular_weight *weight; /* NULL: none */
-    bool closed;                  /* there is a closed form, and no weight */
+    const angular_weight *weight; /* NULL if none */
+    bool closed;                  /* the law has a closed form, and no weight is set */
     double tolerance, piece_width;
     const gauss_rule *rule;
     double goal;
     angular_panels panels;
-    angular_panels below[2]; /* up to each limit */
+    angular_panels below[2]; /* subintervals up to each limit */
     double panels_low, panels_high;
-    double limit[2];                                   /* of the range backed by data; NaN = none */
+    double limit[2];                                   /* range of the measured data; NaN if
+                                                          unknown */
     series_list pieces;                                /* rising, without gaps */
     double node[LONG_DEGREE + 1];                      /* cos(pi k / LONG_DEGREE) */
-    double fit[DEGREES][(LONG_DEGREE + 1) * FIT_ROOM]; /* of each degree, a column for each node */
+    double fit[DEGREES][(LONG_DEGREE + 1) * FIT_ROOM]; /* matrix of each degree, one column for
+                                                          each node */
 };
 
 /* ---- series ---------------------------------------------------------------------------------- */
 
-/* The coefficients of an interpolation at cos(pi k / degree) are sums of its values. */
+/* The coefficients of an interpolation at cos(pi k / degree) are weighted sums of its values. */
 static void make_fits(angular_law *a)
 {
     double cosine[2 * LONG_DEGREE];
@@ -100,7 +103,7 @@ static double least_of(const double *value, size_t step)
     return least;
 }
 
-/* Both, to the larger of the two degrees. */
+/* Converts both series to powers of z, with the larger of the two degrees. */
 static void series_powers(series *s, const double *j1, const double *j2, double goal)
 {
     const size_t step = LONG_DEGREE / s->degree;
@@ -117,7 +120,7 @@ static void series_powers(series *s, const double *j1, const double *j2, double 
     s->error += more;
 }
 
-/* J1 and J2 at every `step`th node of a piece from the `first` on. */
+/* Evaluates J1 and J2 at every `step`th node of a segment, beginning with `first`. */
 static void series_values(const angular_law *a, const series *s, size_t first, size_t step,
                           double *j1, double *j2)
 {
@@ -139,11 +142,11 @@ static void series_values(const angular_law *a, const series *s, size_t first, s
     }
 }
 
-/* The relative error of the values that a series goes through. */
+/* Relative error of the values that a series interpolates. */
 static double values_error(const angular_law *a, const series *s, const double *j1,
                            const double *j2)
 {
-    const size_t last = LONG_DEGREE; /* at `low` */
+    const size_t last = LONG_DEGREE; /* node at the lower limit */
     return a->closed ? closed_error
                      : fmax(angular_panels_error(&a->panels, exp(s->high), j1[0], j2[0]),
                             angular_panels_error(&a->panels, exp(s->low), j1[last], j2[last]));
@@ -192,9 +195,9 @@ static bool series_push(series_list *list, const series *s)
     return true;
 }
 
-/* A piece that has been fitted, or its halves where it is not good enough: close knots, steep
- * tables. What is narrow may be worse, for it weighs less. `vain`: cuts above it that gained
- * little. */
+/* Adds a fitted segment, or its halves if its error is too large, as with close knots or steep
+ * tables. A narrow segment may have a larger error, because it has less weight. `futile` counts the
+ * halvings with little gain. */
 static bool series_add(const angular_law *a, series_list *list, const series *s, int cuts, int vain)
 {
     const double middle = isnan(s->anchor) ? s->middle : s->anchor + s->middle * s->middle;
@@ -216,10 +219,10 @@ static const double *knots_of(const angular_law *a, size_t *n)
     return a->material->law->breaks != NULL ? a->material->law->breaks(a->material, n) : NULL;
 }
 
-/* The nearest knot at or below x that a piece there must mind, or NaN. */
+/* Returns the nearest knot at or below x if it affects a segment there, else NaN. */
 static double knot_before(const double *knots, size_t n, double x)
 {
-    size_t low = 0, high = n; /* knots below `low` are at or below x */
+    size_t low = 0, high = n; /* knots with an index below `low` are at or below x */
     while (low < high) {
         const size_t middle = (low + high) / 2;
         if (log(knots[middle]) <= x + same_bound)
@@ -231,7 +234,7 @@ static double knot_before(const double *knots, size_t n, double x)
     return knot > x - 3 * law_width ? fmin(knot, x) : (double)NAN;
 }
 
-/* Adds the pieces from one multiple of piece_width to another. */
+/* Adds the segments between two multiples of the segment width. */
 static bool add_pieces(const angular_law *a, long first, long last, double *bounds,
                        series_list *list)
 {
@@ -257,7 +260,7 @@ static bool add_pieces(const angular_law *a, long first, long last, double *boun
     return true;
 }
 
-/* Panels for this range and what there was before. */
+/* Extends the subintervals to the union of this range and the present one. */
 static wt_status extend_panels(angular_law *a, double low, double high, wt_error *err)
 {
     if (a->panels.n > 0) {
@@ -267,14 +270,16 @@ static wt_status extend_panels(angular_law *a, double low, double high, wt_error
     }
     a->panels_low = low;
     a->panels_high = high;
-    /* past the end, where rounding may put a frequency: the integrand has a pole there */
+    /* Beyond the end, because rounding may place a frequency there, where the integrand has a pole.
+     */
     const wt_status status =
         angular_panels_new(a->material, a->rule, low, 1.01 * high, a->goal, &a->panels, err);
     a->panels.weight = a->weight;
     return status;
 }
 
-/* In whole multiples of piece_width: what there is, and with it what is asked for. */
+/* Range in integer multiples of the segment width: the union of the present and the requested
+ * range, and the present one. */
 typedef struct series_range {
     long first, last, have_first, have_last;
 } series_range;
@@ -286,7 +291,7 @@ static series_range range_with(const angular_law *a, double w_min, double w_max)
                       (long)ceil(log(w_max) / a->piece_width), 0, 0};
     if (r.last <= r.first)
         r.last = r.first + 1;
-    r.have_first = r.have_last = r.last; /* nothing yet */
+    r.have_first = r.have_last = r.last; /* no segment yet */
     if (have->n > 0) {
         r.have_first = lround(have->items[0].low / a->piece_width);
         r.have_last = lround(have->items[have->n - 1].high / a->piece_width);
@@ -339,7 +344,7 @@ wt_status angular_cover(angular_law *angular, double w_min, double w_max, wt_err
     return WT_OK;
 }
 
-/* The first piece that reaches up to x, or the last one. */
+/* Returns the index of the first segment that reaches x, or of the last one. */
 static size_t piece_at(const series_list *list, double x)
 {
     size_t low = 0, high = list->n > 0 ? list->n - 1 : 0;
@@ -360,11 +365,11 @@ bool angular_closed(const angular_law *angular, double x_min, double x_max)
                                                    x_max <= pieces->items[pieces->n - 1].high));
 }
 
-/* Nodes in one piece, with room for whole registers. */
+/* Nodes in one segment, with padding for whole registers. */
 enum { BATCH = 32, AT_ONCE = 2 * WIDE };
 
-/* Both series at n <= BATCH places: even and odd powers in turn, so that neither waits for the
- * other. `value` has room for BATCH numbers each. */
+/* Evaluates both series at n <= BATCH positions. Even and odd powers alternate, so that their
+ * operations are independent. Each `value` has the capacity BATCH. */
 WIDE_REGISTERS
 static void series_eval(const series *restrict s, size_t n, const double *restrict z,
                         double *restrict value1, double *restrict value2)
@@ -400,7 +405,7 @@ static void series_eval(const series *restrict s, size_t n, const double *restri
     }
 }
 
-/* z of x in a piece; what rounding puts beside it goes to its end. */
+/* Maps x to z of a segment. A value that rounding puts outside is moved to the limit. */
 WIDE_REGISTERS
 static void place_in(const series *restrict s, const double *restrict x, size_t n,
                      double *restrict z)
@@ -444,7 +449,7 @@ void angular_eval(const angular_law *angular, const double *w, const double *x, 
         const size_t whole = (count + AT_ONCE - 1) / AT_ONCE * AT_ONCE;
         for (size_t i = count; i < whole; i++)
             z[i] = 0;
-        if (from + whole <= n) { /* what is too much, the next piece writes over */
+        if (from + whole <= n) { /* the next segment overwrites the padding */
             series_eval(s, whole, z, j1 + from, j2 + from);
         } else {
             double value1[BATCH], value2[BATCH];
@@ -487,7 +492,7 @@ wt_status angular_cover_outside(angular_law *angular, wt_error *err)
     return status;
 }
 
-/* From frequencies below a limit. */
+/* Parts of J1 from frequencies below a limit. */
 static void parts_below(const angular_law *a, size_t limit, const double *w, const double *j1,
                         size_t n, double *part)
 {

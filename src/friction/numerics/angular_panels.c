@@ -1,5 +1,5 @@
-/* Angular integrals in linear time: the law is evaluated once at the nodes of panels in ln omega,
- * cut at its knots, and the integrals up to each edge are summed from below.
+/* Angular integrals in linear time. The law is evaluated once at the nodes of subintervals in ln
+ * omega, which end at its knots. The integrals up to each edge are summed from below.
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
@@ -13,16 +13,17 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Width of a panel in ln omega: the poles of a Maxwell element lie pi/2 beside it, and ten nodes
- * leave (0.35/2/pi)^20, 1e-25, of it; it is the kernel K that is steeper near w. */
+/* Width of a subinterval in ln omega. The poles of a Maxwell element have the distance pi/2 from
+ * the axis, and ten nodes leave (0.35/2/pi)^20, or 1e-25. Only the kernel K is steeper, near w. */
 static const double widest = 0.35;
-/* ln F changes by no more over one panel: of exp(1.2 x) ten nodes leave less than rounding. */
+/* Largest change of ln F over one subinterval: ten nodes integrate exp(1.2 x) to rounding. */
 static const double steepest = 1.2;
-/* The integrals begin so far below the range in ln omega, with a power law below: so much less than
- * the goal of what a constant modulus gives, which weighs with c, is left; less where the law is
- * one, for nothing is. */
+/* Distance in ln omega from the start of the integrals to the range. Below the start, a power law
+ * is assumed. The first value makes the contribution of a constant modulus, which is weighted with
+ * c, smaller than the goal. The second suffices where the law is a power law. */
 static const double deep = 8, shallow = 2.5;
-/* They begin at a whole multiple of it, so that similar ranges have the same panels. */
+/* The integrals begin at an integer multiple of this, so that similar ranges have the same
+ * subintervals. */
 static const double stride = 16;
 static const int power_of[2] = {2, 1};
 
@@ -44,14 +45,15 @@ static double largest_change(const double *a, const double *b)
 
 typedef struct edge_list {
     size_t n;
-    double *edge, *largest; /* NULL: they are counted alone */
+    double *edge, *largest; /* NULL to count the edges only */
 } edge_list;
 
-/* The last Legendre coefficients of a panel that the rule resolves, relative to its mean: what the
- * rule leaves, which is exact to twice their degree, is of the order of their square. */
+/* Limit of the last Legendre coefficients of a resolved subinterval, relative to its mean. The
+ * error of the rule is of the order of their square, because the rule is exact to twice their
+ * degree. */
 static const double resolved = 1e-7;
-/* Panels are cut into no more parts than so many times those that their steepness asks for: what is
- * no smoother at a 64th of the width is a jump. A bound of time and memory. */
+/* Limit of the subdivision, as a multiple of the number that the steepness requires. A function
+ * that is not smooth on a 64th of the width is a jump. It bounds time and memory. */
 static const size_t most_parts = 64;
 
 static bool is_small(const gauss_rule *rule, const double *f, const rule_top *top)
@@ -63,7 +65,7 @@ static bool is_small(const gauss_rule *rule, const double *f, const rule_top *to
            0.5 * resolved * sum;
 }
 
-/* Moduli of several laws can nearly cancel between two edges that show nothing of it. */
+/* The moduli of several laws can nearly cancel between two edges whose values do not show it. */
 static bool is_resolved(const wt_material *material, const gauss_rule *rule, double from, double to)
 {
     double omega[PANEL_NODES], storage[PANEL_NODES], loss[PANEL_NODES], square[PANEL_NODES];
@@ -77,7 +79,8 @@ static bool is_resolved(const wt_material *material, const gauss_rule *rule, dou
     return is_small(rule, loss, &of_loss) && is_small(rule, square, &of_square);
 }
 
-/* How many parts a panel needs: those that its steepness `by` asks for, or more. */
+/* Returns the number of parts of a subinterval: that required by its logarithmic change `by`, or
+ * more. */
 static size_t count_parts(const wt_material *material, const gauss_rule *rule, double from,
                           double to, double by)
 {
@@ -85,17 +88,17 @@ static size_t count_parts(const wt_material *material, const gauss_rule *rule, d
     const size_t least = steep > 1 ? (size_t)fmin(steep, 1e6) : 1;
     size_t n = least;
     if (material->law->power_below || material->law->angular != NULL)
-        return n; /* a power law between its knots; a closed form as smooth as a Maxwell element */
+        return n; /* power law between knots, or closed form as smooth as a Maxwell element */
     for (size_t i = 0; i < n && n < most_parts * least; i++)
         if (!is_resolved(material, rule, from + (to - from) * (double)i / (double)n,
                          from + (to - from) * (double)(i + 1) / (double)n)) {
             n *= 2;
-            i = (size_t)-1; /* once more from the first */
+            i = (size_t)-1; /* restart from the first part */
         }
     return n;
 }
 
-/* The n parts of a panel, up to an edge where the largest logarithm so far is given. */
+/* Adds the n parts of a subinterval. `largest` is the largest logarithm up to its upper edge. */
 static void add_edges(edge_list *list, double from, double to, size_t n, double largest)
 {
     for (size_t i = 1; i <= n; i++, list->n++)
@@ -113,7 +116,7 @@ static double larger_log(double largest, const double e[2])
     return largest;
 }
 
-/* From `first` to `last`, cut at whole multiples of `widest` and at the knots. */
+/* Places edges from `first` to `last`, at the integer multiples of the width and at the knots. */
 static void lay_edges(const wt_material *material, const gauss_rule *rule, double first,
                       double last, edge_list *list)
 {
@@ -146,7 +149,7 @@ static void lay_edges(const wt_material *material, const gauss_rule *rule, doubl
 
 /* ---- sums ------------------------------------------------------------------------------------ */
 
-/* F at the nodes of panel p. */
+/* Evaluates F at the nodes of subinterval p. */
 static void evaluate_panel(angular_panels *a, size_t p)
 {
     const double half = 0.5 * (a->edge[p + 1] - a->edge[p]);
@@ -162,7 +165,8 @@ static void evaluate_panel(angular_panels *a, size_t p)
     }
 }
 
-/* Below the first edge E' and E'' go on as the powers that they are there. */
+/* Starts the sums. Below the first edge, E' and E'' continue as the power laws that they are there.
+ */
 static void start_sums(angular_panels *a)
 {
     const double x = a->edge[0], step = 1;
@@ -173,7 +177,7 @@ static void start_sums(angular_panels *a)
         double *sum = a->below[f];
         for (size_t part = f == 0 ? 1 : 0; part < 2; part++) {
             const double times = f == 0 ? 1 : 2;
-            /* of a part that is all rounding it may be anything */
+            /* the slope of a component that is pure rounding is arbitrary */
             const double slope = fmax(times * (e[1][part] - e[0][part]) / step, -0.5);
             const double other = times * (e[2][part] - e[1][part]) / step;
             const double height = exp(times * e[0][part]);
@@ -186,8 +190,8 @@ static void start_sums(angular_panels *a)
     }
 }
 
-/* What the rounding of ln omega at nodes, edges and knots makes of one panel whose part is `sum`.
- */
+/* Error of one subinterval with the integral `sum` from the rounding of ln omega at nodes, edges
+ * and knots. */
 static double moved_part(const angular_panels *a, size_t f, size_t p, double sum)
 {
     const double *value = a->value[f] + p * PANEL_NODES, *weight = a->rule->weight;
@@ -229,13 +233,13 @@ static void sum_panels(angular_panels *a)
 
 /* ---- groups ---------------------------------------------------------------------------------- */
 
-/* A group is taken for w twice its width above it or further: the ellipse through w has half axes
- * that sum up to 9.9 of its half width, and 9.9^-16 is 1e-16. No wider one is ever that close below
- * w and above w / 2. */
+/* A group is used if w is at least twice its width above it. The ellipse through w then has half
+ * axes with the sum 9.9 times the half width, and 9.9^-16 is 1e-16. A wider group never lies that
+ * close below w and above w / 2. */
 static const double group_apart = 2, group_widest = 0.25;
 
-/* Spreads n numbers at frequencies over the nodes of a group that reaches from one edge to the
- * other: barycentric interpolation. */
+/* Distributes n values at given frequencies over the nodes of a group between two edges, by
+ * barycentric interpolation. */
 static void spread(const gauss_rule *rule, double from, double to, size_t n, const double *omega,
                    const double *value1, const double *value2, panel_group *group)
 {
@@ -258,7 +262,7 @@ static void spread(const gauss_rule *rule, double from, double to, size_t n, con
     }
 }
 
-/* One of level k, from its panels or from the two groups below it. */
+/* Fills a group of level k from its subintervals or from the two groups of the level below. */
 static void fill_group(const angular_panels *a, const gauss_rule *rule, size_t k, size_t i)
 {
     panel_group *group = &a->group[k][i];
@@ -277,8 +281,8 @@ static void fill_group(const angular_panels *a, const gauss_rule *rule, size_t k
     }
 }
 
-/* So that what one frequency costs grows with the logarithm of their number, where panels are so
- * narrow that many are close to it. */
+/* Groups make the cost of one frequency logarithmic in the number of narrow subintervals near it.
+ */
 static wt_status group_panels(angular_panels *a, wt_error *err)
 {
     const gauss_rule *rule;
@@ -299,7 +303,8 @@ static wt_status group_panels(angular_panels *a, wt_error *err)
     return status;
 }
 
-/* How many panels from p on a group stands for that is far enough below x; 0: none. */
+/* Returns the number of subintervals from p on in a group far enough below x; 0 if there is none.
+ */
 static size_t group_at(const angular_panels *a, size_t p, double x, const panel_group **group)
 {
     size_t size = 0;
@@ -370,7 +375,7 @@ void angular_panels_clear(angular_panels *panels)
 
 /* ---- one frequency --------------------------------------------------------------------------- */
 
-/* The last edge at or below x. */
+/* Returns the last edge at or below x. */
 static size_t edge_before(const angular_panels *a, double x)
 {
     size_t low = a->edge[a->n] <= x ? a->n : 0, high = a->n;
@@ -384,7 +389,7 @@ static size_t edge_before(const angular_panels *a, double x)
     return low;
 }
 
-/* Everything below an edge at c <= 1/2: sum_m b_m S_m c^(2m + s). */
+/* Adds the integral below an edge at c <= 1/2: sum_m b_m S_m c^(2m + s). */
 static void add_far(const angular_panels *a, size_t edge, double w, double *j1, double *j2)
 {
     const double c = a->edge_omega[edge] / w, square = c * c;
@@ -402,7 +407,7 @@ static void add_far(const angular_panels *a, size_t edge, double w, double *j1, 
     *j2 += sum2 * c;
 }
 
-/* sum_m of[m] c^(2m), c = edge / w, times 4 c^2. */
+/* Evaluates sum_m of[m] c^(2m), c = edge / w, times 4 c^2. */
 WIDE_REGISTERS
 static void far_series(const double *restrict of, size_t terms, double edge,
                        const double *restrict w, size_t n, double *restrict j1)
@@ -432,9 +437,9 @@ void angular_panels_far(const angular_panels *panels, const double *w, size_t n,
     far_series(of, terms, edge, w, n, j1);
 }
 
-enum { MIDDLE = 8 * PANEL_NODES }; /* nodes at a time: what a stack holds lightly */
+enum { MIDDLE = 8 * PANEL_NODES }; /* nodes of one batch, which fits on the stack */
 
-/* The n <= MIDDLE nodes of panels that are each as far below w as they are wide, or further. */
+/* Adds n <= NODE_BATCH nodes of subintervals whose distance below w is at least their width. */
 WIDE_REGISTERS
 static void add_middle(size_t n, const double *restrict omega, const double *restrict f1,
                        const double *restrict f2, double w, double *restrict j1,
@@ -475,7 +480,7 @@ static void add_nodes(const angular_panels *a, size_t n, const double *omega, co
         add_middle(n, omega, f1, f2, w, j1, j2);
 }
 
-/* From ln omega = `from` to `to` close below x = ln w, with ln omega = x - t^2. */
+/* Integrates from ln omega = `from` to `to` close below x = ln w, with ln omega = x - t^2. */
 static void add_near(const angular_panels *a, double x, double from, double to, double w,
                      double *j1, double *j2)
 {
@@ -532,7 +537,7 @@ void angular_panels_integrate(const angular_panels *panels, double w, double *j1
             for (const size_t end = p * PANEL_NODES; from < end; from += MIDDLE)
                 add_nodes(a, end - from < MIDDLE ? end - from : MIDDLE, a->omega + from,
                           a->value[0] + from, a->value[1] + from, w, j1, j2);
-            /* narrow ones may follow */
+            /* narrow subintervals may follow */
             for (; p < a->n && a->edge[p] < x && 2 * a->edge[p + 1] > x + a->edge[p]; p++)
                 add_near(a, x, a->edge[p], fmin(a->edge[p + 1], x), w, j1, j2);
         }
@@ -550,7 +555,7 @@ double angular_panels_error(const angular_panels *panels, double w, double j1, d
     logs_at(a->material, x, e);
     const double largest = larger_log(a->largest[edge_before(a, x)], e);
     const double start = a->edge_omega[0] / w, c = a->edge_omega[edge] / w;
-    const double kernel = 4 * c / sqrt((1 - c) * (1 + c)); /* at the edge, and less below it */
+    const double kernel = 4 * c / sqrt((1 - c) * (1 + c)); /* value at the edge; smaller below it */
     const double error1 = 4 * a->start_error[0] * start * start + kernel * c * a->moved[0][edge];
     const double error2 = 4 * a->start_error[1] * start + kernel * a->moved[1][edge];
     const double error = fmax(j1 > 0 ? error1 / j1 : 0, j2 > 0 ? error2 / j2 : 0) +

@@ -1,5 +1,5 @@
-/* Internal to the kernel room: the angular integrals of a law at any frequency, from panels over
- * which the law is evaluated once.
+/* Angular integrals of a law at any frequency, from subintervals on which the law is evaluated
+ * once. Internal to friction.
  *
  *   J1(w) = int_0^2pi cos(phi) E''(w cos phi) dphi,   J2(w) = int_0^2pi |E(w cos phi)|^2 dphi
  *
@@ -12,10 +12,10 @@
 #include "friction/numerics/angular_weight.h"
 #include "weartrack/model.h"
 
-enum { PANEL_NODES = 10 }; /* see `widest` in angular_panels.c */
+enum { PANEL_NODES = 10 }; /* see `max_width` in angular_panels.c */
 
-/* Many narrow panels as one: numbers at its own nodes, with which any kernel that is a polynomial
- * over the group is integrated as by all of them. */
+/* Group of many narrow subintervals. The values at its own nodes integrate any kernel that is a
+ * polynomial over the group exactly as all subintervals do. */
 enum { GROUP_NODES = 16, GROUP_LEAST = 8, GROUP_LEVELS = 20 };
 typedef struct panel_group {
     double omega[GROUP_NODES], value[2][GROUP_NODES];
@@ -26,33 +26,35 @@ typedef struct panel_group {
 typedef struct angular_panels {
     const wt_material *material;
     const gauss_rule *rule; /* of PANEL_NODES */
-    size_t terms;           /* of that sum where c <= 1/2 */
+    size_t terms;           /* number of terms of the sum for c <= 1/2 */
     size_t n;
     double *edge;          /* [n + 1] ln omega */
     double *edge_omega;    /* [n + 1] */
     double *omega;         /* [n * PANEL_NODES] */
     double *value[2];      /* [n * PANEL_NODES] F1 and F2 times weight and width */
     double *below[2];      /* [(n + 1) * terms] int_-inf^edge F (omega / edge)^(2m + s) */
-    double *largest;       /* [n + 1] |ln E'| and |ln E''| at the edges so far */
-    double start_error[2]; /* of `below` at the first edge, m = 0 */
-    double *moved[2];      /* [n + 1] error of `below`, m = 0, from the rounding of ln omega */
-    double *numbers;       /* all of them */
-    panel_group *group[GROUP_LEVELS]; /* of dense panels, GROUP_LEAST 2^k of them each */
-    const angular_weight *weight;     /* borrowed, set once they are made; NULL: 1 */
+    double *largest;       /* [n + 1] largest |ln E'| and |ln E''| up to each edge */
+    double start_error[2]; /* error of `below` at the first edge for m = 0 */
+    double *moved[2];      /* [n + 1] error of `below` for m = 0 from the rounding of ln omega */
+    double *numbers;       /* memory of these arrays */
+    panel_group *group[GROUP_LEVELS]; /* groups of dense subintervals; level k has GROUP_LEAST
+                                         2^k of them in each group */
+    const angular_weight *weight;     /* borrowed, set after creation; NULL for the weight 1 */
 } angular_panels;
 
-/* For w from `low` to `high` > 0 and relative errors of about `goal`. The rule is borrowed. */
+/* Creates subintervals for w from `low` to `high` > 0 with relative errors of about `goal`. The
+ * rule is borrowed. */
 wt_status angular_panels_new(const wt_material *material, const gauss_rule *rule, double low,
                              double high, double goal, angular_panels *panels,
                              wt_error *err) WT_NODISCARD;
 void angular_panels_clear(angular_panels *panels);
 
-/* J1 at n frequencies that are all twice `high` or more. */
+/* J1 at n frequencies >= 2 `high`. */
 void angular_panels_far(const angular_panels *panels, const double *w, size_t n, double *j1);
-/* J1 and J2 at w, from frequencies up to `high` alone. */
+/* J1 and J2 at w from frequencies up to `high` only. */
 void angular_panels_integrate(const angular_panels *panels, double w, double *j1, double *j2);
-/* Relative error of J1 and J2 at w, but for what rounding makes of steep moduli closer to w than a
- * panel: there J1 and J2 are steep themselves. */
+/* Relative error of J1 and J2 at w. It excludes the effect of rounding on steep moduli within one
+ * subinterval of w: J1 and J2 are steep themselves there. */
 double angular_panels_error(const angular_panels *panels, double w, double j1, double j2);
 
 #endif

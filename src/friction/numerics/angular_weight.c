@@ -1,5 +1,5 @@
-/* Anisotropic roughness: its check, and its weight in the angular integrals as polynomials in
- * cos^2 phi.
+/* Anisotropic roughness: its check, and its weight in the angular integrals as polynomials in cos^2
+ * phi.
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
@@ -24,14 +24,14 @@ bool anisotropy_is_any(const wt_anisotropy *a)
     return false;
 }
 
-/* Of cos(m phi) and of sin(m phi). */
+/* Amplitudes of cos(m phi) and of sin(m phi). */
 static void split_order(const wt_anisotropy *a, size_t k, double *even, double *odd)
 {
-    /* a whole number of turns off, so that grooves across and along are exact */
+    /* whole turns are removed, so that grooves across and along the sliding are exact */
     const double turn = remainder(order_of(k) * a->angle[k], 2 * M_PI);
     *even = a->amplitude[k] * cos(turn);
     *odd = a->amplitude[k] * sin(turn);
-    /* pi is rounded: what m chi = pi leaves is nothing */
+    /* pi is rounded: the residual of m chi = pi is set to 0 */
     if (fabs(*odd) <= 4 * DBL_EPSILON * (1 + fabs(order_of(k) * a->angle[k])) * fabs(*even))
         *odd = 0;
 }
@@ -55,8 +55,8 @@ double wt_anisotropy_density(const wt_anisotropy *anisotropy, double angle)
     return density;
 }
 
-/* Directions looked at: sixteen in a period of the highest order, between which it falls by no more
- * than 1 - cos(pi / 16), 2 %, of its amplitude. */
+/* Number of directions tested: sixteen in a period of the highest order. Between two of them the
+ * density changes by at most 1 - cos(pi / 16), 2 % of the amplitude. */
 enum { DIRECTIONS = 16 * WT_ANISOTROPY_ORDERS };
 
 wt_status wt_anisotropy_check(const wt_anisotropy *anisotropy, wt_error *err)
@@ -102,8 +102,8 @@ static double cosine_moment(double p)
     return 0.5 * sqrt(M_PI) * exp(lgamma(0.5 * (p + 1)) - lgamma(0.5 * p + 1));
 }
 
-/* The terms of the polynomial by their sum, for moduli that go with frequency as powers: |E|^2 from
- * constant to its steepest, E'' between. */
+/* Ratio of the sum of absolute terms of the polynomial to its value, for moduli that are powers of
+ * the frequency: |E|^2 from constant to its steepest, E'' in between. */
 static double caution_of(const double power[WEIGHT_POWERS])
 {
     double caution = 1;

@@ -1,12 +1,12 @@
-/* Internal to the kernel room: what roughness that is not the same in all directions makes of the
- * angular integrals. With phi from the velocity,
+/* Effect of anisotropic roughness on the angular integrals. Internal to friction. With phi from the
+ * velocity,
  *
  *   C(q, phi) = C(q) [1 + sum_m a_m cos m (phi - chi_m)],   m = 2, 4, ...
  *
- * J1 and J2 are weighed with W = 1 + sum_m a_m cos(m chi_m) cos(m phi); the force to the side comes
- * from K = int sin(phi) V(phi) E''(w cos phi) dphi, V = sum_m a_m sin(m chi_m) sin(m phi). Both are
- * polynomials in cos^2 phi, V sin(phi) with a factor cos(phi) before it. Carbone, Lorenz, Persson
- * and Wohlers, Eur. Phys. J. E 29 (2009) 275.
+ * J1 and J2 have the weight W = 1 + sum_m a_m cos(m chi_m) cos(m phi). The lateral force follows
+ * from K = int sin(phi) V(phi) E''(w cos phi) dphi, V = sum_m a_m sin(m chi_m) sin(m phi). Both
+ * weights are polynomials in cos^2 phi; V sin(phi) has an additional factor cos(phi). Carbone,
+ * Lorenz, Persson and Wohlers, Eur. Phys. J. E 29 (2009) 275.
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
@@ -15,26 +15,27 @@
 
 #include "weartrack/kernel.h"
 
-/* Powers of cos^2 phi; those of the sum far below w, whose most is what 4^-m leaves of 1e-16. */
+/* Number of powers of cos^2 phi, and of terms of the series far below w: 4^-m falls to 1e-16 within
+ * it. */
 enum { WEIGHT_POWERS = WT_ANISOTROPY_ORDERS + 1, WEIGHT_FAR = 32 };
 
-/* Of J1 and of J2. */
+/* Weights of J1 and of J2. */
 typedef struct angular_weight {
-    double power[2][WEIGHT_POWERS]; /* of cos^2k phi */
-    double far[2][WEIGHT_FAR];      /* of c^2m in the weight over sqrt(1 - c^2) */
-    double caution; /* how much larger relative errors can be than those without a weight */
+    double power[2][WEIGHT_POWERS]; /* coefficients of cos^2k phi */
+    double far[2][WEIGHT_FAR];      /* coefficients of c^2m in the weight over sqrt(1 - c^2) */
+    double caution; /* factor by which relative errors can exceed those without a weight */
 } angular_weight;
 
-/* Whether there is a preferred direction, and whether there is a force to the side. */
+/* True if there is a preferred direction, and true if there is a lateral force. */
 bool anisotropy_is_any(const wt_anisotropy *a);
 bool anisotropy_is_aside(const wt_anisotropy *a);
-/* That of J1 and J2. */
+/* Weight of J1 and J2. */
 angular_weight weight_along(const wt_anisotropy *a);
-/* That which makes `shift` J1 + K of J1: it has no zero, as K has. */
+/* Weight that changes J1 to `shift` J1 + K, which has no zero, unlike K. */
 angular_weight weight_aside(const wt_anisotropy *a, double *shift);
 
 double weight_at(const double power[WEIGHT_POWERS], double square);
-/* As the sums without a weight, which stand beside it in angular_panels.c. */
+/* Weighted variants of the sums in angular_panels.c. */
 void weight_far(const angular_weight *w, const double *s1, const double *s2, size_t terms,
                 double square, double *sum1, double *sum2);
 void weight_middle(const angular_weight *w, size_t n, const double *omega, const double *f1,

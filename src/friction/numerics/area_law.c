@@ -13,15 +13,15 @@
 #include <pthread.h>
 #include <stdlib.h>
 
-/* r = ln(G / G0) as Chebyshev series on pieces of x = ln G0. P has its next singular points at
- * i pi/2 beside a real x, 4 of a piece away, and 7.8^-16 is 5e-15. The pieces end at G0 = 1e12:
- * what the line in ln G0 that follows neglects is 1/G0^2 of G. */
+/* r = ln(G / G0) as Chebyshev series on segments of x = ln G0. The nearest singular points of P are
+ * at i pi/2 from a real x, 4 segments away, and 7.8^-16 is 5e-15. The segments end at G0 = 1e12,
+ * where the following line in ln G0 neglects 1/G0^2 of G. */
 enum { DEGREE = 16, PIECES = 42 };
 static const double piece_width = 0.8;
 
 struct area_law {
     wt_area_law kind;
-    double offset; /* of the line beyond the pieces */
+    double offset; /* offset of the line beyond the segments */
     double coefficient[PIECES][DEGREE + 1];
 };
 
@@ -45,9 +45,9 @@ static double first_x(void)
     return log(CONTACT_FULL);
 }
 
-/* ---- making ---------------------------------------------------------------------------------- */
+/* ---- construction ---------------------------------------------------------------------------- */
 
-/* int dG / S. */
+/* Integral of dG / S. */
 static double rise_between(wt_area_law kind, double from, double to)
 {
     const double middle = 0.5 * (from + to), half = 0.5 * (to - from);
@@ -60,10 +60,10 @@ static double rise_between(wt_area_law kind, double from, double to)
     return half * sum;
 }
 
-/* Newton steps double the digits; from a guess good to a tenth four do. */
+/* Newton steps double the number of digits: four suffice from an estimate with 10 % error. */
 enum { STEPS = 6 };
 
-/* From (G0, G) to G at another G0 not far from it. */
+/* Returns G at G0 = `to` from the pair (G0, G) at a nearby G0. */
 static double march(wt_area_law kind, double from, double variance, double to)
 {
     double g = variance + (to - from) * factor_at(kind, contact_area(variance));
@@ -72,7 +72,7 @@ static double march(wt_area_law kind, double from, double variance, double to)
     return g;
 }
 
-/* The root of G = S(P(G)) G0, which is the only one: the right side falls with G. */
+/* Returns the root of G = S(P(G)) G0. It is unique because the right side falls with G. */
 static double solve_closed(wt_area_law kind, double variance)
 {
     double g = factor_at(kind, contact_area(variance)) * variance;
@@ -111,7 +111,7 @@ static area_law *make_law(wt_area_law kind)
     double from = CONTACT_FULL, g = CONTACT_FULL;
     for (size_t p = 0; p < PIECES; p++) {
         double value[DEGREE + 1];
-        for (size_t k = DEGREE + 1; k-- > 0;) { /* rising */
+        for (size_t k = DEGREE + 1; k-- > 0;) { /* in rising order */
             const double to = exp(at_node(p, k));
             g = kind == WT_AREA_XU24 ? solve_closed(kind, to) : march(kind, from, g, to);
             from = to;
@@ -141,7 +141,7 @@ wt_status area_law_of(wt_area_law kind, const area_law **law, wt_error *err)
 
 /* ---- use ------------------------------------------------------------------------------------- */
 
-/* Beyond the pieces. */
+/* Asymptotic G beyond the segments. */
 static double far_variance(const area_law *law, double variance)
 {
     const wt_area_law kind = law->kind;
@@ -162,7 +162,7 @@ double area_law_variance(const area_law *law, double variance)
     const size_t piece = (size_t)place;
     const double *c = law->coefficient[piece], z = 2 * (place - (double)piece) - 1;
     double next = 0, here = 0;
-    for (size_t j = DEGREE; j > 0; j--) { /* Clenshaw */
+    for (size_t j = DEGREE; j > 0; j--) { /* Clenshaw recurrence */
         const double before = 2 * z * here - next + c[j];
         next = here;
         here = before;

@@ -1,5 +1,4 @@
-/* The temperatures that make themselves: solved for by Anderson mixing on a coarse grid and then on
- * a fine one.
+/* Self-consistent temperatures: Anderson mixing on a coarse grid, then on a fine one.
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
@@ -14,37 +13,40 @@
 #include <math.h>
 #include <string.h>
 
-/* Steps of the mixing that are remembered, and how much of what is left is taken: all of it is
- * fastest, but plain steps diverge where heat lowers friction so steeply that the map turns over,
- * and mixed ones may wander there. */
+/* Number of stored steps of the mixing, and the share of the residual that a step takes. The full
+ * residual is fastest. Plain steps diverge where heat lowers friction so steeply that the map
+ * changes its order, and mixed steps may wander there. */
 enum { DEPTH = 5 };
 static const double damping = 0.5;
-/* From afar the first steps are plain ones, so short that they converge where the map turns over by
- * up to 7 times. */
+/* Far from a solution the first steps are plain steps with stronger damping. They converge up to a
+ * map slope of -7. */
 enum { CAREFUL_MAPS = 12 };
 static const double careful_damping = 0.25;
-/* A mild solution is found by the first number of maps, and one that is there by the second. */
+/* A smooth solution needs at most the first number of maps; an existing one is found within the
+ * second. */
 enum { FREE_MAPS = 15, MOST_MAPS = 60 };
-/* A coarse solution is good to about so much of the largest rise. */
+/* Error of a coarse solution relative to the largest rise. */
 static const double coarse_enough = 1e-5;
-/* Of the tolerance, what a residual may make of ln a_T. */
+/* Share of the tolerance that a residual may have in ln a_T. */
 static const double goal_share = 0.05;
-/* Waves in whole registers. */
+/* Number of waves in a batch, for whole registers. */
 enum { WAVES_AT_ONCE = 32 };
-/* Differences that are rounding tell nothing. */
+/* Differences below this are rounding and carry no information. */
 static const double least_pivot = 1e-10;
 
 struct flash_scratch {
-    double *rise, *next, *residual;         /* [nodes] above T0, */
-    double *last_rise, *last_residual;      /* and those before */
-    double *steps, *changes;                /* [DEPTH * nodes] of both */
+    double *rise, *next, *residual;         /* [nodes] rise above T0, its map and the residual */
+    double *last_rise, *last_residual;      /* values of the previous step */
+    double *steps, *changes;                /* [DEPTH * nodes] differences of the rise and of the
+                                               residual */
     double *shift, *omega, *x, *j1, *j2;    /* [nodes] */
-    double *further;                        /* likewise, of a layer; NULL: as the bulk */
-    double *loss_j1, *loss_j2;              /* likewise, with a softening */
-    double *g, *running, *area, *mu, *heat; /* likewise */
+    double *further;                        /* [nodes] ln of the extra shift of a layer; NULL if
+                                               it is shifted as the bulk */
+    double *loss_j1, *loss_j2;              /* [nodes] with softening */
+    double *g, *running, *area, *mu, *heat; /* [nodes] */
     double *wave, *square, *sum;            /* [waves] */
-    double *amount[2];                      /* [waves] of two solutions */
-    double *coarse;                         /* [nodes] a solution there */
+    double *amount[2];                      /* [waves] of each of two solutions */
+    double *coarse;                         /* [nodes] solution on the coarse grid */
     size_t nodes;
 };
 
@@ -88,8 +90,7 @@ size_t flash_nodes(flash_scratch *scratch)
     return nodes;
 }
 
-/* ---- the map from temperatures to those that they make ----------------------------------------
- */
+/* ---- the temperature map --------------------------------------------------------------------- */
 
 typedef struct flash_map {
     const wt_friction_workspace *ws;
@@ -97,13 +98,13 @@ typedef struct flash_map {
     flash_scratch *s;
     const flash_grid *grid;
     friction_load at;
-    double part;     /* of the heat */
-    double longest;  /* what the waves beyond the lattice have together */
-    double constant; /* their rise */
+    double part;     /* share of the heat */
+    double longest;  /* sum of the waves beyond the lattice */
+    double constant; /* rise due to these waves */
     double *amount;
 } flash_map;
 
-/* sum[i] += factor[r] rows[r][i]; a multiple of FLASH_ROWS of them. */
+/* sum[i] += factor[r] rows[r][i]; the number of rows is a multiple of FLASH_ROWS. */
 WIDE_REGISTERS
 static void add_rows(const double *restrict rows, size_t stride, size_t n_rows, size_t n,
                      const double *restrict factor, double *restrict sum)
@@ -116,7 +117,7 @@ static void add_rows(const double *restrict rows, size_t stride, size_t n_rows, 
     }
 }
 
-/* Of the waves from the `first` on: dk m(k) / pi. */
+/* Weights dk m(k) / pi of the waves from the `first` on. */
 static void fill_waves(const flash_map *map, double tau, size_t first, size_t n, double *wave)
 {
     double exponent[WAVES_AT_ONCE];
@@ -136,7 +137,7 @@ static void fill_waves(const flash_map *map, double tau, size_t first, size_t n,
     }
 }
 
-/* Of those beyond the lattice, down to where they count no more. */
+/* Sum of the waves beyond the lattice, down to where they are negligible. */
 static double sum_longest(const flash_map *map, double tau)
 {
     const flash_grid *grid = map->grid;
@@ -170,7 +171,7 @@ static flash_map map_on(const wt_friction_workspace *ws, flash_scratch *s, size_
     return map;
 }
 
-/* J1 and J2 of the moduli at these temperatures. */
+/* J1 and J2 at the current temperatures. */
 static void find_moduli(const flash_map *map)
 {
     flash_scratch *s = map->s;
@@ -185,7 +186,7 @@ static void find_moduli(const flash_map *map)
     }
     if (s->further != NULL)
         flash_log_layer(map->law, s->rise, grid->n, s->further);
-    double own_error = 0; /* that of the pass at these temperatures says so */
+    double own_error = 0; /* the pass at these temperatures reports this error */
     friction_moduli(ws, grid->q, s->omega, s->x, s->further, grid->n, s->j1, s->j2, s->loss_j1,
                     s->loss_j2, &own_error);
     s->nodes += grid->n;
@@ -198,7 +199,7 @@ static void find_moduli(const flash_map *map)
     }
 }
 
-/* P, the parts of mu without the weights, and the heat. */
+/* Computes P, the contributions to mu without weights, and the heat. */
 static void find_heat(const flash_map *map)
 {
     flash_scratch *s = map->s;
@@ -232,7 +233,7 @@ static void find_heat(const flash_map *map)
     }
 }
 
-/* From `rise` to `next`. */
+/* Applies the map from `rise` to `next`. */
 static void make_next(flash_map *map)
 {
     flash_scratch *s = map->s;
@@ -256,8 +257,7 @@ static void make_next(flash_map *map)
         s->next[i] = fmin(s->next[i], map->law->hottest);
 }
 
-/* ---- Anderson mixing --------------------------------------------------------------------------
- */
+/* ---- Anderson mixing ------------------------------------------------------------------------- */
 
 static double largest(const double *x, size_t n)
 {
@@ -283,7 +283,8 @@ static double dot(const double *a, const double *b, size_t n)
     return rest;
 }
 
-/* The next temperatures: what the last steps did to what was left tells how to leave nothing. */
+/* Computes the next temperatures: the combination of the last steps that minimises the residual
+ * (Anderson mixing). */
 static void mix(const flash_map *map, size_t n_steps, double taken)
 {
     flash_scratch *s = map->s;
@@ -308,16 +309,16 @@ static void mix(const flash_map *map, size_t n_steps, double taken)
     }
 }
 
-/* What a search ended with. */
+/* Result of a search. */
 typedef struct search {
     bool found;
     double residual; /* [K] */
-    double gain;     /* how much further off than its residual a temperature was */
+    double gain;     /* ratio of the temperature error to the residual */
     size_t maps;
 } search;
 
-/* From `rise` to where what is left is below the goal [K], or below that part of the rise; the
- * first `careful` steps are. */
+/* Iterates from `rise` until the residual is below the goal [K] or below the share `part` of the
+ * rise. The first `n_damped` steps use the strong damping. */
 static search find_fixed(flash_map *map, double goal, double part, size_t careful)
 {
     flash_scratch *s = map->s;
@@ -356,15 +357,15 @@ static search find_fixed(flash_map *map, double goal, double part, size_t carefu
 
 /* ---- a solution ------------------------------------------------------------------------------ */
 
-/* What the lattice leaves of the rise: a tenth of what bounds a trapezoidal rule of what is regular
- * for |arg k| below pi/4, and the waves below and above it. */
+/* Error of the rise from the lattice: a tenth of the bound of a trapezoidal rule whose integrand is
+ * regular for |arg k| below pi/4, plus the waves below and above the lattice. */
 static double lattice_off(const flash_grid *grid, double rise)
 {
     return rise * (0.1 * exp(-0.5 * M_PI * M_PI / grid->step) + 2 * exp(-grid->below));
 }
 
-/* What the rules leave of the rise at q1 where the heat has a kink that mu and G do not show:
- * errors of the heat of each panel, handed on as heat in its middle is. */
+/* Error of the rise at q1 from the rules, where the heat has a kink that mu and G do not show. The
+ * error of each subinterval is propagated as heat in its middle. */
 static double kink_off(const flash_map *map)
 {
     flash_scratch *s = map->s;
@@ -414,7 +415,7 @@ static double goal_of(const flash_law *law)
     return goal_share * fmax(law->tolerance, 1e-13) / steepest_shift(law, 0);
 }
 
-/* On the fine grid, from a solution on the coarse one. */
+/* Solves on the fine grid, starting from a solution on the coarse grid. */
 static flash_solution refine(const wt_friction_workspace *ws, flash_scratch *s,
                              const friction_load *at, double *amount)
 {
@@ -454,7 +455,7 @@ static void begin_at(flash_scratch *s, const flash_grid *grid, double rise)
         s->rise[i] = rise;
 }
 
-/* The heat is turned on in these steps where it is too much at once. */
+/* If the full heat is too large for one search, it is increased in these steps. */
 static const double first_part = 1.0 / 64, part_ratio = 2;
 
 static search search_cold(flash_map *map)
@@ -473,14 +474,15 @@ static search search_cold(flash_map *map)
     return found;
 }
 
-/* Uniform rises [K] from which a hot contact is looked for: one is there if the rubber makes more
- * heat than cold rubber does and enough to stay so hot. Rubber that is no glass any more makes ever
- * less. */
+/* Uniform rises [K] at which the search for a hot contact begins. A hot solution exists if warm
+ * rubber produces more heat than cold rubber, and enough to stay hot. The heat falls monotonically
+ * above the glass transition. */
 static const double probes[] = {20, 60, 160};
-/* Halvings of the ratio between two of them: the start is then good to a tenth. */
+/* Halvings of the logarithmic bracket between two of these rises; the start value then has 10 %
+ * error. */
 enum { HALVINGS = 3 };
 
-/* The rise that the heat of a uniform one makes, averaged over the heat. */
+/* Rise due to the heat at a uniform rise, averaged over the heat. */
 static double mean_rise(flash_map *map, double rise)
 {
     flash_scratch *s = map->s;
@@ -495,7 +497,8 @@ static double mean_rise(flash_map *map, double rise)
     return weight > 0 ? sum / weight : 0;
 }
 
-/* From a uniform rise between one that makes itself hotter, `low`, and one that does not. */
+/* Searches from a uniform rise between `low`, which heats itself further, and `high`, which does
+ * not. */
 static search search_between(flash_map *map, double low, double high)
 {
     search found = {0};
@@ -512,12 +515,12 @@ static search search_between(flash_map *map, double low, double high)
     return found;
 }
 
-/* The hottest that is found from above; not found: `next` is undefined. */
+/* Finds the hottest solution from above; `next` is undefined if there is none. */
 static search search_hot(flash_map *map)
 {
     const double cold = mean_rise(map, 0);
     double low = 0, high = map->law->hottest;
-    /* what cools by 20 K and by 60 K does not heat by 160 K */
+    /* a contact that cools at 20 K and at 60 K does not heat up at 160 K */
     for (size_t k = 0; k < COUNT_OF(probes) && probes[k] < map->law->hottest; k++) {
         const double made = mean_rise(map, probes[k]);
         if (made > cold && made >= probes[k]) {
@@ -547,8 +550,8 @@ flash_solution flash_solve(const wt_friction_workspace *ws, flash_scratch *s,
     return solution;
 }
 
-/* Two temperatures that differ by no more are one: it is ten times what a coarse solution is off by
- * at 40 K. [K] */
+/* Two solutions that differ by less are equal [K]: ten times the error of a coarse solution at 40
+ * K. */
 static const double same = 0.01;
 
 flash_solution flash_solve_hot(const wt_friction_workspace *ws, flash_scratch *s,

@@ -1,4 +1,4 @@
-/* What a flash temperature is prepared with once: nodes, lattices and the factors of its kernel.
+/* Preparation of a flash temperature: nodes, lattices and the factors of its kernel.
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
@@ -11,8 +11,7 @@
 
 #include <math.h>
 
-/* For tolerances down to the one that stands with them: nodes of a panel, and the step of the
- * lattice. */
+/* Nodes of a subinterval and steps of the lattice, for tolerances down to the one in the row. */
 static const struct {
     double tolerance;
     size_t nodes[FLASH_GRIDS];
@@ -23,21 +22,21 @@ static const struct {
                {1e-11, {6, 12}, {0.4, 0.18}},
                {0, {8, 18}, {0.3, 0.14}}};
 
-/* Below it rounding is what is left. */
+/* Below this tolerance, rounding dominates. */
 static const double least_tolerance = 1e-13;
-/* Cells towards q0. What a core leaves out of the heat is of the order of its length. */
+/* Cells towards q0. The heat that a core neglects is of the order of its length. */
 static const double core_share = 0.1;
 enum { LEVELS_LEAST = 3, LEVELS_MOST = 12 };
 
-/* Rubber is destroyed above [K]: what would get hotter has no answer. */
+/* Rubber is destroyed above this temperature [K]; a hotter solution is not valid. */
 static const double hottest = 573.15;
 
-/* ln(a_T / a_T0) of a law, ln a_T0 being `log_a`. */
+/* ln(a_T / a_T0) of a law, where `log_a` is ln a_T0. */
 static void log_shift_of(const wt_shift_law *shift, double temperature, double log_a,
                          const double *rise, size_t n, double *log_shift)
 {
     const wt_wlf *wlf = &shift->wlf;
-    /* of T0 as the reference, so that small rises keep their digits */
+    /* relative to T0, so that small rises keep their digits */
     const double c2 = wlf->c2 + temperature - wlf->reference_temperature;
     const double c1 = M_LN10 * wlf->c1 * wlf->c2 / c2;
     if (shift->kind == WT_LAW_WLF)
@@ -167,7 +166,8 @@ static wt_status place_grid(const wt_friction_workspace *ws, flash_grid *grid,
 
 /* ---- lattices -------------------------------------------------------------------------------- */
 
-/* k at which a factor 4 q / (k^2 + 4 q^2) differs by `digits` from that of 0, for any q. */
+/* The lattice ends at the k where the factor 4 q / (k^2 + 4 q^2) of any q differs by exp(-digits)
+ * from that of k = 0. */
 static wt_status make_lattice(const flash_law *law, flash_grid *grid, double digits, arena *memory,
                               wt_error *err)
 {
@@ -192,10 +192,9 @@ static wt_status make_lattice(const flash_law *law, flash_grid *grid, double dig
     return WT_OK;
 }
 
-/* ---- both grids -------------------------------------------------------------------------------
- */
+/* ---- both grids ------------------------------------------------------------------------------ */
 
-/* Values of the polynomial through the nodes of one rule at those of another. */
+/* Matrix of the polynomial interpolation from the nodes of one rule to those of another. */
 static void fill_refine(const gauss_rule *from, const gauss_rule *to, double *matrix)
 {
     for (size_t i = 0; i < to->n; i++)
@@ -232,7 +231,8 @@ static wt_status place_grids(wt_friction_workspace *ws, flash_law *law, wt_error
         flash_grid *grid = &law->grid[k];
         const double digits = -log(fmax(law->tolerance, least_tolerance));
         grid->step = ladders[ladder].step[k];
-        grid->below = digits + 3; /* what is left out falls like k, and above like k^-5 */
+        grid->below = digits + 3; /* the neglected part falls as k below the lattice and as k^-5
+                                     above it */
         grid->first = log(ws->roughness->q1) + grid->below / 5;
         status = rule_of(ladders[ladder].nodes[k], &grid->rule, err);
         if (status == WT_OK)

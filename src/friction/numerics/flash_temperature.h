@@ -1,12 +1,13 @@
-/* Internal to the kernel room: flash temperature over the length scales of the roughness.
+/* Flash temperature over the length scales of the roughness. Internal to friction.
  *
  *   T(q) = T0 + int g(q, q') f(q') dq'
  *   f(q) = v / (rho c) q^4 C S r(q) J1(q v a_T(T(q))),    r = P(q) / P_m
  *   g = 1/pi int_0^inf dk m(k) 4q'/(k^2 + 4q'^2) 4q^2/(k^2 + 4q^2),
  *   m = (1 - exp(-D k^2 R/v)) / (D k^2)
  *
- * Persson, J. Phys.: Condens. Matter 18 (2006) 7789. The integral over k is kept: a trapezoidal
- * rule in ln k converges exponentially, and what it sums separates into factors of q and of q'.
+ * Persson, J. Phys.: Condens. Matter 18 (2006) 7789. The integral over k is evaluated numerically:
+ * a trapezoidal rule in ln k converges exponentially, and its terms separate into factors of q and
+ * of q'.
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
@@ -23,87 +24,91 @@ typedef struct heat_profile {
     const double *square; /* k^2 */
     double *amount;       /* [n] */
     size_t n;
-    double constant; /* of waves so long that they see no difference between the scales */
+    double constant; /* rise due to waves much longer than all length scales [K] */
 } heat_profile;
 
-/* Above T0, at n wavenumbers, and ln(a_T / a_T0) there. */
+/* Rise above T0 at n wavenumbers [K], and ln(a_T / a_T0) there. */
 void heat_rise(const heat_profile *heat, const double *q, size_t n, double *rise);
 void heat_log_shift(const heat_profile *heat, const double *q, size_t n, double *log_shift);
-/* The same of flash_log_layer. */
+/* Variant of flash_log_layer at the temperatures of the profile. */
 void heat_log_layer(const heat_profile *heat, const double *q, size_t n, double *log_further);
 
-/* Two grids: on the coarse one a solution is looked for, on the fine one it is found. */
+/* Two grids: a solution is searched for on the coarse one and refined on the fine one. */
 enum { FLASH_COARSE, FLASH_FINE, FLASH_GRIDS };
-/* So many rows of a matrix are added up at a time. */
+/* Number of matrix rows that are summed at a time. */
 enum { FLASH_ROWS = 4 };
 static inline size_t flash_whole_rows(size_t n)
 {
     return (n + FLASH_ROWS - 1) / FLASH_ROWS * FLASH_ROWS;
 }
 
-/* Gauss nodes on panels of ln q, and a lattice of ln k. Beyond its end both factors of the kernel
- * are those of k = 0, so that the waves there are one number of each velocity. */
+/* Gauss nodes on subintervals of ln q, and a lattice of ln k. Beyond the end of the lattice both
+ * factors of the kernel equal those of k = 0, so that these waves contribute one number for each
+ * velocity. */
 typedef struct flash_grid {
     const gauss_rule *rule;
-    size_t n, n_panels;         /* n nodes in all */
-    double *q, *log_q, *weight; /* the weights of the rule, over and over */
-    /* as in scale_grid, times the half width; f and g NULL without a softening */
+    size_t n, n_panels;         /* n is the total number of nodes */
+    double *q, *log_q, *weight; /* weight repeats the weights of the rule */
+    /* as in scale_grid, times the half width; f and g are NULL without softening */
     double *factor1, *factor2, *f, *g;
-    double step, below; /* of ln k; how far below 1/tau^(1/2) or q0 it counts */
+    double step, below; /* step of ln k; extension of the lattice below 1/tau^(1/2) or q0 */
     double first;       /* the largest ln k */
-    size_t n_k;     /* a multiple of FLASH_ROWS, as the rows of `in` are, of which the last are 0 */
-    double *square; /* [n_k] k^2, falling */
-    double *in, *out; /* 4 q / (k^2 + 4 q^2) by node and k; by k and node, times q */
+    size_t n_k;         /* a multiple of FLASH_ROWS; `in` has a multiple of rows, too, of which the
+                           last are 0 */
+    double *square;     /* [n_k] k^2, falling */
+    double *in, *out;   /* 4 q / (k^2 + 4 q^2) by node and k; the same times q, by k and node */
 } flash_grid;
 
 typedef struct flash_law {
     wt_flash options;
     wt_shift_law shift;
     double temperature, log_a; /* T0 and ln a_T there */
-    wt_shift_law layer_shift;  /* of a layer's own material; none: it is shifted as the bulk */
-    double layer_log_a;        /* ln a_T of that at T0 */
-    double hottest;            /* above T0 [K] */
+    wt_shift_law layer_shift;  /* shift law of a layer's own material; none if it is shifted as
+                                  the bulk */
+    double layer_log_a;        /* ln a_T of the layer at T0 */
+    double hottest;            /* largest rise above T0 [K] */
     double tolerance;
     double q0;
     flash_grid grid[FLASH_GRIDS];
-    double *refine; /* [nodes of a fine panel * of a coarse one] values at the fine nodes */
+    double *refine; /* [nodes of a fine subinterval * of a coarse one] interpolation matrix */
 } flash_law;
 
 typedef struct flash_scratch flash_scratch;
 struct wt_friction_workspace;
 struct friction_load;
 
-/* ln(a_T / a_T0) at n rises; NaN where the law has none. */
+/* ln(a_T / a_T0) at n rises; NaN where the law has no value. */
 void flash_log_shift(const flash_law *law, const double *rise, size_t n, double *log_shift);
-/* Whether a layer's own material is shifted by another law, and ln of how much further than the
- * bulk at n rises. */
+/* True if a layer's own material has another shift law. The second function computes ln of its
+ * shift relative to the bulk at n rises. */
 bool flash_has_layer(const flash_law *law);
 void flash_log_layer(const flash_law *law, const double *rise, size_t n, double *log_further);
-/* Of the workspace, whose material, roughness and tolerance are known. */
+/* Creates the law of a workspace whose material, roughness and tolerance are set. */
 wt_status flash_new(struct wt_friction_workspace *ws, wt_error *err) WT_NODISCARD;
 
-/* NULL or a failed pool when out of memory. */
+/* Returns NULL, or leaves a failed arena, if out of memory. */
 flash_scratch *flash_scratch_new(const struct wt_friction_workspace *ws, arena *memory);
 
-/* A solution. */
+/* Self-consistent temperature of one load. */
 typedef struct flash_solution {
     bool found;
-    double rise;                 /* at q1 [K] */
-    double gain;                 /* an error of the heat makes so many times as much of T */
-    double off;                  /* [K] what T may be wrong by but for the rules */
-    double variance, hysteresis; /* by the nodes here: better ones tell how good they are */
-    double steepest;             /* |d ln a_T / dT|, the largest */
-    size_t maps;                 /* of temperatures to those that they make */
+    double rise;                 /* rise at q1 [K] */
+    double gain;                 /* factor from an error of the heat to that of T */
+    double off;                  /* error of T without that of the rules [K] */
+    double variance, hysteresis; /* from the nodes of this grid; the comparison with a pass gives
+                                    the error of the rules */
+    double steepest;             /* largest |d ln a_T / dT| [1/K] */
+    size_t maps;                 /* number of evaluations of the map */
     heat_profile heat;
 } flash_solution;
 
-/* From the temperature of the surroundings, and (hot) from far above it; a hot one that is the same
- * as a cold one is not found. */
+/* Solutions from the temperature of the surroundings and from far above it. A hot solution that
+ * equals the cold one counts as not found. */
 flash_solution flash_solve(const struct wt_friction_workspace *ws, flash_scratch *scratch,
                            const struct friction_load *at);
 flash_solution flash_solve_hot(const struct wt_friction_workspace *ws, flash_scratch *scratch,
                                const struct friction_load *at, const flash_solution *cold);
-/* J1 and J2 were evaluated at so many nodes since the last call. */
+/* Returns the number of nodes at which J1 and J2 were evaluated, and resets the count. */
 size_t flash_nodes(flash_scratch *scratch);
 
 #endif

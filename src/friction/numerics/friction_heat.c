@@ -1,4 +1,4 @@
-/* Friction at the temperatures that it makes itself.
+/* Friction at self-consistent flash temperatures.
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
@@ -10,8 +10,8 @@
 
 #include <math.h>
 
-/* The rules of a pass adapt, those of the temperatures do not: by how much both differ tells how
- * good the heat is. Parts of the difference may cancel. */
+/* The rules of a pass adapt, those of the temperatures do not; their difference measures the error
+ * of the heat. The factor allows for cancellation in the difference. */
 static const double of_difference = 3;
 
 double friction_heat_off(const flash_solution *solution, const friction_pass *pass)
@@ -37,7 +37,7 @@ void friction_shift_nodes(const flash_solution *solution, const double *q, size_
         heat_log_layer(&solution->heat, q, n, further);
 }
 
-/* No number of a load without a solution is known. */
+/* Sets all results of a load without a solution to NaN. */
 static void unsettled_point(wt_friction_point *point)
 {
     const wt_estimate unknown = {(double)NAN, (double)NAN, (double)NAN, "1"};
@@ -114,7 +114,8 @@ static double beyond_knot(double t, void *user)
     return t + shift - c->knot;
 }
 
-/* Where it is crossed; one that is not is left outside. */
+/* Moves each knot to the scale where the shifted frequency crosses it. A knot without a crossing is
+ * left outside the range. */
 void friction_move_knots(const wt_friction_workspace *ws, const heat_profile *heat, double *knots)
 {
     const wt_roughness *r = ws->roughness;

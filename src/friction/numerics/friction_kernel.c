@@ -1,4 +1,4 @@
-/* Friction: preparation once per material and roughness, then G, P and mu at many velocities.
+/* Friction: one preparation for a material and a roughness, then G, P and mu at many velocities.
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
@@ -12,17 +12,18 @@
 #include <math.h>
 #include <stdlib.h>
 
-/* For tolerances down to the one that stands with them: the rule for all panels, and its check. One
- * too small for all is taken again for most: 100 velocities of 12 terms take 0.34 ms at 1e-10 with
- * 12 and 17 nodes, 0.29 with these. */
+/* Rule for all subintervals and rule of the check, for tolerances down to the one in the row. If
+ * the first rule is too coarse for most subintervals, they are evaluated twice. 100 velocities of
+ * 12 terms at 1e-10 take 0.34 ms with 12 and 17 nodes, and 0.29 ms with these. */
 static const struct {
     double tolerance;
     size_t nodes[FRICTION_RULES];
 } ladders[] = {{1e-5, {8, 12}}, {3e-9, {12, 17}}, {0, {15, 20}}};
-/* Of what is as smooth as a closed form: half of the width puts its poles at 1.96. */
+/* Width for an integrand as smooth as a closed form: its poles have the distance 1.96 half widths.
+ */
 static const double smooth_width = 1.6;
 
-/* Typical of filled rubber on asphalt: Persson, J. Phys.: Condens. Matter 18 (2006) 7789. */
+/* Typical values of filled rubber on asphalt: Persson, J. Phys.: Condens. Matter 18 (2006) 7789. */
 wt_flash wt_flash_defaults(void)
 {
     return (wt_flash){
@@ -52,8 +53,8 @@ static wt_status no_memory(wt_error *err)
     return wt_fail(err, WT_E_MEMORY, "out of memory for the friction integral");
 }
 
-/* The closed form in the core neglects the change of dmu/dG over it, which is about the length of
- * the core; its share of mu is about the square root of that length. */
+/* The closed form in the core neglects the change of dmu/dG over the core, which is about its
+ * length. The share of the core in mu is about the square root of its length. */
 static size_t levels_for(double tolerance)
 {
     const double core = fmax(1e-10, 0.1 * cbrt(tolerance * tolerance));
@@ -92,14 +93,14 @@ wt_status friction_scratch_init(friction_scratch *scratch, const wt_friction_wor
 static double rounding_of(const wt_friction_workspace *ws)
 {
     const strain_law *s = ws->softening;
-    /* close to q0 the strain is that of a rounded q - q0, in as many cells as there are */
+    /* near q0 the strain depends on a rounded q - q0, which is divided among all cells */
     return s == NULL ? FRICTION_ROUNDING
                      : FRICTION_ROUNDING * s->caution +
                            2 * s->steepest * (8 + (double)ws->plan.levels) * DBL_EPSILON;
 }
 
 /* The modulus of a closed form has no singular point closer to a real ln q than i pi/2, the pole of
- * a Maxwell element; that of a layer has. */
+ * a Maxwell element. The modulus of a layer can have one. */
 static void choose_panels(wt_friction_workspace *ws)
 {
     const wt_layer_state *layer = &ws->options.layer;
@@ -113,7 +114,7 @@ static void choose_panels(wt_friction_workspace *ws)
 
 static wt_status make_rules(wt_friction_workspace *ws, wt_error *err)
 {
-    /* between knots panels are narrow */
+    /* between knots, subintervals are narrow */
     const size_t last = COUNT_OF(ladders) - (ws->n_knots > 0 ? 2 : 1);
     size_t ladder = 0;
     wt_status status = WT_OK;
@@ -124,7 +125,7 @@ static wt_status make_rules(wt_friction_workspace *ws, wt_error *err)
     return status;
 }
 
-/* The plan of all velocities. */
+/* Prepares the common plan of all velocities. */
 static wt_status prepare_plan(wt_friction_workspace *ws, wt_error *err)
 {
     double *bounds = arena_alloc(&ws->memory, ws->plan.capacity + 1, sizeof *bounds);
@@ -143,7 +144,7 @@ static wt_status new_angular(wt_friction_workspace *ws, const wt_material *mater
     return status;
 }
 
-/* Which way the roughness goes; series that are given know nothing of it. */
+/* Sets the weight of the roughness. Shared series do not include it and are discarded. */
 static wt_status begin_anisotropy(wt_friction_workspace *ws, wt_error *err)
 {
     const wt_anisotropy *anisotropy = &ws->options.anisotropy;
@@ -160,12 +161,12 @@ static wt_status begin_softening(wt_friction_workspace *ws, wt_error *err)
     const wt_friction_options *o = &ws->options;
     const wt_status status = softening_new(o->softening, o->strain_factor, ws->material,
                                            ws->roughness, &ws->memory, &ws->softening, err);
-    ws->options.softening = NULL; /* its table was borrowed until now */
+    ws->options.softening = NULL; /* the table was borrowed for this call only */
     return status == WT_OK ? new_angular(ws, &ws->softening->loss, &ws->loss, err) : status;
 }
 
-/* A layer with moduli of its own, which are in J1 and J2 then; panels end where either material is
- * not smooth. */
+/* Prepares a layer with its own moduli, which are then part of J1 and J2. Subintervals end where
+ * either material is not smooth. */
 static wt_status begin_layer(wt_friction_workspace *ws, wt_error *err)
 {
     wt_layer_state *layer = &ws->options.layer;
@@ -200,7 +201,7 @@ static wt_status begin_layer(wt_friction_workspace *ws, wt_error *err)
     return WT_OK;
 }
 
-/* What panels must know of the knots. */
+/* Prepares the data of the knots for the plans. */
 static void prepare_knots(wt_friction_workspace *ws)
 {
     if (ws->n_knots > 0)
@@ -214,7 +215,8 @@ static void prepare_knots(wt_friction_workspace *ws)
         ws->log_knots[k] = log(ws->knots[k]);
 }
 
-/* The angular integrals of the material, if none are given, and what goes to the side. */
+/* Creates the angular integrals of the material, unless they are shared, and those of the lateral
+ * force. */
 static wt_status begin_angular(wt_friction_workspace *ws, wt_error *err)
 {
     const wt_friction_options *o = &ws->options;
@@ -300,8 +302,8 @@ size_t friction_nodes(const wt_friction_workspace *ws)
     return nodes;
 }
 
-/* A series that is given may be read by others at the same time: where it does not reach, the
- * workspace makes its own. */
+/* Other threads may read a shared series. If it does not cover the range, the workspace creates its
+ * own series. */
 static wt_status leave_given(wt_friction_workspace *ws, double lowest, double highest,
                              wt_error *err)
 {
@@ -317,7 +319,7 @@ static wt_status leave_given(wt_friction_workspace *ws, double lowest, double hi
     return status;
 }
 
-/* Of the lowest frequency, for the hottest rubber that there can be. */
+/* Factor of the lowest frequency for the hottest possible rubber. */
 static double lowest_shift(const wt_friction_workspace *ws)
 {
     double log_shift = 0;
@@ -338,7 +340,7 @@ wt_status friction_prepare(wt_friction_workspace *ws, double pressure, const dou
             return range_error("velocity", velocity[i], "finite, in m/s", err);
         least = fmin(least, speed);
         if (speed > 0)
-            slowest = fmin(slowest, speed); /* at 0 there is the closed form alone */
+            slowest = fmin(slowest, speed); /* velocity 0 uses the closed form */
         fastest = fmax(fastest, speed);
     }
     const wt_material *material = ws->material;
@@ -399,7 +401,8 @@ const panel_plan *friction_plan(const wt_friction_workspace *ws, friction_scratc
 friction_relative friction_relative_error(const wt_friction_workspace *ws,
                                           const friction_pass *pass, friction_load at)
 {
-    /* J2 goes with the square of the frequency at most, J1 with it, P with G as below */
+    /* J2 grows at most with the square of the frequency, J1 linearly; P depends on G as stated for
+     * FRICTION_AREA_POWER */
     const double shifted =
         at.heat != NULL ? at.heat->steepest * friction_heat_off(at.heat, pass) : 0;
     const double of_g = 2 * shifted, of_mu = shifted + FRICTION_AREA_POWER * of_g;
@@ -433,7 +436,7 @@ static bool with_share(const wt_friction_workspace *ws)
                             : angular_limited(ws->angular));
 }
 
-/* Of a load whose temperatures are known, forwards. */
+/* Computes a load with known temperatures, for a positive velocity. */
 static wt_status compute_load(const wt_friction_workspace *ws, friction_scratch *scratch,
                               const friction_load *at, wt_friction_point *point)
 {

@@ -1,4 +1,4 @@
-/* The force to the side on anisotropic roughness.
+/* Lateral force on anisotropic roughness.
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
@@ -8,14 +8,14 @@
 #include <math.h>
 #include <stdlib.h>
 
-/* K changes its sign where J1 does not, and a series is good relative to what it goes through: so
- * K is the difference of two integrals that have no zero. */
+/* K changes its sign where J1 does not, and the accuracy of a series is relative to its values. K
+ * is therefore the difference of two integrals without zeros. */
 struct friction_side {
     angular_weight weight;
-    double shift;         /* K = J1 of `shifted` less so many J1 of `plain` */
-    angular_law *shifted; /* weighed */
-    angular_law *plain;   /* of roughness that is the same in all directions */
-    layer_moduli own[2];  /* likewise, under a layer with moduli of its own */
+    double shift;         /* K = J1 of `shifted` - shift * J1 of `plain` */
+    angular_law *shifted; /* with the weight */
+    angular_law *plain;   /* for isotropic roughness */
+    layer_moduli own[2];  /* both for a layer with its own moduli */
 };
 
 wt_status friction_side_new(const wt_material *material, const wt_friction_options *options,
@@ -54,11 +54,11 @@ wt_status friction_side_cover(friction_side *side, double lowest, double highest
     return status == WT_OK ? angular_cover(side->shifted, lowest, highest, err) : status;
 }
 
-/* At the nodes of a record. */
+/* Values at the nodes of a record. */
 typedef struct side_nodes {
     double *omega, *log_omega, *j1, *j2, *shifted, *plain;
-    double *further; /* of a layer's frequencies; NULL: those of the bulk */
-    double *numbers; /* all of them */
+    double *further; /* extra shift of a layer's frequencies; NULL if shifted as the bulk */
+    double *numbers; /* memory of these arrays */
 } side_nodes;
 
 static bool place_nodes(const friction_record *record, friction_load at, bool further,
@@ -87,10 +87,10 @@ static bool place_nodes(const friction_record *record, friction_load at, bool fu
     return true;
 }
 
-/* Of J1 from a closed form, which has no series: each a sum of some roundings. */
+/* Relative error of J1 from a closed form, which has no series: a few roundings. */
 static const double closed_error = 16 * DBL_EPSILON;
-/* The rules and the variance tell what they leave of the hysteresis; K / J1 goes with the moduli
- * and moves what the rules see by no more than itself again. */
+/* Factor on the error of the rules and of the variance in the hysteresis: the dependence of K / J1
+ * on the moduli at most doubles it. */
 static const double of_rules = 2;
 
 wt_status friction_side_of(const wt_friction_workspace *ws, friction_load at,
@@ -120,7 +120,7 @@ wt_status friction_side_of(const wt_friction_workspace *ws, friction_load at,
         angular_eval(s->plain, k.omega, k.log_omega, n, k.plain, k.j2);
     }
     double first = k.log_omega[0],
-           last = first; /* where it is warmer, a finer scale may be slower */
+           last = first; /* a finer scale may have a lower reduced frequency if it is warmer */
     for (size_t i = 1; i < n; i++) {
         first = fmin(first, k.log_omega[i]);
         last = fmax(last, k.log_omega[i]);

@@ -1,9 +1,9 @@
-/* Internal to the kernel room: the force to the side on anisotropic roughness.
+/* Lateral force on anisotropic roughness. Internal to friction.
  *
  *   mu_side = 1/(2 sigma0) int k^3 C S P K(k v) dk
  *
- * with K of angular_weight.h in the place of J1. From the hysteresis at each node of a pass by
- * K / J1, so nothing is integrated again.
+ * with K of angular_weight.h in place of J1. It follows from the hysteresis at each node of a pass
+ * by K / J1, so that no further quadrature is needed.
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
@@ -14,15 +14,16 @@
 
 typedef struct friction_side friction_side;
 
-/* Lives in the pool; to be cleared before that is freed. */
+/* The object is allocated in the arena; clear it before the arena is freed. */
 wt_status friction_side_new(const wt_material *material, const wt_friction_options *options,
                             const layer_moduli *own, arena *memory, friction_side **side,
                             wt_error *err) WT_NODISCARD;
-void friction_side_clear(friction_side *side); /* NULL: nothing */
-/* As angular_cover. */
+void friction_side_clear(friction_side *side); /* no effect on NULL */
+/* Extends both integrals as angular_cover does. */
 wt_status friction_side_cover(friction_side *side, double lowest, double highest,
                               wt_error *err) WT_NODISCARD;
-/* Of a pass whose nodes are recorded and whose hysteresis has this error; forwards. */
+/* Computes the lateral friction of a pass with recorded nodes and this error of the hysteresis, for
+ * a positive velocity. */
 wt_status friction_side_of(const wt_friction_workspace *ws, friction_load at,
                            const friction_record *record, double hysteresis_error,
                            wt_estimate *side) WT_NODISCARD;

@@ -1,4 +1,4 @@
-/* J1 and J2 of a workspace: of its material, or under a layer with moduli of its own.
+/* J1 and J2 of a workspace: those of its material, or those of a layer with its own moduli.
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */

@@ -1,4 +1,4 @@
-/* Friction on the way: G, P and mu up to given wavenumbers.
+/* Running friction profile: G, P and mu up to given wavenumbers.
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
@@ -23,7 +23,8 @@ static wt_status check_wavenumbers(const wt_roughness *roughness, const double *
     return WT_OK;
 }
 
-/* Running sums to each wavenumber, by panels that are cut there; cuts[n] is room. */
+/* Computes running sums to each wavenumber, with subintervals that end there. The capacity of cuts
+ * is n. */
 static void fill_nodes(const wt_friction_workspace *workspace, friction_load at, double sign,
                        friction_scratch *scratch, const double *wavenumber, size_t n, double *cuts,
                        wt_friction_node *nodes)
@@ -40,7 +41,7 @@ static void fill_nodes(const wt_friction_workspace *workspace, friction_load at,
     const double slack = 1e-13 * fmax(1, log(roughness->q1 / roughness->q0));
     const size_t first = plan->levels - pass.level;
     double variance = 0, difference = 0, hysteresis = 0, error = 0;
-    size_t part = 0; /* the next one; part p ends at end[p] */
+    size_t part = 0; /* the next part; part p ends at end[p] */
     for (size_t i = 0; i < n; i++) {
         while (part < pass.parts) {
             const double end =

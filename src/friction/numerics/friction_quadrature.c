@@ -18,7 +18,7 @@
 static double steepness(const double *j, size_t n)
 {
     const double ratio = j[0] > 0 && j[n - 1] > 0 ? j[n - 1] / j[0] : 1;
-    const double few = 8; /* up to there |sinh ln| is at most twice |ln| */
+    const double few = 8; /* below this ratio |sinh ln| is at most twice |ln| */
     return ratio < few && ratio > 1 / few ? 0.5 * fabs(ratio - 1 / ratio) : fabs(log(ratio));
 }
 
@@ -27,7 +27,7 @@ static double series_error(const wt_friction_workspace *ws, double own_error, do
 {
     if (ws->own != NULL)
         return own_error * (ws->softening != NULL ? 2 * ws->softening->caution : 1);
-    if (ws->flash != NULL) /* the frequencies need not rise from panel to panel */
+    if (ws->flash != NULL) /* frequencies need not rise from one subinterval to the next */
         pass->piece = pass->loss_piece = 0;
     const double error = angular_error(ws->angular, fmin(low, high), fmax(low, high), &pass->piece);
     return ws->softening == NULL ? error
@@ -36,9 +36,9 @@ static double series_error(const wt_friction_workspace *ws, double own_error, do
                                                               fmax(low, high), &pass->loss_piece));
 }
 
-/* What the errors of J1 and J2 and rounding make of the part of a pass whose n nodes are at ln
- * omega = `x`; G so far contains it. Errors of the series; ln(q / q0), ln omega and the logarithms
- * of the knots are rounded, so what is steep there moves. */
+/* Adds the errors of a part from J1, J2 and rounding; its n nodes have ln omega = `x`, and G so far
+ * includes the part. The series have errors. Steep integrands also amplify the rounding of ln(q /
+ * q0), ln omega and the logarithms of the knots. */
 static void add_moved(const wt_friction_workspace *ws, double own_error, const grid_panel *panel,
                       const double *x, const double *j1, const double *j2, size_t n,
                       double log_lowest, double variance, double hysteresis, double variance_so_far,
@@ -46,11 +46,11 @@ static void add_moved(const wt_friction_workspace *ws, double own_error, const g
 {
     const bool closed = ws->own == NULL && angular_closed(ws->angular, x[0], x[n - 1]) &&
                         (ws->loss == NULL || angular_closed(ws->loss, x[0], x[n - 1]));
-    /* ln omega is a sum of two */
+    /* ln omega is a sum of two terms */
     const double far = fmax(fabs(x[0]), fabs(x[n - 1])) + fabs(log_lowest);
     const double moved = closed ? 0 : 4 * DBL_EPSILON * (1 + far);
     const double series = closed ? 0 : series_error(ws, own_error, x[0], x[n - 1], pass);
-    const double steepest_closed = 2; /* of a term of a Prony series */
+    const double steepest_closed = 2; /* largest slope of a term of a Prony series */
     const double nodes =
         DBL_EPSILON * (1 + panel->t_high) * (fabs(panel->power) + steepest_closed + 1);
     pass->variance_moved += variance * (nodes + series + (closed ? 0 : moved * steepness(j2, n)));
@@ -63,15 +63,15 @@ static void add_moved(const wt_friction_workspace *ws, double own_error, const g
 
 /* ---- nodes ----------------------------------------------------------------------------------- */
 
-/* Those of one panel, of a core, or of many panels in a row. */
+/* Nodes of one subinterval, of a core, or of several adjacent subintervals. */
 typedef struct node_view {
     const gauss_rule *rule;
     const double *t, *q, *factor1, *factor2;
-    const double *f, *g; /* NULL without a softening */
+    const double *f, *g; /* NULL without softening */
     double half;
     double *omega, *log_omega, *j1, *j2;
-    double *further;     /* of a layer's frequencies; NULL: those of the bulk */
-    double *rise, *full; /* of G, and of the hysteresis at full contact: without weights */
+    double *further;     /* extra shift of a layer's frequencies; NULL if shifted as the bulk */
+    double *rise, *full; /* rise of G, and hysteresis at full contact, both without weights */
 } node_view;
 
 static node_view place_view(friction_scratch *scratch, const scale_grid *grid, size_t from)
@@ -103,7 +103,7 @@ static node_view panel_view(friction_scratch *scratch, const scale_grid *grid, s
     return view;
 }
 
-/* J1 and J2 of the softened moduli, from those of the moduli. */
+/* Converts J1 and J2 to those of the softened moduli. */
 static void soften_moduli(const friction_scratch *scratch, const node_view *view)
 {
     if (view->f == NULL)
@@ -133,7 +133,7 @@ static void place_omega(const node_view *view, friction_load at)
                              view->further);
 }
 
-/* J1 and J2 at n nodes whose omega has been placed. */
+/* Evaluates J1 and J2 at n nodes whose frequencies are set. */
 static void evaluate_nodes(const wt_friction_workspace *ws, friction_scratch *scratch,
                            const double *q, const double *omega, size_t n)
 {
@@ -146,7 +146,7 @@ static void evaluate_nodes(const wt_friction_workspace *ws, friction_scratch *sc
                     scratch->j1 + from, scratch->j2 + from, loss_j1, loss_j2, &scratch->own_error);
 }
 
-/* Of G at a node from J2, and of the hysteresis at full contact from J1. */
+/* Factors of G from J2, and of the hysteresis at full contact from J1. */
 typedef struct pass_scale {
     double g, mu;
 } pass_scale;
@@ -164,17 +164,17 @@ static void scale_parts(size_t n, double scale, const double *restrict factor,
         part[i] = scale * factor[i] * j[i];
 }
 
-/* Both at the nodes. */
+/* Computes both contributions at the nodes. */
 static void fill_parts(const node_view *view, pass_scale scale)
 {
     scale_parts(view->rule->n, view->half * scale.g, view->factor2, view->j2, view->rise);
     scale_parts(view->rule->n, view->half * scale.mu, view->factor1, view->j1, view->full);
 }
 
-/* So much of what the rules may still leave, one part may. */
+/* Largest share of the remaining error budget for one part. */
 static const double one_part = 0.25;
 
-/* What the parts of one pass share. */
+/* State shared by the parts of one pass. */
 typedef struct walk {
     const wt_friction_workspace *ws;
     friction_scratch *scratch;
@@ -183,13 +183,13 @@ typedef struct walk {
     friction_load at;
     pass_scale scale;
     bool with_outside;
-    friction_record *record; /* NULL: none */
+    friction_record *record; /* NULL if none */
     friction_pass *pass;
-    double variance_left, hysteresis_left;   /* errors that the rules may still make, */
-    double variance_least, hysteresis_least; /* and what they may if there is nothing left */
+    double variance_left, hysteresis_left;   /* remaining error budget of the rules */
+    double variance_least, hysteresis_least; /* lower limit of the budget of a part */
 } walk;
 
-/* The parts of G and of the hysteresis at the nodes of one panel or core. */
+/* Evaluates the contributions to G and to the hysteresis at the nodes of a subinterval or core. */
 static void evaluate_view(const walk *w, const node_view *view)
 {
     place_omega(view, w->at);
@@ -229,24 +229,25 @@ static double weighted_sum(const gauss_rule *rule, const double *f)
 
 typedef struct pass_part {
     double variance, hysteresis;
-    double variance_error, hysteresis_error; /* from the rule */
-    double closed_error;                     /* of the hysteresis from the closed form in a core */
-    double share[RULE_MOST];                 /* of the hysteresis, by node */
+    double variance_error, hysteresis_error; /* errors of the rule */
+    double closed_error;                     /* error of the hysteresis from the closed form in a
+                                                core */
+    double share[RULE_MOST];                 /* hysteresis of each node */
 } pass_part;
 
-/* ---- about what there will be -----------------------------------------------------------------
- */
+/* ---- estimates ------------------------------------------------------------------------------- */
 
-/* Of a panel on top of a variance so far. */
+/* Estimated hysteresis of a subinterval on top of the variance so far. */
 static double rough_part(const wt_friction_workspace *ws, const friction_scratch *scratch, size_t p,
                          double variance)
 {
     const double gamma = ws->options.gamma;
-    const double square = 1 / (1 + M_PI * (variance + 0.5 * scratch->rough_g[p])); /* about P^2 */
+    const double square =
+        1 / (1 + M_PI * (variance + 0.5 * scratch->rough_g[p])); /* approximates P^2 */
     return scratch->rough_mu[p] * sqrt(square) * (gamma + (1 - gamma) * square);
 }
 
-/* The hysteresis of the panels outside the cells. */
+/* Estimated hysteresis of the subintervals outside the cells. */
 static double rough_hysteresis(const wt_friction_workspace *ws, const friction_scratch *scratch,
                                const panel_plan *plan, double variance)
 {
@@ -260,8 +261,8 @@ static double rough_hysteresis(const wt_friction_workspace *ws, const friction_s
 
 /* ---- core ------------------------------------------------------------------------------------ */
 
-/* P is 1 in the core, or the core is so short that dmu/dG hardly changes in it:
- * mu = (dmu/dG) int S P dG in closed form. */
+/* Integrates the core. P is 1 in it, or it is so short that dmu/dG is nearly constant: mu =
+ * (dmu/dG) int S P dG in closed form. */
 static void core_pass(const wt_friction_workspace *ws, const node_view *core, pass_part *part)
 {
     const gauss_rule *rule = core->rule;
@@ -288,8 +289,9 @@ static void core_pass(const wt_friction_workspace *ws, const node_view *core, pa
         part->share[i] = contact * rule->weight[i] * mu[i];
 }
 
-/* By how many levels a core is too short: a cell is 1/4 of the next, and so is G in the core; what
- * the closed form neglects, the change of dmu/dG times the integral, is 1/16. */
+/* Number of levels by which a core is too short. A cell is 1/4 of the next, and G in the core
+ * scales alike. The error of the closed form, which is the change of dmu/dG times the integral,
+ * scales as 1/16. */
 static double levels_short(const pass_part *part, double allowed)
 {
     const double target = 0.5 * CONTACT_FULL;
@@ -299,8 +301,8 @@ static double levels_short(const pass_part *part, double allowed)
                : full;
 }
 
-/* The largest core, at no less than `*level`, in which P is 1 or the error of the closed form is no
- * more than `allowed` of the hysteresis; or one as deep as they go. */
+/* Finds the largest core at `*level` or deeper in which P is 1 or the closed form has an error of
+ * at most `allowed` of the hysteresis; else the deepest core. */
 static node_view find_core(const walk *w, double allowed, size_t *level, pass_part *part)
 {
     const panel_plan *plan = w->plan;
@@ -309,7 +311,9 @@ static node_view find_core(const walk *w, double allowed, size_t *level, pass_pa
     for (;;) {
         const node_view core = core_view(w, RULE_FIRST, *level);
         core_pass(w->ws, &core, part);
-        const double cells = ldexp(part->variance, 2 * (int)*level); /* G up to the panels */
+        const double cells =
+            ldexp(part->variance, 2 * (int)*level); /* G up to the first subinterval outside
+                                                       the cells */
         const double least =
             allowed > 0 ? allowed * rough_hysteresis(w->ws, w->scratch, plan, cells) : 0;
         const double shorter = levels_short(part, least);
@@ -321,15 +325,14 @@ static node_view find_core(const walk *w, double allowed, size_t *level, pass_pa
     }
 }
 
-/* ---- panels ---------------------------------------------------------------------------------- */
+/* ---- subintervals ---------------------------------------------------------------------------- */
 
-/* From this G on all of P shows in the hysteresis: 1 - P is a fifth there, and no small difference
- * any more. */
+/* From this G on, the hysteresis resolves P: 1 - P is a fifth there and no longer small. */
 static const double area_begun = 0.3;
 
-/* Of one panel, from the values with full contact and with S P, G rising from `before` to `after`.
- * Where P leaves 1 the difference is too small to show in the last coefficients, so it is looked at
- * alone. */
+/* Error of one subinterval, from the values at full contact and with S P, where G rises from
+ * `before` to `after`. Where P begins to fall below 1, the last coefficients do not resolve the
+ * difference, which is therefore tested separately. */
 static double hysteresis_error(const gauss_rule *rule, const rule_top *full, const rule_top *part,
                                double before, double after)
 {
@@ -344,7 +347,7 @@ static double hysteresis_error(const gauss_rule *rule, const rule_top *full, con
     return own + rule_error(rule, &gap);
 }
 
-/* On top of a variance so far. */
+/* Integrates a subinterval on top of the variance so far. */
 static void panel_pass(const wt_friction_workspace *ws, const node_view *view, double variance,
                        pass_part *part)
 {
@@ -360,7 +363,8 @@ static void panel_pass(const wt_friction_workspace *ws, const node_view *view, d
     bool falls = running[0] < variance;
     for (size_t j = 1; j < rule->n; j++)
         falls |= running[j] < running[j - 1];
-    /* G never falls: where it rises too steeply for a polynomial, the nodes so far */
+    /* G never falls. Where it rises too steeply for a polynomial, the sum of the previous nodes is
+     * used. */
     double below = variance, highest = variance;
     for (size_t j = 0; falls && j < rule->n; j++) {
         const double here = running[j] < variance ? below : running[j];
@@ -386,7 +390,7 @@ static void panel_pass(const wt_friction_workspace *ws, const node_view *view, d
 
 /* ---- one pass -------------------------------------------------------------------------------- */
 
-/* What of a part comes from frequencies outside the data. */
+/* Part of the hysteresis from extrapolated frequencies. */
 static double outside_of(const wt_friction_workspace *ws, const node_view *view,
                          const pass_part *part)
 {
@@ -409,7 +413,7 @@ static double outside_of(const wt_friction_workspace *ws, const node_view *view,
     return sum;
 }
 
-/* Adds a part, from the nodes in view, to a pass: of the core (place 0) or of a panel. */
+/* Adds a part to the pass: the core (index 0) or a subinterval. */
 static void add_part(walk *w, const grid_panel *panel, const node_view *view, const pass_part *part,
                      size_t place)
 {
@@ -426,7 +430,7 @@ static void add_part(walk *w, const grid_panel *panel, const node_view *view, co
     add_moved(ws, scratch->own_error, panel, view->log_omega, view->j1, view->j2, n,
               w->at.log_lowest, part->variance, part->hysteresis, variance, pass);
     double error = part->hysteresis_error + part->closed_error;
-    if (place > 0 && variance > 0) /* G may be next to nothing, and its quotients no numbers */
+    if (place > 0 && variance > 0) /* G may be almost 0, where its quotients are undefined */
         error += FRICTION_AREA_POWER * part->hysteresis * (pass->variance_error / variance);
     scratch->error_g[place] += part->variance_error;
     scratch->error_mu[place] += error;
@@ -440,7 +444,7 @@ static void add_part(walk *w, const grid_panel *panel, const node_view *view, co
     w->hysteresis_left -= part->hysteresis_error + part->closed_error;
 }
 
-/* The panels from the `first` up to the `last`, left out, by the first rule. */
+/* Evaluates the subintervals from `first` up to, but not including, `last` by the first rule. */
 static void begin_panels(const walk *w, size_t first, size_t last)
 {
     friction_scratch *scratch = w->scratch;
@@ -462,7 +466,7 @@ static void begin_panels(const walk *w, size_t first, size_t last)
     }
 }
 
-/* Part of a panel by a rule. */
+/* Evaluates part of a subinterval by a rule. */
 static node_view part_view(const walk *w, const grid_panel *panel, size_t rule)
 {
     friction_scratch *scratch = w->scratch;
@@ -473,11 +477,12 @@ static node_view part_view(const walk *w, const grid_panel *panel, size_t rule)
     return view;
 }
 
-/* A panel is halved no more often: what is no smoother on a thousandth of it is a jump. */
+/* Largest number of halvings: a function that is not smooth on a thousandth of a subinterval is a
+ * jump. */
 enum { MOST_HALVES = 10 };
 
-/* Begins a pass on top of a core with what there will be, by the first rule, and what an error of G
- * from a panel on makes of the hysteresis: that of its P there and in all panels above it. */
+/* Starts a pass on top of a core. It estimates the totals by the first rule, and the effect of an
+ * error of G from each subinterval on the hysteresis of all later ones. */
 static void begin_pass(walk *w, size_t level, const pass_part *core)
 {
     friction_scratch *scratch = w->scratch;
@@ -508,7 +513,7 @@ static double of_variance_after_core(const walk *w)
     return first < w->plan->n_panels ? w->scratch->of_variance[first] : 0;
 }
 
-/* Whether a rule suffices for part of a panel, halved `depth` times. */
+/* True if a rule is accurate enough for part of a subinterval that was halved `depth` times. */
 static bool is_fine(const walk *w, const pass_part *part, double of_variance, size_t depth)
 {
     const double share = ldexp(1, -(int)depth), so_far = w->pass->variance + part->variance;
@@ -519,9 +524,9 @@ static bool is_fine(const walk *w, const pass_part *part, double of_variance, si
            part->variance_error * of_variance + part->hysteresis_error <= hysteresis;
 }
 
-/* P = erf(1/(2 sqrt G)) has its next singular points at pi/2 beside a real ln G, as a Maxwell
- * element has beside ln q, and the difference to 1 is steep next to 0: what the coefficients tell
- * of it is not to be trusted where ln G rises by more over a panel than these. */
+/* Largest rise of ln G over a subinterval for which the coefficients are a reliable error estimate.
+ * P = erf(1/(2 sqrt G)) has its nearest singular points at the distance pi/2 from a real ln G, as a
+ * Maxwell element in ln q, and 1 - P is steep near 0. */
 static const double most_steep[FRICTION_RULES] = {2.5, 3.5};
 
 static bool is_steep(const walk *w, const pass_part *part, size_t rule)
@@ -530,7 +535,7 @@ static bool is_steep(const walk *w, const pass_part *part, size_t rule)
     return log((w->pass->variance + part->variance) / before) > most_steep[rule];
 }
 
-/* A whole panel by the check. */
+/* Evaluates a whole subinterval by the rule of the check. */
 static node_view check_view(const walk *w, size_t p)
 {
     friction_scratch *scratch = w->scratch;
@@ -541,7 +546,7 @@ static node_view check_view(const walk *w, size_t p)
     return view;
 }
 
-/* A panel or a part of it, from its nodes by the first rule. */
+/* Adds a subinterval or part of one, from its nodes by the first rule, with refinement. */
 static void add_panel(walk *w, const grid_panel *panel, node_view view, size_t p, size_t first,
                       size_t depth)
 {
@@ -595,7 +600,7 @@ void friction_evaluate(const wt_friction_workspace *ws, friction_scratch *scratc
         core_pass(ws, &view, &part);
         if (is_fine(&w, &part, of_variance_after_core(&w), 0) || level == plan->levels)
             break;
-        level++; /* a cell more is what halves are to a panel */
+        level++; /* one more cell corresponds to a halving of a subinterval */
         view = core_view(&w, RULE_FIRST, level);
         core_pass(ws, &view, &part);
         begin_panels(&w, plan->levels - level, plan->levels - level + 1);

@@ -1,4 +1,4 @@
-/* What the nodes of a pass contribute, kept for the energy source.
+/* Contributions of the nodes of a pass, stored for the energy source.
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */

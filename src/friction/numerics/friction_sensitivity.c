@@ -1,4 +1,4 @@
-/* How much friction changes with what it is made of.
+/* Logarithmic sensitivities of friction to its inputs.
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
@@ -6,8 +6,8 @@
 
 #include <math.h>
 
-/* Five points: what the difference leaves is its fourth power / 30 of a fifth derivative of the
- * order of 1, and rounding and tolerance are divided by it. */
+/* Step of a five-point difference. Its truncation error is step^4 / 30 of a fifth derivative of the
+ * order of 1; rounding and tolerance are divided by the step. */
 static const double step = 0.01;
 
 typedef enum factor { OF_MODULUS, OF_DENSITY, OF_PRESSURE } factor;
@@ -28,7 +28,7 @@ static wt_status log_friction(wt_friction_workspace *ws, friction_scratch *scrat
 static wt_status by_factor(wt_friction_workspace *ws, friction_scratch *scratch, friction_load at,
                            factor which, double *slope, wt_error *err)
 {
-    /* places and weights of the central difference of the fourth order */
+    /* positions and weights of the central difference of fourth order */
     static const double rule[][2] = {
         {-2, 1.0 / 12}, {-1, -8.0 / 12}, {1, 8.0 / 12}, {2, -1.0 / 12}};
     wt_status status = WT_OK;
@@ -47,11 +47,11 @@ static wt_status by_factor(wt_friction_workspace *ws, friction_scratch *scratch,
     return status;
 }
 
-/* What the last waves add to mu, on the way to q1 at the temperatures of all of it. */
+/* Contribution of the last waves to mu, with the temperatures of the full range up to q1. */
 static wt_status by_cutoff(wt_friction_workspace *ws, double pressure, double velocity,
                            double *slope, wt_error *err)
 {
-    /* places and weights of the difference of the fourth order on one side */
+    /* positions and weights of the one-sided difference of fourth order */
     static const double rule[][2] = {
         {4, 3.0 / 12}, {3, -16.0 / 12}, {2, 36.0 / 12}, {1, -48.0 / 12}, {0, 25.0 / 12}};
     enum { PLACES = sizeof rule / sizeof *rule };

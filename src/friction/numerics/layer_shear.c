@@ -1,4 +1,4 @@
-/* What shearing the real contact costs on a modified layer.
+/* Shear stress of the real contact on a modified layer.
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
@@ -20,7 +20,8 @@ double wt_layer_shear_stress(const wt_layer_shear *shear, double bulk, wt_layer_
         stress *=
             shear->reach > 0 ? 1 - (whole - 1) * expm1(-layer.thickness / shear->reach) : whole;
     }
-    /* one contact of diameter D = sqrt(4 (A/A0) / (pi eta)) at each asperity, 4 G / (pi D) */
+    /* each asperity has one contact of diameter D = sqrt(4 (A/A0) / (pi eta)), which adds 4 G / (pi
+     * D) */
     if (shear->crack_energy > 0)
         stress += 2 * shear->crack_energy / (shear->spacing * sqrt(M_PI * area_ratio));
     return stress;

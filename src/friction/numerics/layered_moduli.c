@@ -1,6 +1,7 @@
-/* A quarter turn in which omega = q v sin(theta), cut where the layer's moduli are not smooth, each
- * part by a trapezium rule in a variable that makes nothing of its ends (Takahasi and Mori, Publ.
- * RIMS 9 (1974) 721). Every second node is a rule, too, and tells the error.
+/* Angular integrals with a layer. Over a quarter turn omega = q v sin(theta). The turn is divided
+ * where the layer's moduli are not smooth. Each part uses a trapezoidal rule in a variable that
+ * removes the end singularities (Takahasi and Mori, Publ. RIMS 9 (1974) 721). Every second node
+ * forms a coarser rule, which gives the error.
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
@@ -14,16 +15,16 @@
 #include <float.h>
 #include <math.h>
 
-/* I is of float, and every product with it would be widened. */
+/* the macro I is of type float and would widen every product */
 static const double complex unit = (double complex)I;
 
-/* Steps of the rule in t, and where it begins, each for tolerances down to the one that stands with
- * them: the poles of Maxwell elements and of p below are 1 beside a real t or more: e^(-2 pi/step).
- * Below the first node all is as at it. */
+/* Steps of the rule in t and its start, for tolerances down to the one in the row. The poles of
+ * Maxwell elements and of p have the distance 1 or more from a real t, which gives the error e^(-2
+ * pi/step). Below the first node the integrand is constant. */
 static const struct {
     double tolerance, step, begin;
 } rules[] = {{1e-6, 0.3, -12}, {0, 0.2, -24}};
-static const double rule_end = 3.6; /* where what is left is e^(-e^3.6), below rounding */
+static const double rule_end = 3.6; /* the rest is e^(-e^3.6), below rounding */
 
 bool layer_has_moduli(const wt_layer_state *layer)
 {
@@ -33,7 +34,7 @@ bool layer_has_moduli(const wt_layer_state *layer)
 wt_status layer_slope_shift(const wt_shift_law *law, double to, wt_ratio_slope *slope,
                             wt_error *err)
 {
-    const double same = 1; /* [K] by which temperatures without a law may differ */
+    const double same = 1; /* largest temperature difference without a shift law [K] */
     const double from = slope->temperature;
     if (isnan(from) || slope->exponent == 0 || from == to)
         return WT_OK;
@@ -60,8 +61,8 @@ wt_status layer_slope_shift(const wt_shift_law *law, double to, wt_ratio_slope *
     return WT_OK;
 }
 
-/* theta is a fraction 1 / (1 + e^-p) of a part, p = t + e^t - 1: it rises as e^t from the
- * beginning, which is that of many decades of frequency, and comes to the end as fast as it can. */
+/* theta is a fraction 1 / (1 + e^-p) of a part, p = t + e^t - 1. It rises as e^t from the start,
+ * which covers many decades of frequency, and converges to the end double-exponentially. */
 static void make_rule(layer_moduli *m, double tolerance)
 {
     size_t k = 0;
@@ -87,7 +88,7 @@ static bool has_knots(const wt_material *material)
     return n > 0;
 }
 
-/* The angle of the layer's modulus before it is taken as 0 where it is below. */
+/* Loss angle of the layer's modulus, before a negative loss modulus is set to 0. */
 static double loss_angle(double log_omega, void *user)
 {
     const layer_moduli *m = user;
@@ -98,12 +99,13 @@ static double loss_angle(double log_omega, void *user)
     return atan2(loss, storage) + phase;
 }
 
-/* The phase of a ratio falls off with the frequency beyond what was measured, and the loss angle of
- * a rubber hardly: six decades further it is behind that for good. */
+/* Adds the edges of the ranges with zero loss modulus. Beyond the measured range the phase of a
+ * ratio falls with the frequency, and the loss angle of a rubber hardly changes. Six decades
+ * further, the loss angle is always the larger. */
 static void add_gain_edges(layer_moduli *m)
 {
     const double beyond = 6 * M_LN10,
-                 step = M_LN10 / 8; /* the angle of a rubber goes with decades */
+                 step = M_LN10 / 8; /* the loss angle of a rubber changes over decades */
     const double low = log(m->limit[0]) - beyond, high = log(m->limit[1]) + beyond;
     double before = loss_angle(low, m), root;
     for (double from = low; from < high && m->n_edges < LAYER_MOST_EDGES; from += step) {
@@ -135,8 +137,9 @@ layer_moduli layer_moduli_of(const wt_material *bulk, wt_layer_state layer, doub
 
 /* ---- moduli ---------------------------------------------------------------------------------- */
 
-/* Those of both at some frequencies, of a layer's own material at so many times as many; no rubber
- * gives back more than it took. */
+/* Complex moduli of bulk and layer; the frequencies of a layer's own material are multiplied by
+ * `times`. A negative loss modulus is set to 0, because a rubber cannot return more energy than it
+ * received. */
 static void find_moduli(const layer_moduli *m, const double *omega, double times, size_t n,
                         double complex *bulk, double complex *layer)
 {
@@ -172,7 +175,7 @@ double layer_moduli_ratio(const layer_moduli *m, double omega)
 
 bool layer_moduli_gain(const layer_moduli *m, double low, double high, double range[2])
 {
-    enum { STEPS = 200 }; /* some in a decade */
+    enum { STEPS = 200 }; /* about ten in a decade */
     bool any = false;
     for (size_t i = 0; m->layer.own == NULL && i <= STEPS; i++) {
         const double omega = low * pow(high / low, (double)i / STEPS);
@@ -190,9 +193,9 @@ bool layer_moduli_gain(const layer_moduli *m, double low, double high, double ra
 
 /* ---- wave ------------------------------------------------------------------------------------ */
 
-/* What the stiffness of layered_scale (contact.c) has of x = q thickness, of which the moduli at
- * all angles are taken; there the sums are positive for real ratios, and are the same for complex
- * ones. */
+/* Functions of x = q thickness in the stiffness of layered_scale (persson_contact.c), for the
+ * moduli at all angles. That function uses sums of positive terms for real ratios; the same sums
+ * hold for complex ratios. */
 typedef struct layered_wave {
     double x, e, root_e;     /* e^-2x, e^-x */
     double excess, excess_2; /* of x and of 2 x */
@@ -228,7 +231,7 @@ static double complex layered_stiffness(const layered_wave *w, double complex ra
 
 /* ---- angle ----------------------------------------------------------------------------------- */
 
-/* J1, J2 and that of the loss modulus, by all nodes and by fewer. */
+/* J1, J2 and the integral of the squared loss modulus, by all nodes and by every second one. */
 typedef struct angle_sums {
     double j1[ANGLE_LEVELS], j2[ANGLE_LEVELS], loss[ANGLE_LEVELS];
 } angle_sums;
@@ -258,7 +261,8 @@ static void add_part(const layer_moduli *m, const layered_wave *wave, double ome
     }
 }
 
-/* Half as many nodes leave the root of what all leave; where a material has knots, some of it. */
+/* Half as many nodes leave the square root of the error of all nodes; if a material has knots, a
+ * fraction of it. */
 static double sum_error(const layer_moduli *m, const double sum[ANGLE_LEVELS])
 {
     const double room = 10;

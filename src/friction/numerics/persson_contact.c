@@ -16,9 +16,9 @@ double contact_area(double variance)
     return variance > CONTACT_FULL ? erf(0.5 / sqrt(variance)) : 1;
 }
 
-/* From there on the power series of erf ends soon: its argument is at most 1. */
+/* Above this variance the argument of erf is at most 1, and its power series converges fast. */
 static const double late = 0.25;
-/* Whole registers, for what is left over of one costs as much. */
+/* Lengths in whole registers, because a partial register costs as much. */
 enum { REGISTER = CONTACT_ROOM + 1, AT_ONCE = 8 };
 
 /* erf(x) = 2 / sqrt(pi) sum of (-1)^k x^(2 k + 1) / (k! (2 k + 1)), even and odd k in turn. */
@@ -48,9 +48,9 @@ static void late_areas(const double *restrict variance, size_t registers, double
     }
 }
 
-/* Before that erf(x) = 1 - e^(-x^2) h(x): h changes little, and is a polynomial of degree 14 in
- * z = 9.6 / (x + 2) - 2.2, which goes from 1 at x = 1 to -1 at x = 6, where e^(-x^2) is 2e-16; it
- * interpolates at Chebyshev's points and is good to 3e-17. */
+/* For smaller variances erf(x) = 1 - e^(-x^2) h(x). h varies slowly and is a polynomial of degree
+ * 14 in z = 9.6 / (x + 2) - 2.2. z is 1 at x = 1 and -1 at x = 6, where e^(-x^2) is 2e-16. The
+ * polynomial interpolates at Chebyshev nodes with the error 3e-17. */
 WIDE_REGISTERS
 static void early_ratios(const double *restrict variance, size_t registers,
                          double *restrict exponent, double *restrict ratio)
@@ -101,7 +101,7 @@ void contact_areas(const double *variance, size_t n, double *area)
         late_areas(variance + early, (n - early + REGISTER - 1) / REGISTER, area + early);
 }
 
-/* erfc falls so steeply that the rounding of its argument y counts: y^2 G = 1/4 tells it. */
+/* erfc is so steep that the rounding of its argument y matters; y^2 G = 1/4 gives that rounding. */
 double contact_gap(double variance)
 {
     const double y = variance > 0 ? 0.5 / sqrt(variance) : (double)INFINITY;
@@ -112,8 +112,8 @@ double contact_gap(double variance)
     return erfc(y) - M_2_SQRTPI * exp(-square) * missing;
 }
 
-/* The change of P = erf(y), y^2 = 1 / (4 G), with G, if that is so small that the slope tells:
- * within G (1 +- e) it is larger by no more than (1 - e)^-1.5 exp(y^2 e). NaN: it is not. */
+/* Change of P = erf(y), y^2 = 1 / (4 G), with G by its slope. Within G (1 +- e) the slope is larger
+ * by at most (1 - e)^-1.5 exp(y^2 e). NaN if the change is too large for that. */
 static double small_change(double variance, double variance_error)
 {
     const double e = variance_error / variance, square = 0.25 / variance, power = square * e;
@@ -134,14 +134,14 @@ double contact_area_error(double variance, double variance_error)
     return moved + 16 * DBL_EPSILON * (area + moved);
 }
 
-/* Of 1 - P, relative: some dozens of roundings of the series and of exp; ten times that where G is
- * rounded before, for y^2 is up to 27^2. */
+/* Relative error of 1 - P: some dozens of roundings of the series and of exp. It is ten times as
+ * large if G is rounded before, because y^2 is up to 27^2. */
 static const double gap_rounding = 1e-14;
 
 double contact_gap_error(double variance, double variance_error)
 {
     const double gap = contact_gap(variance), change = small_change(variance, variance_error);
-    /* where erfc underflows the true value is still below the smallest normal number */
+    /* where erfc underflows, the true value is below the smallest normal number */
     const double least = variance > 0 ? DBL_MIN : 0;
     if (change >= 0)
         return fmax(change + gap_rounding * gap, least);
@@ -151,8 +151,8 @@ double contact_gap_error(double variance, double variance_error)
     return fmax(moved + 10 * gap_rounding * (gap + moved), least);
 }
 
-/* int_0^G P^3 dG = int_y^inf erf(u)^3 / (2 u^3) du with y = 1 / (2 sqrt G): erf is 1 beyond u = 6,
- * and below it the integrand is smooth, so composite Gauss-Legendre with 8 nodes is exact. */
+/* int_0^G P^3 dG = int_y^inf erf(u)^3 / (2 u^3) du with y = 1 / (2 sqrt G). erf is 1 beyond u = 6;
+ * below it the integrand is smooth, so that composite Gauss-Legendre with 8 nodes is exact. */
 static double cube_integral(double variance)
 {
     const double end = 6;
@@ -201,8 +201,8 @@ double sinh_excess(double x)
 
 /* Burmister (1943), nu = 1/2, bonded: E_eff = E_layer / F with
  *   F = [1 + 4 N x e - N^2 e^2] / [1 - 2 N (1 + 2 x^2) e + N^2 e^2],
- *   e = exp(-2 x), N = (ratio - 1) / (ratio + 1),
- * both brackets written as sums of positive terms, which F itself is not. */
+ *   e = exp(-2 x), N = (ratio - 1) / (ratio + 1).
+ * Both brackets are written as sums of positive terms to avoid cancellation. */
 double layered_scale(double x, double ratio)
 {
     if (ratio == 1 || !(x > 0))

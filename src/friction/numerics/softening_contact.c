@@ -1,5 +1,5 @@
-/* Moduli that soften with strain (Payne effect): Lorenz, Oh, Nam, Jeon and Persson, J. Chem. Phys.
- * 142 (2015) 194701, with the strain at a wavenumber taken from the running rms slope.
+/* Strain softening of the moduli (Payne effect): Lorenz, Oh, Nam, Jeon and Persson, J. Chem. Phys.
+ * 142 (2015) 194701. The strain at a wavenumber follows from the running rms slope.
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
@@ -36,7 +36,7 @@ static const double *loss_breaks(const wt_material *material, size_t *n)
     return whole->law->breaks != NULL ? whole->law->breaks(whole, n) : NULL;
 }
 
-/* J1 is that of the whole material, which is asked for it. */
+/* J1 is not computed here; it is read from the complete material. */
 static void loss_angular(const wt_material *material, const double *omega, size_t n, double *j1,
                          double *j2)
 {
@@ -64,7 +64,7 @@ static const wt_material_law loss_law_closed = {.name = "loss",
 
 /* ---- strain ---------------------------------------------------------------------------------- */
 
-/* Up to there a rounded q takes digits of t that count: from there on it is off by 10 roundings. */
+/* Below this t the rounding of q matters; above it the relative error is ten roundings. */
 static const double rounding_counts = 0.1;
 
 double softening_strain(const strain_law *s, double q)
@@ -72,15 +72,15 @@ double softening_strain(const strain_law *s, double q)
     return s->factor * sqrt(2 * M_PI * roughness_moment(s->roughness, 3, q));
 }
 
-/* The same at q = q0 e^t: close to q0 a rounded q has lost what t has, and the square grows like t.
- */
+/* Strain at q = q0 e^t. Near q0 a rounded q loses digits of t; the square of the strain is
+ * proportional to t there. */
 static double strain_at(const strain_law *s, double q, double t)
 {
     const double rounded = log1p((q - s->roughness->q0) / s->roughness->q0);
     return softening_strain(s, q) * (rounded > 0 && t < rounding_counts ? sqrt(t / rounded) : 1);
 }
 
-/* The last point of the table at or below ln eps, or n. */
+/* Returns the last point of the table at or below ln eps, or n. */
 static size_t point_before(const strain_law *s, double log_strain)
 {
     size_t low = 0, high = s->n;
@@ -138,7 +138,8 @@ static wt_status find_cuts(strain_law *s, arena *memory, wt_error *err)
         meeting m = {.s = s, .strain = exp(s->log_strain[k])};
         if (!(strain_above(length, &m) > 0))
             break;
-        const bool met = strain_above(from, &m) < 0; /* else as early as numbers can tell */
+        const bool met = strain_above(from, &m) < 0; /* otherwise the strain is reached at the
+                                                        smallest representable t */
         const wt_status status =
             met ? root_find(strain_above, &m, from, length, 0, &from, err) : WT_OK;
         if (status != WT_OK)
@@ -156,8 +157,8 @@ static wt_status find_cuts(strain_law *s, arena *memory, wt_error *err)
     return WT_OK;
 }
 
-/* No filled rubber softens by more than a hundred times (Payne): what is beyond is a modulus in
- * another unit. */
+/* Plausible range: filled rubber softens by a factor of 100 at most (Payne). Values outside
+ * indicate a wrong unit. */
 static const double least_factor = 1e-3, most_factor = 1e3;
 
 wt_status wt_softening_check(const wt_softening *table, wt_error *err)
@@ -222,7 +223,7 @@ wt_status softening_new(const wt_softening *table, double factor, const wt_mater
     return find_cuts(s, memory, err);
 }
 
-/* ---- for those outside the kernel ------------------------------------------------------------ */
+/* ---- public functions ------------------------------------------------------------------------ */
 
 void wt_friction_strained(const wt_friction_workspace *workspace, double range[2])
 {

@@ -1,8 +1,8 @@
-/* Internal to the kernel room: how the moduli soften with strain, and where on the wavenumbers.
+/* Strain softening of the moduli over the wavenumber. Internal to friction.
  *
  *   E'(w) -> f(eps) E'(w),   E''(w) -> g(eps) E''(w),   eps(q) = alpha rms slope up to q,
  *
- * f and g linear in ln eps between the points of a table, constant outside. So at a wavenumber
+ * f and g are linear in ln eps between the points of a table and constant outside. At a wavenumber
  *   J1 -> g J1,   J2 -> f^2 J2 + (g^2 - f^2) J2'',   J2''(w) = int_0^2pi E''(w cos phi)^2 dphi.
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
@@ -19,16 +19,17 @@ typedef struct strain_law {
     size_t n;
     double *log_strain, *f, *g; /* [n] */
     size_t n_cuts;
-    double *cuts;    /* [n_cuts] ln(q / q0) where a point of the table is met, rising */
-    double range[2]; /* wavenumbers at which the first and the last of them is met; q1: not */
-    double caution;  /* how much larger the relative errors of the sum for J2 can be than those of
+    double *cuts;    /* [n_cuts] ln(q / q0) at which the strain of a point of the table is
+                        reached, rising */
+    double range[2]; /* wavenumbers of the first and the last point; q1 if not reached */
+    double caution;  /* factor by which the relative error of the sum for J2 can exceed that of
                         its terms */
-    double steepest; /* |d ln f, g / d ln eps| */
+    double steepest; /* largest |d ln f / d ln eps| and |d ln g / d ln eps| */
     const wt_material *whole;
-    wt_material loss; /* of which |E|^2 is E''^2 of the whole */
+    wt_material loss; /* material whose |E|^2 is the squared loss modulus of the source */
 } strain_law;
 
-/* Of a checked table. Roughness and material are borrowed. */
+/* Creates the law from a checked table. Roughness and material are borrowed. */
 wt_status softening_new(const wt_softening *table, double factor, const wt_material *material,
                         const wt_roughness *roughness, arena *memory, strain_law **made,
                         wt_error *err) WT_NODISCARD;

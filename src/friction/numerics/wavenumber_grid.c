@@ -1,4 +1,4 @@
-/* Panels over the wavenumber and their nodes.
+/* Subintervals of the wavenumber and their nodes.
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
@@ -11,24 +11,22 @@
 #include <math.h>
 #include <string.h>
 
-/* Cells towards q0: over a factor 4 the powers that the integrand is made of there are smooth to
+/* Ratio of the cells towards q0: over a factor of 4, the powers in the integrand are smooth for
  * every rule. */
 static const double cell_ratio = 4;
-/* A panel right of a knot may be so many times longer than its distance from the knot before: in
- * the square root of the distance its singularity is then 1/8 of the panel away. */
+/* Largest length of a subinterval right of a knot, relative to its distance from the knot before.
+ * In the square root of the distance, the singularity is then 1/8 of the length away. */
 static const double grading = 8;
-/* Knots closer than this part of a panel are one: what lies between them weighs no more than the
- * power 3/2 of it. */
+/* Knots closer than this share of a subinterval are merged. The weight of the gap is its length to
+ * the power 3/2. */
 static const double same_knot = 1e-11;
-/* ln(q^4 C |E|^2), which G is the integral of, rises by no more over one panel: P falls from 1
- * where G has hardly begun to rise, and a polynomial that ends 10^12 times higher is all error
- * there. */
+/* Largest rise of ln(q^4 C |E|^2), the integrand of G, over one subinterval. P falls from 1 where G
+ * just begins to rise, and a polynomial that ends 10^12 times higher has no accuracy there. */
 static const double most_rise = 2.9;
-/* |E|^2 of a closed form is taken to rise with the frequency; with its square at most, and there a
- * panel is halved. */
+/* Assumed slope of |E|^2 of a closed form with the frequency. The largest slope is 2; the
+ * subinterval is halved there. */
 static const double closed_slope = 1;
-/* Outside a table it is taken for no steeper: so steep, a modulus leaves the numbers within three
- * decades. */
+/* Largest slope outside a table: a steeper modulus would overflow within three decades. */
 static const double steepest_outside = 200;
 
 static const double *roughness_breaks(const wt_roughness *roughness, size_t *n)
@@ -44,7 +42,7 @@ static double log_ratio(double q, double q0)
 
 void grid_slopes(const wt_material *material, const double *knots, size_t n_knots, double *slopes)
 {
-    /* between knots a table is a power law, and what is made of several is not */
+    /* A table is a power law between its knots; a combination of several tables is not. */
     const size_t parts = material->law->power_below ? 1 : 8;
     for (size_t k = 0; k <= n_knots; k++) {
         const double low = k > 0 ? knots[k - 1] : knots[0] / M_E;
@@ -67,7 +65,7 @@ void grid_slopes(const wt_material *material, const double *knots, size_t n_knot
     }
 }
 
-/* Slopes of ln(q^4 C) between the breaks of the spectrum; returns by how much it rises. */
+/* Slopes of ln(q^4 C) between the breaks of the spectrum. Returns the total rise. */
 static double spectrum_powers(const wt_roughness *roughness, double *powers)
 {
     size_t n = 0;
@@ -89,7 +87,7 @@ static double spectrum_powers(const wt_roughness *roughness, double *powers)
     return sum;
 }
 
-/* Panels more than one that the slopes make. */
+/* Number of additional subintervals due to the slopes. */
 static size_t steep_most(const double *knots, const double *slopes, size_t n, double length)
 {
     double most = n > 0 ? length * fmax(slopes[0], slopes[n]) / most_rise : 0;
@@ -98,7 +96,7 @@ static size_t steep_most(const double *knots, const double *slopes, size_t n, do
     return (size_t)most;
 }
 
-/* Panels more than one that a knot can make: those graded away from the knot before it. */
+/* Number of additional subintervals due to the knots, graded away from the previous knot. */
 static size_t graded_most(const double *knots, size_t n)
 {
     size_t most = 0;
@@ -124,7 +122,7 @@ void panel_plan_init(panel_plan *plan, const wt_roughness *roughness, double wid
                          .width = width,
                          .slopes = slopes,
                          .levels = levels};
-    /* from the smallest t up to the width of a panel there are 27 steps of the cell ratio */
+    /* from the smallest t to the width of a subinterval there are 27 steps of the cell ratio */
     plan->capacity =
         levels + n_roughness + n_knots + graded_most(knots, n_knots) +
         steep_most(knots, slopes, n_knots, length) + n_cuts + 32 +
@@ -137,7 +135,7 @@ void panel_plan_init(panel_plan *plan, const wt_roughness *roughness, double wid
         (void)spectrum_powers(roughness, plan->powers);
 }
 
-/* How many knots are at or below t. */
+/* Returns the number of knots at or below t. */
 static size_t knots_below(const double *knots, size_t n, double t)
 {
     const double slack = 1e-12;
@@ -152,9 +150,9 @@ static size_t knots_below(const double *knots, size_t n, double t)
     return low;
 }
 
-/* From t_low up to t_high, or less where the square root of one knot does not smooth the one before
- * it. Square roots right of a knot that is close enough to spoil a polynomial, logarithms close to
- * t = 0, where G is 0. */
+/* Creates a subinterval from t_low to t_high, or shorter where the square root of one knot does not
+ * smooth the knot before. It uses a square-root map right of a close knot, and a logarithmic map
+ * near t = 0, where G is 0. */
 static grid_panel panel_at(double t_low, double t_high, const double *knots, size_t n_knots)
 {
     grid_panel panel = {.t_low = t_low, .t_high = t_high, .map = MAP_LINEAR};
@@ -177,7 +175,7 @@ void panel_plan_lay(panel_plan *plan, const wt_roughness *roughness, const doubl
                     size_t n_cuts, const double *knots, size_t n_knots, double *bounds)
 {
     const double length = log_ratio(plan->q1, plan->q0);
-    const double least = 1e-13 * fmax(1, length); /* cuts closer than rounding are one */
+    const double least = 1e-13 * fmax(1, length); /* cuts closer than rounding are merged */
     size_t n_roughness = 0;
     const double *breaks = roughness_breaks(roughness, &n_roughness);
     size_t n = 0;
@@ -200,7 +198,7 @@ void panel_plan_lay(panel_plan *plan, const wt_roughness *roughness, const doubl
     double from = 0;
     for (size_t i = 1, k = 0; i < n; i++) {
         const double width = bounds[i] - from;
-        /* A knot that falls on a break up to rounding; the last bound always counts. */
+        /* A knot equal to a break up to rounding is skipped; the last limit is always used. */
         if (!(width > 0) || (i + 1 < n && n_knots && width < least))
             continue;
         double low = from;
@@ -227,7 +225,7 @@ void panel_plan_lay(panel_plan *plan, const wt_roughness *roughness, const doubl
         from = bounds[i];
     }
 
-    /* The first of them becomes cells and cores. */
+    /* The first subinterval becomes cells and cores. */
     const grid_panel first = plan->panels[plan->levels];
     plan->n_panels--;
     memmove(plan->panels + plan->levels, plan->panels + plan->levels + 1,
@@ -287,7 +285,7 @@ void grid_init(scale_grid *grid, const panel_plan *plan, const gauss_rule *rule,
     grid->core_g = arena_alloc(memory, core_nodes, sizeof *grid->core_g);
 }
 
-/* Fills t, q and dt/ds (into factor1) on one panel; returns the half width in s. */
+/* Computes t, q and dt/ds (into factor1) on one subinterval; returns the half width in s. */
 static double place_nodes(const panel_plan *plan, const grid_panel *panel, const gauss_rule *rule,
                           double *t, double *q, double *slope)
 {
@@ -302,7 +300,7 @@ static double place_nodes(const panel_plan *plan, const grid_panel *panel, const
     }
     double less_one[RULE_MOST];
     for (size_t i = 0; i < rule->n; i++) {
-        /* from the low end on: a range may be far shorter than its distance from the anchor */
+        /* from the lower limit: a range may be far shorter than its distance from the anchor */
         const double step = half * (1 + rule->node[i]);
         t[i] = panel->t_low + step;
         slope[i] = 1;
@@ -316,7 +314,7 @@ static double place_nodes(const panel_plan *plan, const grid_panel *panel, const
     }
     exponential_less_one(t, rule->n, less_one);
     for (size_t i = 0; i < rule->n; i++) {
-        /* keeps the digits of a range as short as q1/q0 - 1 = 1e-4 */
+        /* preserves the digits of a range as short as q1/q0 - 1 = 1e-4 */
         const double there = plan->q0 + plan->q0 * less_one[i];
         const double kept = there < plan->q1 ? there : plan->q1;
         q[i] = kept > plan->q0 ? kept : plan->q0;
@@ -329,8 +327,8 @@ static double quartic(double q)
     return q * q * (q * q);
 }
 
-/* q^4 C at the nodes, by how it goes from the first to the last: e^x of many numbers at a time
- * takes a fifth of their powers. False where that is no number, for a density may be 0. */
+/* q^4 C at the nodes as a power law from the first to the last node: exponentials of a vector take
+ * a fifth of the time of powers. False if the power is not finite, because a density may be 0. */
 static bool weigh_power(const wt_roughness *roughness, size_t n, const double *t, const double *q,
                         double *weighed)
 {

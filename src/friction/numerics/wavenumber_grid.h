@@ -1,9 +1,9 @@
-/* Internal to the kernel room: where the integrals over the wavenumber are cut into panels, and the
- * nodes of a rule on them.
+/* Division of the wavenumber integrals into subintervals, and the nodes of a rule on them. Internal
+ * to friction.
  *
- * t = ln(q / q0). The first panel [0, h] is graded towards t = 0, because P(G(t)) changes on the
- * scale where G passes 1, however close to q0 that is: cells [h/4, h], [h/16, h/4], ... and one
- * core [0, h/4^level], whose level is chosen at each velocity.
+ * t = ln(q / q0). The first subinterval [0, h] is graded towards t = 0, because P(G(t)) changes on
+ * the scale where G passes 1, which may be close to q0. It has the cells [h/4, h], [h/16, h/4], ...
+ * and one core [0, h/4^level], whose level is chosen at each velocity.
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
@@ -28,65 +28,66 @@ typedef struct grid_panel {
     panel_map map;
 } grid_panel;
 
-/* Panels in rising t: cell[levels - 1] ... cell[0], then the others; cores apart. */
+/* Subintervals in rising t: cell[levels - 1] ... cell[0], then the others; the cores are separate.
+ */
 typedef struct panel_plan {
     double q0, q1;
-    const strain_law *softening; /* borrowed, NULL = none */
-    double width;                /* of panels in t, at most; the first one is no wider than usual */
-    const double *slopes;        /* borrowed, [n_knots + 1]: see below */
+    const strain_law *softening; /* borrowed; NULL if none */
+    double width;                /* largest width in t; the first subinterval has at most the
+                                    default width */
+    const double *slopes;        /* borrowed, [n_knots + 1]; see grid_slopes */
     double *powers;              /* [breaks of the roughness + 1] d ln(q^4 C) / d ln q */
     size_t levels;
     grid_panel *core;   /* [levels + 1] */
-    size_t n_panels;    /* levels cells and the others */
+    size_t n_panels;    /* cells and other subintervals */
     grid_panel *panels; /* [capacity] */
     size_t capacity;
 } panel_plan;
 
-/* The usual width, of laws whose moduli may be steeper than those of a closed form (friction.c):
- * pi/2 of a pole over half of it is 2.6, and its ellipse takes 5 off an error with each degree. */
+/* Default width for laws that may be steeper than a closed form. The distance pi/2 of a pole is 2.6
+ * half widths; its ellipse reduces the error by a factor of 5 with each degree. */
 #define PANEL_WIDTH 1.2
 
-/* How steeply |E|^2 rises at most with ln omega, into `slopes` [n_knots + 1]: below the first knot,
- * between two, and above the last. */
+/* Largest slope of |E|^2 with ln omega, into `slopes` [n_knots + 1]: below the first knot, between
+ * two, and above the last. */
 void grid_slopes(const wt_material *material, const double *knots, size_t n_knots, double *slopes);
-/* Room for a plan with these knots (of any one unit of frequency), where the material is so steep
- * (borrowed; NULL without knots), and up to n_cuts cuts besides those of roughness and softening.
- * The pool tells whether there was memory. */
+/* Initialises a plan for these knots (in any unit of frequency) with the slopes of the material
+ * (borrowed; NULL without knots) and up to n_cuts additional cuts. `memory.failed` is set if out of
+ * memory. */
 void panel_plan_init(panel_plan *plan, const wt_roughness *roughness, double width, size_t levels,
                      const double *knots, const double *slopes, size_t n_knots, size_t n_cuts,
                      const strain_law *softening, arena *memory);
-/* Lays the panels: cut at the breaks of roughness and softening, at `cuts` (plain, t rising) and at
- * `knots` (of the material: square-root maps to their right; t rising, also outside the range).
- * `bounds` is scratch for capacity + 1 numbers. */
+/* Fills the plan. Subintervals end at the breaks of roughness and softening, at `cuts` (rising t)
+ * and at `knots`. Knots have square-root maps to their right; they rise in t and may lie outside
+ * the range. `bounds` is scratch memory for capacity + 1 numbers. */
 void panel_plan_lay(panel_plan *plan, const wt_roughness *roughness, const double *cuts,
                     size_t n_cuts, const double *knots, size_t n_knots, double *bounds);
 
-/* The lower or the upper half of a panel. */
+/* Returns the lower or the upper half of a subinterval. */
 grid_panel grid_half(const grid_panel *panel, bool upper);
 
-/* Nodes of one rule on a plan, each panel and core made when it is asked for. The factors hold
- * q^4 C(q) dt/ds and the scale of a layered modulus:
+/* Nodes of one rule on a plan; each subinterval and core is computed on request. The factors
+ * contain q^4 C(q) dt/ds and the scale of a layered modulus:
  * int k^3 C J1 s dk -> sum of half_width weight factor1 J1, with s^2 in factor2. */
 typedef struct scale_grid {
     const gauss_rule *rule;
-    /* [(capacity + 1) * n], the last one for a part of a panel */
+    /* [(capacity + 1) * n] the last one is for part of a subinterval */
     double *t, *q, *factor1, *factor2;
-    double *half_width;                                    /* [capacity + 1] 0: not made yet */
+    double *half_width; /* [capacity + 1] 0 if not yet computed */
     double *core_t, *core_q, *core_factor1, *core_factor2; /* [(levels + 1) * n] */
-    double *core_half_width;                               /* [levels + 1] likewise */
-    /* at the same nodes, NULL without a softening */
+    double *core_half_width;                               /* [levels + 1] 0 if not yet computed */
+    /* values at the same nodes; NULL without softening */
     double *f, *g, *core_f, *core_g;
 } scale_grid;
 
-/* Likewise, for any plan of this capacity. The rule is borrowed. */
+/* Allocates the nodes for any plan of this capacity. The rule is borrowed. */
 void grid_init(scale_grid *grid, const panel_plan *plan, const gauss_rule *rule, arena *memory);
-/* Begins it anew. */
+/* Discards the computed nodes. */
 void grid_begin(scale_grid *grid, const panel_plan *plan);
-/* Makes the panels from the `first` up to the `last` ready, which is left out; and the core of a
- * level. */
+/* Computes the subintervals from `first` up to, but not including, `last`. */
 void grid_fill_panels(scale_grid *grid, const panel_plan *plan, size_t first, size_t last,
                       const wt_roughness *roughness, const wt_layer_state *layer);
-/* A panel that is not in the plan, in the last place. */
+/* Computes part of a subinterval, stored in the last position. */
 void grid_fill_part(scale_grid *grid, const panel_plan *plan, const grid_panel *part,
                     const wt_roughness *roughness, const wt_layer_state *layer);
 void grid_fill_core(scale_grid *grid, const panel_plan *plan, size_t level,

@@ -1,12 +1,12 @@
-/* The general construction behind Johnson, Kendall and Roberts, Proc. R. Soc. Lond. A 324 (1971)
- * 301: with the contact radius a, depth delta0 and force F0 of the contact without adhesion and
- * s = sqrt(2 pi w / E*),
+/* Adhesive contact of any convex tip, a generalisation of Johnson, Kendall and Roberts, Proc. R.
+ * Soc. Lond. A 324 (1971) 301. The contact without adhesion has the contact radius a, depth delta0
+ * and force F0. With s = sqrt(2 pi w / E*) the branch of least energy is
  *
- *   delta = delta0 - s sqrt(a),   F = F0 - 2 E* s a^(3/2),
+ *     delta = delta0 - s sqrt(a),   F = F0 - 2 E* s a^(3/2).
  *
- * is the least energy for any convex tip. A place on this branch is given by delta0, of which the
- * contact table has F0, dF0/ddelta0 = 2 E* a and its derivative. The pyramid's a is that of the
- * circle with its mean distances; its edge is longer, and the work of adhesion carries that error.
+ * delta0 is the parameter of this branch. The contact table has F0, dF0/ddelta0 = 2 E* a and its
+ * derivative. The contact radius of a pyramid is that of the circle with its mean distances. The
+ * edge of a pyramid is longer, and the work of adhesion includes that error.
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
@@ -20,19 +20,20 @@
 #include <math.h>
 
 /* Range of atomic forces [m], an interatomic distance, in Tabor's parameter (J. Colloid Interface
- * Sci. 58 (1977) 2): it names the regime, which goes over some decades. */
+ * Sci. 58 (1977) 2). The transition between the regimes takes some decades. */
 static const double force_range = 0.3e-9;
-/* Between them a work of adhesion is looked for [J/m^2]: surfaces have 1e-3 to 1, and welded ones
- * are no contact; beyond there is none. */
+/* Search range of the work of adhesion [J/m^2]. Surfaces have 1e-3 to 1; welded surfaces are no
+ * contact. */
 static const double least_work = 1e-9, most_work = 1e3;
-/* Halves and false positions to the last digit of a double need some 60 and 10. */
-/* Of a place: after it the error is of the order of its square. */
+/* Bisection needs about 60 steps, and false position about 10, to the last digit of a double. */
+/* Relative step of the bare depth at convergence. The remaining error is of the order of its
+ * square. */
 static const double close_step = 1e-7;
 enum {
     MAX_ROUNDS = 200,
-    MAX_STEPS = 600,               /* by 4: more than a double has */
-    CORNER_NODES = ADHESION_BLOCK, /* where the end of the branch is looked for beside a corner */
-    NODES = 64,                    /* of the branch, from which a place on it is guessed, to 1e-7 */
+    MAX_STEPS = 600,               /* factors of 4; more than the range of a double */
+    CORNER_NODES = ADHESION_BLOCK, /* grid for the end of the branch near a corner */
+    NODES = 64, /* nodes of the branch; interpolation between them is accurate to 1e-7 */
     BLOCK = ADHESION_BLOCK,
 };
 
@@ -41,7 +42,7 @@ bool adhesion_applies(const wt_tip *tip)
     return tip->shape != WT_TIP_PUNCH && !(tip->sample_thickness > 0.0);
 }
 
-/* Contact without adhesion at so many bare depths: a place of the branch follows from it. */
+/* Contact without adhesion at several bare depths. Each determines a point of the branch. */
 typedef struct bare_contacts {
     double g[BLOCK], slope[BLOCK], curvature[BLOCK];
 } bare_contacts;
@@ -90,8 +91,9 @@ typedef struct release_search {
     double k;
 } release_search;
 
-/* Of n places; rises where the branch is stable against the lever: dF + k ddelta along it, over the
- * change of the bare depth, and over k if that is infinite. */
+/* Stability of the branch against the cantilever at n points: (dF + k ddelta) along the branch over
+ * the change of the bare depth, and over k if k is infinite. The branch is stable where the value
+ * is positive. */
 WIDE_REGISTERS static void restoring_at(const release_search *s, const double *bare, size_t n,
                                         double *to)
 {
@@ -123,7 +125,7 @@ static double end_between(release_search *s, double low, double high)
     return root_find(restoring, s, low, high, 0.0, &end, NULL) == WT_OK ? end : (double)NAN;
 }
 
-/* Where there is one end, from any place. */
+/* Finds the end of the branch from any start. The function requires that the branch has one end. */
 static double end_from(release_search *s, double bare)
 {
     const bool inside = holds(s, bare);
@@ -135,9 +137,9 @@ static double end_from(release_search *s, double bare)
     return inside ? end_between(s, next, bare) : end_between(s, bare, next);
 }
 
-/* The radius over the square root of the slope of the profile rises with the radius below a corner
- * at radius b, and from 2b on, and faster than the end asks for, so that there is one end. Between
- * the two it falls right behind the corner, which holds for a stretch. */
+/* Radius over the square root of the profile slope rises with the radius below a corner at radius
+ * b, and above 2b. There it rises faster than the condition of the end, so there is one end.
+ * Between b and 2b it falls just after the corner, and the branch is stable over a range there. */
 double adhesion_release(const adhesion *law, double k)
 {
     if (!(law->work > 0.0))
@@ -162,12 +164,14 @@ double adhesion_release(const adhesion *law, double k)
     for (int i = CORNER_NODES - 1; i > 0; i--)
         if (!(force[i] > 0.0))
             return end_between(&search, bare[i], bare[i + 1]);
-    return holds(&search, corner) ? end_from(&search, corner) : corner; /* below it the cap */
+    return holds(&search, corner) ? end_from(&search, corner)
+                                  : corner; /* below the corner, the end on the cap */
 }
 
-/* ---- in balance with a lever ----------------------------------------------------------------- */
+/* ---- equilibrium with a cantilever ----------------------------------------------------------- */
 
-/* Positions of the base at places of the branch, and how they rise with these. */
+/* Computes the positions of the base at points of the branch, and their derivatives by the bare
+ * depth. */
 WIDE_REGISTERS static void bases_at(const adhesion *law, double k, const double *bare, size_t n,
                                     double *base, double *rise)
 {
@@ -189,7 +193,7 @@ static double base_at(const adhesion *law, double k, double bare)
     return base;
 }
 
-/* A block of positions, and between which places theirs are. */
+/* Block of positions with their bare depths and brackets. */
 typedef struct balance_block {
     double position[BLOCK], bare[BLOCK], low[BLOCK], high[BLOCK];
 } balance_block;
@@ -199,8 +203,8 @@ WIDE_PART void choose(wide *to, const wide_bits *which, const wide *one, const w
     *to = (wide)((*which & (wide_bits)*one) | (~*which & (wide_bits)*other));
 }
 
-/* One of Newton's steps, or a half where it leads out; returns the largest share of a bare depth.
- */
+/* Performs a Newton step, or a bisection step if the former leaves the bracket. Returns the largest
+ * relative change of a bare depth. */
 WIDE_REGISTERS static double step_on(const adhesion *law, double k, balance_block *b)
 {
     double base[BLOCK], rise[BLOCK], most = 0.0;
@@ -234,14 +238,15 @@ WIDE_REGISTERS static double step_on(const adhesion *law, double k, balance_bloc
     return most;
 }
 
-/* Between node j and the next: the rise of the bare depth and that of the base, and how far the
- * cubic is from the line at either end. */
+/* Nodes of the branch. For the interval after node j: the differences of bare depth and base, and
+ * the difference between cubic and line at either end. */
 typedef struct branch {
     double bare[NODES + 1], base[NODES + 1], rise[NODES + 1];
     double up[NODES], span[NODES], near_low[NODES], near_high[NODES];
 } branch;
 
-/* From its end to beyond a position. At its end the position is a square. */
+/* Samples the branch from its end to a position. At its end the position is quadratic in the bare
+ * depth. */
 static void nodes_to(const adhesion *law, double k, double release, double farthest, branch *to)
 {
     double top = release > 0.0 ? 2.0 * release : 1e-6 * farthest;
@@ -262,8 +267,9 @@ static void nodes_to(const adhesion *law, double k, double release, double farth
     }
 }
 
-/* Where places are on the branch, node[j] the last below place j: by the cubic with the slopes of
- * the nodes; beside the end, where the slope is infinite, by a line. */
+/* Interpolates points of the branch; node[j] is the last node below position j. The cubic uses the
+ * slopes at the nodes. The interval at the end of the branch is linear, because its slope is
+ * infinite. */
 WIDE_REGISTERS static void guess(const branch *nodes, const size_t node[BLOCK], balance_block *b)
 {
     double part[6][BLOCK];
@@ -305,7 +311,7 @@ void adhesion_balance(const adhesion *law, double k, double release, const doubl
         farthest = position[i] > farthest ? position[i] : farthest;
     const double held = release > 0.0 ? base_at(law, k, release) : 0.0;
     branch nodes;
-    if (!(farthest > held)) { /* all of them are held */
+    if (!(farthest > held)) { /* all positions are below the end of the branch */
         for (size_t i = 0; i < n; i++)
             bare[i] = release;
         return;
@@ -340,14 +346,15 @@ void adhesion_balance(const adhesion *law, double k, double release, const doubl
 
 /* ---- work of adhesion ------------------------------------------------------------------------ */
 
-/* ln of the force at which it comes off. */
+/* Logarithm of the pull-off force. */
 static double log_pull_off(const wt_contact_table *table, double reduced, double k, double log_work)
 {
     const adhesion law = {table, reduced, exp(log_work)};
     return log(fmax(-adhesion_at(&law, adhesion_release(&law, k)).force, DBL_MIN));
 }
 
-/* By the false position of Illinois: in logarithms it is close to a line. */
+/* Solves with the Illinois variant of false position. The function is nearly linear in logarithms.
+ */
 double adhesion_work(const wt_contact_table *table, double reduced, double k, double pull_off)
 {
     const wt_tip *tip = contact_table_tip(table);

@@ -1,4 +1,4 @@
-/* Inside the library: adhesive contact of any tip, after Johnson, Kendall and Roberts.
+/* Adhesive contact of any tip after Johnson, Kendall and Roberts. Internal to the library.
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
@@ -7,25 +7,26 @@
 
 #include "weartrack/model.h"
 
-/* Whether the law below holds: not for a punch, which has no smaller contact to grow from, nor on a
- * thin sample. */
+/* True if the law applies. A punch has no smaller contact from which it grows, and a thin sample
+ * has no such law. */
 bool adhesion_applies(const wt_tip *tip);
 
 typedef struct adhesion {
-    const wt_contact_table *table; /* of the tip */
+    const wt_contact_table *table; /* contact table of the tip */
     double reduced;                /* E/(1-nu^2) [Pa] */
-    double work;                   /* of adhesion [J/m^2], >= 0 */
+    double work;                   /* work of adhesion [J/m^2], >= 0 */
 } adhesion;
 
-/* A place on the branch is given by its bare depth: that of a contact without adhesion that is as
- * large. Derivatives along the branch; by modulus and work at one depth. */
+/* Contact at a point of the branch. The parameter is the bare depth, which is the depth of a
+ * contact without adhesion of equal size. stiffness is the derivative along the branch. by_modulus
+ * and by_work are derivatives at constant depth. */
 typedef struct adhesive_contact {
     double radius, depth, force;
     double stiffness;           /* dF/ddelta */
-    double by_modulus, by_work; /* dF/dE*, dF/dw; by_work: infinite without adhesion */
+    double by_modulus, by_work; /* dF/dE*, dF/dw; by_work is infinite without adhesion */
 } adhesive_contact;
 adhesive_contact adhesion_at(const adhesion *law, double bare);
-/* The same at up to ADHESION_BLOCK places. */
+/* Contacts at up to ADHESION_BLOCK points. */
 enum { ADHESION_BLOCK = 32 };
 typedef struct adhesive_contacts {
     double radius[ADHESION_BLOCK], depth[ADHESION_BLOCK], force[ADHESION_BLOCK],
@@ -33,18 +34,19 @@ typedef struct adhesive_contacts {
 } adhesive_contacts;
 void adhesion_along(const adhesion *law, const double *bare, size_t n, adhesive_contacts *to);
 
-/* The bare depth at which a lever of spring constant k lets go; k = 0: under a dead load, INFINITY:
- * at a fixed depth. 0 without adhesion. */
+/* Returns the bare depth at which a cantilever of spring constant k pulls off. k = 0 means dead
+ * load, INFINITY a fixed depth. The result is 0 without adhesion. */
 double adhesion_release(const adhesion *law, double k);
-/* The largest bare depths with depth + force/k = position, of n positions. release: that of this k;
- * a position that it cannot reach gives it. Quick where positions follow one another. */
+/* Computes the largest bare depths with depth + force/k = position for n positions. `release` is
+ * the result of adhesion_release for this k; positions beyond it return it. Consecutive positions
+ * should be close for speed. */
 void adhesion_balance(const adhesion *law, double k, double release, const double *position,
                       size_t n, double *bare);
-/* The work of adhesion of a pull-off force [N] > 0; of a punch, whose edge lets go, by Kendall;
- * NaN on a thin sample, and outside of a nanojoule to a kilojoule per square metre. */
+/* Returns the work of adhesion for a pull-off force [N] > 0. A punch uses Kendall's law. The result
+ * is NaN on a thin sample and outside 1 nJ/m^2 to 1 kJ/m^2. */
 double adhesion_work(const wt_contact_table *table, double reduced, double k, double pull_off);
-/* Of Tabor: above 5 the law is that of Johnson, Kendall and Roberts, below 0.1 that of Derjaguin,
- * Muller and Toporov. NaN for a tip without a curvature. */
+/* Returns Tabor's parameter. Above 5 the law of Johnson, Kendall and Roberts applies, below 0.1
+ * that of Derjaguin, Muller and Toporov. The result is NaN for a tip without curvature. */
 double adhesion_tabor(const adhesion *law);
 
 #endif

@@ -1,16 +1,17 @@
 /* Contact laws of rigid tips on an elastic half-space: Hertz, Sneddon, blunted pyramid.
  *
  * Sphere: Sneddon, Int. J. Eng. Sci. 3 (1965) 47, with t = atanh(a/R): delta = R t tanh(t) and
- * G = R^2 { (1 + tanh(t)^2) t - tanh(t) }, the difference t - tanh(t) by a continued fraction.
+ * G = R^2 { (1 + tanh(t)^2) t - tanh(t) }. A continued fraction computes the difference t -
+ * tanh(t).
  *
  * Blunted pyramid: Rico et al., Phys. Rev. E 72 (2005) 021914, with a parabolic cap r^2/(2R) up to
  * the transition radius b. The published pair delta(a), F(a) loses digits at both ends in double
- * precision; here it is written in s = sqrt(a^2 - b^2)/b, h = sqrt(1 + s^2), a = b h:
+ * precision. This file uses s = sqrt(a^2 - b^2)/b, h = sqrt(1 + s^2), a = b h:
  *
- *   delta = b^2 h / (R (h + s)) + m cot(theta) b h atan(s)
- *   G     = 2 { b^3 (2h + s) / (3 R (h + s)^2) + (m/2) cot(theta) (a^2 atan(s) + b^2 s) }
+ *     delta = b^2 h / (R (h + s)) + m cot(theta) b h atan(s)
+ *     G     = 2 { b^3 (2h + s) / (3 R (h + s)^2) + (m/2) cot(theta) (a^2 atan(s) + b^2 s) }
  *
- * in which nothing cancels. delta(s) is convex and rises, so Newton's method from above converges
+ * without cancellation. delta(s) is convex and rises, so Newton's method from above converges
  * without a safeguard.
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
@@ -70,7 +71,7 @@ static double sphere_force(double radius, double t)
 
 static contact_point_values sphere(double radius, double delta)
 {
-    enum { MAX_ROUNDS = 60 }; /* a bound of Newton's steps from above */
+    enum { MAX_ROUNDS = 60 }; /* limit of Newton's steps from above */
     const double x = delta / radius;
     double t = sqrt(x) * sqrt(1.0 + x), share = 0.0, left = 0.0; /* not below the root */
     for (int i = 0; i < MAX_ROUNDS; i++) {
@@ -100,14 +101,15 @@ static double faces_force(const wt_tip *tip, double mcot, double s)
                   0.5 * mcot * (a * a * atan(s) + b * (b * s)));
 }
 
-/* The equation is solved for the depth beyond the switch, or the root near it would be lost in the
- * rounding of the depth:  delta - b^2/R = m cot(theta) b h atan(s) - b^2 s / (R (h + s)). */
+/* Solves for the depth beyond the switch. Otherwise rounding of the depth hides a root near the
+ * switch:
+ * delta - b^2/R = m cot(theta) b h atan(s) - b^2 s / (R (h + s)). */
 static contact_point_values faces_contact(const wt_tip *tip, double delta)
 {
     const double b = tip->transition_radius;
     const double cap = b * b / tip->radius, beyond = delta - cap;
     const double mcot = tip_facet_factor(tip->sides) / tan(tip->half_angle);
-    /* h atan(s) >= pi s/2 - 1 makes this an upper bound of the root. */
+    /* h atan(s) >= pi s/2 - 1, so this start is an upper bound of the root. */
     double s = 2.0 / M_PI * (delta / (mcot * b) + 1.0);
     double h = 0.0, hs = 0.0, rise = 0.0;
     for (;;) {
@@ -116,12 +118,12 @@ static contact_point_values faces_contact(const wt_tip *tip, double delta)
         rise = mcot * b * (1.0 + s * atan(s)) - cap / (hs * hs); /* h ddelta/ds */
         double excess = mcot * b * h * atan(s) - cap * s / hs - beyond;
         double next = fmax(s - excess * h / rise, 0.0);
-        /* The iterates fall until rounding stops them: that is the root. */
+        /* The iterates fall until rounding stops them at the root. */
         if (!(next < s))
             break;
         s = next;
     }
-    /* At the switch itself the contact grows no faster than s, but that of a smooth cap. */
+    /* At the switch the growth of the contact is 0/0; the limit for a smooth cap is used. */
     const double growth = rise > 0.0 ? b * s / rise : 0.5 * tip->radius / b;
     return (contact_point_values){faces_force(tip, mcot, s), 2.0 * b * h, 2.0 * growth};
 }

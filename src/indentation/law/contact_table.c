@@ -1,10 +1,10 @@
-/* A contact function made ready for millions of calls: piecewise quintic polynomials.
+/* Table of a contact function for fast evaluation: piecewise quintic polynomials.
  *
- * The knots lie in the depth e = delta - b^2/R beyond the switch, 64 to every power of two, so that
- * the bits of e are the number of the piece and the jump of the curvature at the switch falls on a
- * border. Value, slope and curvature of every knot are exact; the interpolation error is below
- * 1e-13 of G. Below the switch the law is a formula that needs no table, as it is for tips without
- * one, except the sphere: its table begins at the smallest depth.
+ * The knots lie in the depth e = delta - b^2/R beyond the switch, 64 to every power of two. The
+ * bits of e then give the number of the piece, and the jump of the curvature at the switch is a
+ * knot. Value, slope and curvature are exact at the knots. The interpolation error is below 1e-13
+ * of G. Below the switch a formula applies. Tips without a switch have formulas too, except the
+ * sphere, whose table begins at the smallest depth.
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
@@ -16,13 +16,13 @@
 #include <string.h>
 
 enum {
-    MANTISSA_BITS = 6,                  /* 64 pieces to an octave */
+    MANTISSA_BITS = 6,                  /* 64 pieces per octave */
     SHIFT = 52 - MANTISSA_BITS,         /* of an IEEE double */
-    OCTAVES_BELOW_SWITCH_DEPTH = 16,    /* nearer to the switch the direct function is used */
+    OCTAVES_BELOW_SWITCH_DEPTH = 16,    /* the direct function serves smaller depths */
     MAX_PIECES = 2048 << MANTISSA_BITS, /* all exponents of a double */
 };
 
-/* One cache line, read as two times four numbers. */
+/* One cache line, loaded as two vectors of four numbers. */
 typedef struct piece {
     double c[6]; /* in t = 0..1 over the piece */
     double start, inverse_width;
@@ -32,7 +32,7 @@ enum { PIECE = sizeof(piece) / sizeof(double) };
 struct wt_contact_table {
     wt_tip tip;
     double switch_depth;
-    uint64_t first; /* bits >> SHIFT of the first piece */
+    uint64_t first; /* bits >> SHIFT of the start of the first piece */
     size_t n;
     piece pieces[];
 };
@@ -52,9 +52,9 @@ static double piece_start(uint64_t number)
     return e;
 }
 
-/* The rise of G over a piece. Taken from the slope, not as a difference: near the switch a piece is
- * so narrow that the difference of two rounded values would cost the slope five digits. Three Gauss
- * points are exact to 1e-16 on a piece this narrow. */
+/* Rise of G over a piece by integration of the slope. Near the switch a piece is very narrow, and a
+ * difference of two rounded values would cost the slope five digits. Three Gauss points are exact
+ * to 1e-16 on such a piece. */
 static double piece_rise(const wt_tip *tip, double from, double w)
 {
     double half = sqrt(0.15) * w, middle = from + 0.5 * w;
@@ -64,14 +64,14 @@ static double piece_rise(const wt_tip *tip, double from, double w)
             8.0 * contact_values(tip, middle).slope);
 }
 
-/* lo: at its start; it becomes what is at its end. */
+/* Creates a piece. `lo` has the values at its start on entry and at its end on return. */
 static piece piece_make(const wt_tip *tip, double switch_depth, uint64_t number,
                         contact_point_values *lo)
 {
     const double e = piece_start(number), end = piece_start(number + 1), w = end - e;
     const contact_point_values hi = contact_values(tip, switch_depth + end);
     const double g = lo->g, d = lo->slope * w, s = 0.5 * lo->curvature * w * w;
-    /* What the first three terms leave at the far end, for the last three to supply. */
+    /* Remainder at the far end after the first three terms; it determines the last three terms. */
     const double rf = piece_rise(tip, switch_depth + e, w) - d - s, rd = hi.slope * w - d - 2.0 * s,
                  rs = hi.curvature * w * w - 2.0 * s;
     *lo = hi;
@@ -155,12 +155,12 @@ static inline contact_point_values half_space(const wt_contact_table *table, dou
             p->inverse_width};
 }
 
-/* Four numbers of each of four pieces, from number k on: column by column. */
+/* Loads four numbers, from number k on, of each of four pieces and transposes them. */
 WIDE_PART void columns_of(const wt_contact_table *table, const wide_bits *number, size_t k,
                           wide to[WIDE])
 {
     const double *from = (const double *)table->pieces + k;
-    wide a, b, c, d; /* no array, which would go through memory in halves */
+    wide a, b, c, d; /* separate variables; an array would be split through memory */
     simd_load(&a, from + (*number)[0] * PIECE);
     simd_load(&b, from + (*number)[1] * PIECE);
     simd_load(&c, from + (*number)[2] * PIECE);
@@ -175,15 +175,15 @@ WIDE_PART void columns_of(const wt_contact_table *table, const wide_bits *number
     to[3] = __builtin_shufflevector(odd, odd2, 2, 3, 6, 7);
 }
 
-/* Where values go: each [n]; slope and curvature NULL: not asked for. */
+/* Output arrays [n]; slope and curvature may be NULL. */
 typedef struct values_at {
     double *g, *slope, *curvature;
 } values_at;
 
-/* Four at once from i on, if pieces hold all of them. */
+/* Evaluates four depths from i on. Returns false unless pieces cover all of them. */
 WIDE_PART bool in_pieces(const wt_contact_table *table, const double *delta, size_t i, values_at to)
 {
-    wide d, c[2 * WIDE]; /* as in a piece */
+    wide d, c[2 * WIDE]; /* members of a piece */
     simd_load(&d, delta + i);
     d -= table->switch_depth;
     const wide_bits number = ((wide_bits)d >> SHIFT) - (int64_t)table->first;

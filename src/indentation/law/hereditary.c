@@ -1,5 +1,5 @@
-/* Rubber with memory: a Prony series along a motion in steps of time. f is taken as linear within a
- * step, for which the recursion is exact.
+/* Viscoelastic contact: recursion of a Prony series over time steps. f is linear within a step,
+ * for which the recursion is exact.
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
@@ -10,13 +10,13 @@
 #include <math.h>
 #include <stdlib.h>
 
-/* Relaxation times in steps and in the whole motion beyond which a term is a dashpot or a spring:
- * exp(-20) and 1e-5 of it are lost. */
+/* Limits of the relaxation times, in steps and in durations of the motion, beyond which a term is a
+ * dashpot or a spring. The relative error is exp(-20) and 1e-5. */
 static const double quickest = 0.05, slowest = 1e5;
 
 wt_status hereditary_reserve(hereditary *m, size_t terms, wt_error *err)
 {
-    enum { N_ARRAYS = 7 }; /* below */
+    enum { N_ARRAYS = 7 }; /* number of the arrays below */
     if (terms <= m->capacity && m->block != NULL)
         return WT_OK;
     double *block = calloc(N_ARRAYS * (terms + 1), sizeof *block);

@@ -1,7 +1,7 @@
-/* Internal to the library: rubber with memory. The force of a contact whose elastic force would be
- * E f(t) is the integral of E(t - t') df(t') with E(t) = rest + sum E_i exp(-t/tau_i) (Lee and
- * Radok); once the contact area shrinks, only what was pressed in before the same area was reached
- * on the way in remains (Ting).
+/* Viscoelastic contact. The elastic force is E f(t). The viscoelastic force is the integral of E(t
+ * - t') df(t') with E(t) = rest + sum E_i exp(-t/tau_i) (Lee and Radok). When the contact area
+ * shrinks, only the loading before the same area on approach contributes (Ting). Internal to the
+ * library.
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
@@ -10,46 +10,50 @@
 
 #include "weartrack/model.h"
 
-/* A series as the steps of one motion see it. */
+/* Prony series prepared for the steps of one motion. */
 typedef struct hereditary {
-    double rest;      /* with what does not relax within the motion */
-    double viscosity; /* of what relaxes within a step, times the time */
-    size_t n;         /* terms between the two */
+    double rest;      /* equilibrium modulus, with the terms that do not relax within the motion */
+    double viscosity; /* sum of modulus times relaxation time over the terms that relax within a
+                         step */
+    size_t n;         /* remaining terms */
     double *modulus, *time;
-    double step;         /* what the next three are for */
-    double *fade;        /* what a step leaves of a memory */
-    double *gain, gains; /* what a change of 1 over a step adds to it, and to all of them */
-    double *memory[3];   /* [n] each, for whoever goes along the motion */
+    double step;         /* length of the step for the next members */
+    double *fade;        /* factor by which each term decays in a step */
+    double *gain, gains; /* increase of each term per unit change over a step, and their sum */
+    double *memory[3];   /* [n] each; states that the caller advances along the motion */
     double *block;
     size_t capacity;
 } hereditary;
 
-/* An empty one is zero. Room for the terms of a series; WT_E_MEMORY. */
+/* Reserves space for the terms of a series. An empty structure is zero. Returns WT_E_MEMORY on
+ * failure. */
 wt_status hereditary_reserve(hereditary *m, size_t terms, wt_error *err) WT_NODISCARD;
 void hereditary_clear(hereditary *m);
-/* Moduli times `scale`, for steps that are not shorter than one and a motion that is not longer
- * than the other. */
+/* Sets the moduli times `scale`. `shortest` is the shortest step, `longest` the duration of the
+ * motion. */
 void hereditary_begin(hereditary *m, const wt_prony *series, double scale, double shortest,
                       double longest);
-/* Prepares for steps of this length; quick where it is that of the step before. */
+/* Prepares a step of this length. An unchanged length costs nothing. */
 void hereditary_step(hereditary *m, double step);
-/* Brings a memory [n] to the end of the step; returns what it holds then. */
+/* Advances a state [n] over the step and returns its sum. */
 double hereditary_fade(const hereditary *m, double *memory);
-/* f changed by that much in the step, evenly. */
+/* Adds an even change of f during the step. */
 void hereditary_add(const hereditary *m, double *memory, double change);
-/* Force at the end of a step in which f went from one value to another, `faded` from the memory. */
+/* Force at the end of a step in which f changed from `before` to `f`. `faded` is the result of
+ * hereditary_fade. */
 static inline double hereditary_force(const hereditary *m, double faded, double before, double f)
 {
     return m->rest * f + faded + (m->gains + m->viscosity / m->step) * (f - before);
 }
 
-/* Forces of a tip at n times and positions of its base, which rises from contact, the first one, to
- * one maximum and falls again; compliance of the lever, 0: the base is the depth. WT_E_MEMORY. */
+/* Computes the forces of a tip at n times. The base rises from contact (the first position) to one
+ * maximum and falls again. With a compliance of 0 the base is the depth. Returns WT_E_MEMORY on
+ * failure. */
 wt_status hereditary_loop(hereditary *law, const wt_contact_table *table, double compliance,
                           const double *time, const double *base, size_t n, double *force,
                           wt_error *err) WT_NODISCARD;
 
-/* |E*| of a series. */
+/* Returns |E*| of a series. */
 double hereditary_modulus(const wt_prony *series, double angular_frequency);
 
 #endif

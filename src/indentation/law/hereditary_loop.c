@@ -1,7 +1,7 @@
-/* A tip that goes into rubber with memory and out again (Lee and Radok; Ting). On the way out the
- * contact has shrunk to what it was at an earlier time t1 of the way in, for which the integral of
- * E(t - t') ddelta from t1 to t is zero; only what was pressed in before t1 pushes. t1 falls: it is
- * followed back through the steps of the way in.
+/* Loading and unloading of a viscoelastic half-space by a tip (Lee and Radok; Ting). During
+ * unloading the contact has the size that it had at an earlier time t1 of loading. The integral of
+ * E(t - t') ddelta from t1 to t is zero, and only the loading before t1 contributes to the force.
+ * t1 falls with time, and the search follows it backwards through the steps of loading.
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
@@ -12,26 +12,26 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { MAX_NEWTON = 60 };          /* a bound of steps */
-static const double close = 1e-15; /* of a step: t1 */
-/* In relaxation times: what it leaves of a memory is a double's last digit. */
+enum { MAX_NEWTON = 60 };          /* limit of Newton's steps */
+static const double close = 1e-15; /* tolerance of t1 in steps */
+/* Step in relaxation times after which the decay is below the precision of a double. */
 static const double long_step = 36.0;
 
-/* The way in, and where the way out is. */
+/* History of loading and state of unloading. */
 typedef struct loop {
     hereditary *law;
     const wt_contact_table *table;
     double compliance;
     const double *time;
-    double *depth, *f;      /* [steps] of the way in */
-    double *pushed, *moved; /* [steps][terms]: memories of f and of the depth */
-    size_t step;            /* t1 lies in the one that ends here */
-    double since;           /* the time since it began */
-    double *left;           /* [terms] what is left of what was there then */
-    double *now;            /* [terms] memory of the depth */
+    double *depth, *f;      /* [steps] of loading */
+    double *pushed, *moved; /* [steps][terms] states of f and of the depth */
+    size_t step;            /* t1 lies in the step that ends here */
+    double since;           /* time since that step began */
+    double *left;           /* [terms] decay since that step began */
+    double *now;            /* [terms] state of the depth */
 } loop;
 
-/* base = depth + compliance (past + now f(depth)), from a depth that is not too small. */
+/* Solves base = depth + compliance (past + now f(depth)) with Newton's method from above. */
 static double depth_in(const wt_contact_table *table, double compliance, double base, double past,
                        double now, double *f)
 {
@@ -72,8 +72,8 @@ static void begin_step(loop *l, double t)
         l->left[i] = exp(-l->since / l->law->time[i]);
 }
 
-/* With t1 a share of the step after its beginning: the force, and in `open` what the depth took of
- * the integral since t1. */
+/* Force if t1 lies a share of the step after its start. `open` receives the part of the integral
+ * since t1 that loading contributes. */
 static double force_since(const loop *l, double share, double *depth, double *open)
 {
     const hereditary *law = l->law;
@@ -95,15 +95,15 @@ static double force_since(const loop *l, double share, double *depth, double *op
     return law->rest * f + force;
 }
 
-/* A moment of the way out, with what the depth took of the integral before. */
+/* State at one time of unloading, with the depth at the end of the previous step. */
 typedef struct moment {
     const loop *l;
     double base, before, faded;
-    double force, depth; /* of the latest t1 */
+    double force, depth; /* for the latest t1 */
 } moment;
 
-/* The integral since t1, a share of the step, which falls as t1 rises; at its root the force is
- * that of the contact. */
+/* Integral since t1, which is a share of the step. It falls as t1 rises, and its root determines
+ * the contact. */
 static double integral_since(double share, void *user)
 {
     moment *m = user;
@@ -129,7 +129,7 @@ static wt_status step_out(loop *l, double t, double base, double *depth, double 
     }
     if (l->step == 0)
         return WT_OK;
-    /* not below zero: the contact holds on to its radius */
+    /* if not below zero, the contact keeps its radius */
     double share = 1.0;
     if (integral_since(1.0, &m) < 0.0) {
         const wt_status status = root_find(integral_since, &m, 0.0, 1.0, close, &share, err);
@@ -167,7 +167,7 @@ wt_status hereditary_loop(hereditary *law, const wt_contact_table *table, double
     force[0] = 0.0;
     for (size_t i = 1; i < n && status == WT_OK; i++) {
         hereditary_step(law, time[i] - time[i - 1]);
-        if (!out) { /* with a lever it goes deeper for a while after the base has turned */
+        if (!out) { /* with a cantilever the depth still rises shortly after the base has turned */
             force[i] = step_in(&l, i, base[i]);
             if (l.depth[i] >= l.depth[i - 1])
                 continue;

@@ -1,5 +1,5 @@
-/* What a layer on a half-space looks like: a law fitted to solutions of the integral equation for
- * cone, sphere and pyramid, 0.4 % from them for ratios of 0.67 to 1.5.
+/* Apparent modulus of a layer on a half-space. The law is fitted to solutions of the integral
+ * equation for cone, sphere and pyramid, with errors of 0.4 % for ratios of 0.67 to 1.5.
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
@@ -7,7 +7,7 @@
 
 #include <math.h>
 
-/* As far as it is within 2 % of the solutions, as in the ratio. */
+/* Upper limit of x within which the law is accurate to 2 %, as for the ratio. */
 static const double largest_x = 6.0;
 
 bool thin_layer_holds(double ratio, double x)

@@ -1,5 +1,5 @@
-/* Internal to the library: a layer (E1, thickness h) bonded to a half-space (E2), both
- * incompressible, under a rigid tip without friction.
+/* Layer (E1, thickness h) bonded to a half-space (E2), both incompressible, under a rigid tip
+ * without friction. Internal to the library.
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
@@ -8,12 +8,12 @@
 
 #include <stdbool.h>
 
-/* Of the moduli, between which the law is within 2 % of what it was fitted to. */
+/* Range of the ratio of moduli within which the law is accurate to 2 %. */
 #define THIN_LAYER_LEAST_RATIO 0.3
 #define THIN_LAYER_LARGEST_RATIO 3.0
 
-/* What a homogeneous model makes of one point, over E1: ratio = E1/E2, x = contact radius of the
- * homogeneous half-space at that depth over h. Within 2 % where thin_layer_holds. */
+/* Apparent modulus of a homogeneous model over E1. ratio = E1/E2; x = contact radius of the
+ * homogeneous half-space at that depth over h. The error is below 2 % where thin_layer_holds. */
 double thin_layer_apparent(double ratio, double x);
 bool thin_layer_holds(double ratio, double x);
 

@@ -1,13 +1,13 @@
-/* A thin sample on a rigid base. The base keeps the surface from giving way around the contact: the
- * force is larger by a factor of the contact radius a without the base over the thickness h,
+/* Thin sample on a rigid base. The base increases the force by a factor that depends on x, the
+ * contact radius a without the base over the thickness h:
  *
- *   1 + g x + g^2 (3 - u)/2 x^2 + ...,   x = a/h,
+ *     1 + g x + g^2 (3 - u)/2 x^2 + ...,   x = a/h.
  *
- * whose first two terms are those of an even pull, u = 1 for a punch, 2/3 for a paraboloid and 1/2
- * for a cone. The others are fitted to solutions of the integral equation for the kernels
- * (sinh 2y - 2y)/(cosh 2y + 1 + 2y^2) of an incompressible sample that sticks to its base and
- * (cosh 2y - 1)/(sinh 2y + 2y) of one that slides on it: 0.4 % from them up to x = 1, 2.5 % where a
- * wide cap ends and for a sphere that is dented by more than a ninth of its radius.
+ * The first two terms are those of a uniform displacement, with u = 1 for a punch, 2/3 for a
+ * paraboloid and 1/2 for a cone. The other terms are fitted to solutions of the integral equation.
+ * An incompressible bonded sample has the kernel (sinh 2y - 2y)/(cosh 2y + 1 + 2y^2), a sliding
+ * one (cosh 2y - 1)/(sinh 2y + 2y). The error is 0.4 % up to x = 1. It is 2.5 % where a wide cap
+ * ends, and for a sphere indented by more than a ninth of its radius.
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
@@ -39,7 +39,7 @@ static double shape_number(const wt_tip *tip, double a, double *slope)
     }
     if (a <= b)
         return 2.0 / 3.0;
-    const double left = pow(b / a, 3) / 6.0; /* from the cap to the faces */
+    const double left = pow(b / a, 3) / 6.0; /* transition from the cap to the faces */
     *slope = -3.0 * left / a;
     return 0.5 + left;
 }
@@ -56,8 +56,8 @@ contact_point_values thin_sample_values(const wt_tip *tip, contact_point_values 
     const double d5 = bases[tip->unbonded].fifth[1], c5 = bases[tip->unbonded].fifth[0] + u * d5;
     const double by_x = g + x * (2.0 * g2 + x * (3.0 * c3 + x * (4.0 * c4 + x * 5.0 * c5)));
     const double by_u = x * x * (-0.5 * g * g + x * (d3 + x * (d4 + x * d5)));
-    /* Beyond what is known it goes on as a line, so that a fit finds its way; it is then refused.
-     */
+    /* Beyond its range the factor continues linearly, so that a fit converges. The verdict then
+     * rejects the fit. */
     const double factor =
         1.0 + x * (g + x * (g2 + x * (c3 + x * (c4 + x * c5)))) + by_x * (reach - x);
     return (contact_point_values){factor * half_space.g,

@@ -1,4 +1,4 @@
-/* Tips: what is a possible geometry.
+/* Checks of the geometry of tips.
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
@@ -11,7 +11,7 @@
 
 static const double degree = M_PI / 180.0; /* [rad] */
 
-/* Of pyramids and cones: sharper than any needle that is made. */
+/* Smallest half-angle of pyramids and cones; no real needle is sharper. */
 #define SHARPEST (M_PI / 180.0)
 
 const wt_param tip_dimensions[TIP_N_DIMENSIONS] = {
@@ -61,8 +61,8 @@ static wt_status check_cap(const wt_tip *tip, wt_error *err)
         wt_error_found(err, "%g m", b);
         return status;
     }
-    /* The slope of the cap at b must not exceed that of the faces. The smooth cap, where both are
-     * equal, is allowed: it may have been computed, hence the rounding. */
+    /* The slope of the cap at b must not exceed that of the faces. A smooth cap with equal slopes
+     * is valid; its computed b may have a rounding error. */
     double b_max = tip->radius * tip_facet_factor(tip->sides) / tan(tip->half_angle);
     if (b <= b_max * (1.0 + 4.0 * DBL_EPSILON))
         return WT_OK;
@@ -77,7 +77,7 @@ static wt_status check_cap(const wt_tip *tip, wt_error *err)
     return status;
 }
 
-/* An error as large as its value says that nothing is known. */
+/* Checks a standard error. An error as large as the value makes the value meaningless. */
 static wt_status check_error(double value, double error, const char *what, wt_error *err)
 {
     if (error == 0.0 || (error > 0.0 && error < value))

@@ -1,4 +1,4 @@
-/* Tips: the short text form of the command line and the case file, and the description in words.
+/* Short text form of tips for the command line and the case file, and their description.
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
@@ -11,7 +11,7 @@
 #include <math.h>
 #include <string.h>
 
-/* What each shape takes: "allowed" includes "needed". */
+/* Dimensions of each shape; "allowed" includes "needed". */
 static const struct {
     const char *name, *example;
     unsigned allowed, needed;
@@ -29,16 +29,16 @@ static const struct {
 };
 enum { PYRAMID, N_SHAPES = sizeof shapes / sizeof shapes[0] };
 
-enum { LIST = 256 }; /* letters of a list of words */
+enum { LIST = 256 }; /* characters of a list */
 
-/* "a, b or c": adds one more word, of which `after` follow. */
+/* Appends a word to a list "a, b or c"; `after` words follow. */
 static void add_word(char list[LIST], const char *word, size_t after)
 {
     const size_t used = strlen(list);
     snprintf(list + used, LIST - used, "%s%s", used == 0 ? "" : after == 0 ? " or " : ", ", word);
 }
 
-/* With the name that was meant, if any is near. */
+/* Adds advice with examples, and with the most similar name if there is one. */
 static void advise_shape(wt_error *err, size_t shape, const spell_suggestion *near)
 {
     char examples[LIST] = "";
@@ -144,7 +144,7 @@ wt_status wt_tip_parse(const char *text, wt_tip *tip, wt_error *err)
     }
     unsigned missing = shapes[shape].needed & ~seen;
     if (!(seen & 1u << TIP_RADIUS) && (seen & 1u << TIP_TRANSITION))
-        missing |= 1u << TIP_RADIUS; /* a transition without a cap */
+        missing |= 1u << TIP_RADIUS; /* a transition radius requires a cap radius */
     for (size_t key = 0; key < TIP_N_DIMENSIONS; key++) {
         if (missing & 1u << key) {
             status =
@@ -235,7 +235,8 @@ size_t wt_tip_describe(const wt_tip *tip, char *buffer, size_t size)
     return length > 0 ? (size_t)length : 0;
 }
 
-/* What stands behind a word, up to a comma or the end, as a quantity; false if it is none. */
+/* Parses the quantity after a label, up to a comma or the end. Returns false without a valid
+ * quantity. */
 static bool quantity_after(const char *words, const char *word, const char *unit,
                            wt_quantity quantity, double *value)
 {
@@ -270,7 +271,7 @@ bool tip_of_any_description(const char *words, wt_tip *tip)
     static const struct {
         const char *words;
         wt_tip_shape shape;
-        bool round; /* a radius, else an angle */
+        bool round; /* true: a radius; false: an angle */
     } plain[] = {{"paraboloid, ", WT_TIP_PARABOLOID, true},
                  {"sphere, ", WT_TIP_SPHERE, true},
                  {"flat punch, ", WT_TIP_PUNCH, true},

@@ -1,5 +1,5 @@
-/* Adhesion of one force curve: the fit of adhesive contact where the approach snaps on (snap_on.c),
- * or the way out shows a pull-off (retract.c).
+/* Fit of adhesive contact to one force curve. The fit is tried if the approach has a snap-in
+ * (snap_in.c) or the retract a pull-off (retract.c).
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
@@ -13,29 +13,34 @@
 #include <math.h>
 #include <string.h>
 
-/* The root of a work of adhesion, in its standard errors; a pull counts like the work. */
+/* Smallest significant root of a work of adhesion, in its standard errors. The same limit applies
+ * to a constant pull. */
 static const double work_errors = 3.0;
-static const double kink_left = 1e-3;  /* of a standard error: a step beyond ends at a kink */
-static const double better_chi2 = 9.0; /* 2 ln(likelihood ratio) against no adhesion: the same */
-/* Halfway, as a logarithm, from DMT (0.1) to JKR (5) is 0.7 (Johnson and Greenwood, J. Colloid
- * Interface Sci. 192 (1997) 326). */
+static const double kink_left =
+    1e-3; /* in standard errors; a larger remaining step ends at a kink */
+static const double better_chi2 =
+    9.0; /* smallest 2 ln(likelihood ratio) against no adhesion, equivalent to 3 standard errors */
+/* Smallest Tabor parameter of the JKR law. The logarithmic mean of DMT (0.1) and JKR (5) is 0.7
+ * (Johnson and Greenwood, J. Colloid Interface Sci. 192 (1997) 326). */
 static const double least_tabor = 1.0;
-/* A constant pull, in that which is seen at the end of the way out: over as many samples as a
- * pull-off may take the mean of a pull is two thirds of its largest. */
+/* Largest constant pull over the pull measured at the end of the retract. The mean over the samples
+ * of a pull-off is two thirds of its largest value. */
 static const double most_pull = 1.5;
-/* Of that, in a score: a law that has not the work and the contact point of its best fit still
- * shows most of it. */
+/* Share of the improvement that a score must predict. A law without its best work and contact point
+ * still shows most of it. */
 static const double near_gain = 0.5;
-/* Of the largest pull that was not seen, works of adhesion to look for: a score that is linear in
- * the work still tells one from four times as much. */
+/* Trial works of adhesion as shares of the largest pull that is not detected. A score is linear in
+ * the work and also detects a work four times as large. */
 static const double some_pulls[] = {1.0, 0.25};
-/* Depths of a jump before the contact point without adhesion, where a tip may touch: its offset and
- * tilt hide one of them, and the fits find a minimum from within a factor of two. */
+/* Trial positions of first contact before the contact point without adhesion, in depths of a jump.
+ * Offset and tilt hide about one depth. The fits converge from within a factor of two. */
 static const double some_jumps[] = {2.0, 1.0, 4.0};
 enum {
-    MAX_ROUNDS = 3,     /* with the jump where the tip touches: each leaves less than a tenth */
-    MAX_MOVES = 8,      /* of the jump each way: noise hides it in fewer samples */
-    START_SAMPLES = 100 /* of the contact, to start a fit: it knows the modulus to a few per cent */
+    MAX_ROUNDS = 3, /* with the jump at the contact point; each round reduces the error to less than
+                       a tenth */
+    MAX_MOVES = 8,  /* of the jump in each direction; noise affects fewer samples */
+    START_SAMPLES = 100 /* samples in contact for a starting fit; they determine the modulus to a
+                           few per cent */
 };
 
 /* ---- adhesive contact ------------------------------------------------------------------------ */
@@ -53,14 +58,15 @@ static void refine(curve_fitting *f, curve_solution *s)
     curve_refine(f->table, &f->input.samples, f->kind, s->p, f->workspace, s);
 }
 
-/* Forces without a wave, depths and residuals of the workspace are those of the solution then. */
+/* Evaluates the law at the solution. The forces without the wave, the depths and the residuals of
+ * the workspace are then those of the solution. */
 static void evaluate(const curve_fitting *f)
 {
     curve_law m = curve_law_of(f->table, &f->input.samples, &f->kind, f->workspace);
     curve_law_evaluate(&m, f->solution.p, &f->solution.wave);
 }
 
-/* Of the samples as they are now. */
+/* Cost of the current samples without adhesion. */
 static double cost_without_adhesion(const curve_fitting *f, const double p[CURVE_N_PARAMETERS])
 {
     const curve_kind plainly = {.tilt = f->kind.tilt};
@@ -69,8 +75,8 @@ static double cost_without_adhesion(const curve_fitting *f, const double p[CURVE
     return curve_model_cost(&m, p);
 }
 
-/* Means of some samples of a jump's baseline and contact each, for fits that only start others: a
- * start needs no more of them. False if they are few. */
+/* Averages the samples before and after a jump for a starting fit, which needs few samples. Returns
+ * false if there are too few. */
 static bool thin(const curve_fitting *f, size_t jump, curve_samples *to, size_t *to_jump)
 {
     const curve_samples *s = &f->input.samples;
@@ -89,7 +95,8 @@ static bool thin(const curve_fitting *f, size_t jump, curve_samples *to, size_t 
     return true;
 }
 
-/* The cost has a kink wherever the sample that jumps is another one: to its lowest. */
+/* Moves the jump to the sample with the lowest cost. The cost has a kink where the jump moves to
+ * another sample. */
 static void move_jump(curve_fitting *f, curve_solution *s)
 {
     const size_t n = f->input.samples.n;
@@ -111,8 +118,8 @@ static void move_jump(curve_fitting *f, curve_solution *s)
         }
 }
 
-/* With a free contact point, the jump where the tip touches if it follows. Returns the cost there,
- * which may be another jump than that of the solution. */
+/* Refines a fit with a free contact point. If `follows`, the jump moves with the contact point.
+ * Returns the last cost, which may belong to another jump than the solution. */
 static double refine_jump(curve_fitting *f, curve_solution *s, bool follows)
 {
     const curve_samples *samples = &f->input.samples;
@@ -138,10 +145,10 @@ static double refine_jump(curve_fitting *f, curve_solution *s, bool follows)
     return there;
 }
 
-/* From a jump to where a fit of all samples can begin: first with the contact point there, then
- * with a free one, for from the wrong side of the jump the fit does not find the way. False if that
- * leads nowhere: where the tip would touch, the samples that start a fit are farther from it than
- * without adhesion, by more than the pull of one that is on the wrong side of the jump. */
+/* Starts a fit from a jump. The contact point is fixed first and free afterwards, because a fit
+ * from the wrong side of the jump does not converge. Returns false if the start fails: the averaged
+ * samples have a larger cost than without adhesion, by more than one sample on the wrong side of
+ * the jump causes. */
 static bool start_from(curve_fitting *f, curve_solution *s, double pull, size_t jump, bool follows)
 {
     const bool fixed = f->kind.contact_fixed;
@@ -166,7 +173,7 @@ static bool start_from(curve_fitting *f, curve_solution *s, double pull, size_t 
     return !(there > most);
 }
 
-/* follows: the jump stays where the tip touches. */
+/* Refines a fit from a jump. If `follows`, the jump stays at the contact point. */
 static curve_solution refine_from(curve_fitting *f, curve_solution s, double pull, size_t jump,
                                   bool follows)
 {
@@ -193,8 +200,8 @@ static curve_solution refine_from(curve_fitting *f, curve_solution s, double pul
     return s;
 }
 
-/* How much larger than the noise the residual is, and so the errors are: any parameter more lowers
- * the cost of a law that does not describe the curve. */
+/* Ratio of the residual to the noise, at least 1. The errors grow by it, because any additional
+ * parameter reduces the cost of a law that does not describe the curve. */
 static double residual_over_noise(const curve_solution *s)
 {
     return sqrt(fmax(1.0, s->lack.statistic));
@@ -205,7 +212,7 @@ static bool is_adhesive(const curve_fitting *f)
     const curve_solution *s = &f->solution;
     const double root = s->p[CURVE_W];
     const adhesion law = {f->table, s->p[CURVE_E], root * root};
-    /* A snap-on that is seen can be left out, which is better than a law that does not fit. */
+    /* A detected snap-in can be excluded, which is better than a law that does not fit. */
     const bool strict = f->snap_on > 0.0 && !curve_fits(f);
     const bool at_kink = s->step_left * s->p[CURVE_E] > kink_left * s->standard_error[CURVE_E];
     const double errors = f->kind.constant_pull && !strict ? 0.5 * work_errors : work_errors;
@@ -214,8 +221,9 @@ static bool is_adhesive(const curve_fitting *f)
            (f->kind.constant_pull || !(adhesion_tabor(&law) < least_tabor));
 }
 
-/* jump: the first sample in contact, or 0: where the tip touches, which lies some of the depths of
- * a jump before the contact point without adhesion. The solution is that of the kind then. */
+/* Fits adhesive contact from several starts. `jump` is the first sample in contact. If it is 0, the
+ * contact begins some depths of a jump before the contact point without adhesion. The solution has
+ * the kind of this fit afterwards. */
 static bool fit_adhesion_from(curve_fitting *f, curve_solution start, double pull, double depth,
                               size_t jump)
 {
@@ -227,17 +235,17 @@ static bool fit_adhesion_from(curve_fitting *f, curve_solution start, double pul
         if (jump < CURVE_BASELINE_SAMPLES || samples->n - jump < CURVE_BASELINE_SAMPLES)
             continue;
         f->solution = refine_from(f, start, pull, jump, follows);
-        /* Another minimum has the tip touch far from where the force rises. */
+        /* In a wrong minimum, contact begins far from where the force rises. */
         const bool near = !follows || f->solution.cost < start.cost;
         if (near && is_adhesive(f))
             return true;
-        if (near && f->solution.converged) /* to next to no adhesion */
+        if (near && f->solution.converged) /* the fit converged to almost no adhesion */
             break;
     }
     return false;
 }
 
-/* JKR with this pull; false where that law does not hold. */
+/* Finds the JKR law with this pull-off force. Returns false if no such law applies. */
 static bool law_of_pull(const curve_fitting *f, double pull, adhesion *law)
 {
     const double reduced = f->solution.p[CURVE_E], k = f->input.samples.spring_constant;
@@ -245,7 +253,7 @@ static bool law_of_pull(const curve_fitting *f, double pull, adhesion *law)
     return !isnan(law->work) && adhesion_applies(contact_table_tip(f->table));
 }
 
-/* Where the tip touches. */
+/* Depth at first contact. */
 static double jump_depth(const curve_fitting *f, const adhesion *law)
 {
     const double k = f->input.samples.spring_constant, touch = 0.0;
@@ -273,17 +281,17 @@ static bool fit_constant_pull(curve_fitting *f, double pull, size_t jump)
     return fit_adhesion_from(f, start, pull, pull / f->input.samples.spring_constant, jump);
 }
 
-/* A fit, and the kind that it is of. */
+/* Fit of one law and its kind. */
 typedef struct outcome {
     curve_solution solution;
     curve_kind kind;
     bool found, likely;
-    double evidence; /* twice the logarithm of its likelihood, way in and out */
+    double evidence; /* twice the log likelihood of approach and retract */
 } outcome;
 enum { CONSTANT_PULL, JKR, JKR_FROM_PULL, LAWS };
 
-/* Is the pull of this fit, within its errors, one that the way out shows? Rubber lets go with no
- * less than it is touched with. */
+/* True if the pull of this fit, within its errors, is compatible with the retract. The pull-off of
+ * rubber is at least as strong as its snap-in. */
 static bool pull_is_likely(const curve_fitting *f)
 {
     const double root = fmax(0.0, f->solution.p[CURVE_W] -
@@ -297,7 +305,7 @@ static bool pull_is_likely(const curve_fitting *f)
                                          f->input.samples.spring_constant, most));
 }
 
-/* By how much `other` is likelier than a solution, as 2 ln of the ratio. */
+/* Log likelihood ratio 2 ln of `other` over a solution. */
 static double evidence_of(const curve_solution *than, const curve_solution *other)
 {
     return than->effective_n * log(than->cost / other->cost) / fmax(1.0, than->lack.statistic);
@@ -308,8 +316,8 @@ static double gain_of(const curve_fitting *f, const curve_solution *other)
     return evidence_of(&f->solution, other);
 }
 
-/* Does the tip let go, but for the errors of the fit, where it has touched on its way in or later?
- * There it was in contact, and rubber holds on the way out no shorter. */
+/* True if the tip pulls off, within the errors of the fit, at the position of first contact or
+ * later. Rubber keeps contact at least up to that position during the retract. */
 static bool lets_go_late(const curve_fitting *f, const curve_solution *out)
 {
     const double *position = f->way_out.samples.position;
@@ -318,8 +326,8 @@ static bool lets_go_late(const curve_fitting *f, const curve_solution *out)
     return !(position[jump] > out->p[CURVE_C] + NORMAL_95 * out->standard_error[CURVE_C] + between);
 }
 
-/* Of the laws that were found. Where no work is lost the way out is another contact by the same
- * law: neck and pull-off part laws that the way in does not. */
+/* Computes the evidence of the laws found. Without loss the retract follows the same law, and its
+ * neck and pull-off distinguish laws that the approach does not. */
 static void weigh(curve_fitting *f, outcome law[LAWS])
 {
     const curve_solution *best = NULL;
@@ -356,7 +364,7 @@ static bool better_law(const outcome *a, const outcome *b, bool lossy)
     return a->evidence > b->evidence;
 }
 
-/* Another law that is likelier by chi2. */
+/* Alternative fit with a log likelihood ratio of chi2. */
 static curve_other by_likelihood(double chi2, double moved)
 {
     return (curve_other){moved, 1.0 / (1.0 + exp(-0.5 * chi2))};
@@ -372,16 +380,16 @@ static double weight_of(const curve_other *o)
     return o->chance * o->moved * o->moved;
 }
 
-/* The better one of the laws of adhesion; what the others would give is in the error, as far as it
- * is likely. False if there is none: then all is as it was. pull_alone: no other law than that of a
- * constant pull can be the one to take, unless that is. */
+/* Fits the laws of adhesion and selects the best. The other laws add to the error according to
+ * their likelihood. Returns false and restores the fit if no law is found. `pull_alone` states that
+ * only a constant pull can win; other laws are then tried only if it does. */
 static bool fit_adhesion_laws(curve_fitting *f, double pull, size_t jump, bool pull_alone)
 {
     const outcome before = {f->solution, f->kind, true, true, 0.0};
     outcome law[LAWS] = {{.found = false}};
     const outcome *best = &law[0];
-    /* Work that is lost looks like a constant pull, neither law describes it, and costs do not
-     * tell: rubber has short forces. */
+    /* Loss resembles a constant pull, and neither law describes it, so costs do not decide. Forces
+     * on rubber have a short range. */
     const bool lossy = jump == 0 && f->loss > CURVE_LEAST_LOSS;
     for (int i = 0; i < LAWS; i++) {
         f->solution = before.solution;
@@ -392,7 +400,8 @@ static bool fit_adhesion_laws(curve_fitting *f, double pull, size_t jump, bool p
         if (i == CONSTANT_PULL && pull_alone &&
             !(law[i].found && -gain_of(f, &before.solution) > better_chi2))
             break;
-        /* From where samples let go costs have kinks: once more from the pull that was found. */
+        /* The cost has kinks where samples pull off. A second start uses the fitted constant pull.
+         */
         if (i == JKR)
             pull = law[CONSTANT_PULL].solution.p[CURVE_W];
         if (i == JKR && !(jump == 0 && pull > 0.0))
@@ -418,9 +427,9 @@ static bool fit_adhesion_laws(curve_fitting *f, double pull, size_t jump, bool p
     return best->found;
 }
 
-/* ---- score: does adhesion matter? ------------------------------------------------------------ */
+/* ---- score test for adhesion ----------------------------------------------------------------- */
 
-/* Residuals of a law at p. */
+/* Computes the residuals of a law at p. */
 static void residuals_of(const curve_fitting *f, const curve_kind *kind,
                          const double p[CURVE_N_PARAMETERS], double *to)
 {
@@ -429,8 +438,8 @@ static void residuals_of(const curve_fitting *f, const curve_kind *kind,
     memcpy(to, f->workspace->residual, f->input.samples.n * sizeof *to);
 }
 
-/* From the forces without adhesion, whose residuals are given, to those of a law with this pull.
- * False where that does not hold. */
+/* Computes the difference of the forces with and without adhesion of this pull. `without` has the
+ * residuals without adhesion. Returns false if the law does not apply. */
 static bool difference_of(const curve_fitting *f, bool constant_pull, double pull,
                           const double *without, double *to)
 {
@@ -445,7 +454,7 @@ static bool difference_of(const curve_fitting *f, bool constant_pull, double pul
         p[CURVE_W] = sqrt(law.work);
         if (!f->kind.contact_fixed)
             p[CURVE_C] -= some_jumps[0] * jump_depth(f, &law);
-        p[CURVE_F0] = curve_baseline(&f->solution, p[CURVE_C]); /* the same line */
+        p[CURVE_F0] = curve_baseline(&f->solution, p[CURVE_C]); /* keeps the baseline unchanged */
     }
     residuals_of(f, &kind, p, to);
     const size_t touched = first_beyond(&f->input.samples, p[CURVE_C]);
@@ -454,19 +463,20 @@ static bool difference_of(const curve_fitting *f, bool constant_pull, double pul
     return true;
 }
 
-/* At a solution that describes the curve: can a law of adhesion be so much better that it is the
- * one to take? If not, what a pull that is likely would make of the modulus is in the error. Leaves
- * the workspace as that of the solution. pull_alone: a constant pull can, no other law. */
+/* Tests if a law of adhesion could improve a fit that describes the curve enough to replace it.
+ * Otherwise the effect of a plausible pull on the modulus adds to the error. The workspace is that
+ * of the solution afterwards. `pull_alone` is true if only a constant pull could replace the fit.
+ */
 static bool adhesion_matters(curve_fitting *f, double most, bool *pull_alone)
 {
     const curve_kind plainly = {.tilt = f->kind.tilt};
     wt_indent_workspace *w = f->workspace;
-    /* Nothing needs the scan's arrays after the scan. */
+    /* The arrays of the scan are free after the scan. */
     double *const difference[] = {w->start_position, w->start_force, w->tip};
     enum { SCORES = sizeof difference / sizeof difference[0] };
     curve_step step[SCORES];
     residuals_of(f, &plainly, f->solution.p, w->weight);
-    /* A constant pull changes forces by as much: any that is small. */
+    /* The force is linear in a constant pull, so any small pull will do. */
     (void)difference_of(f, true, f->input.step_noise, w->weight, difference[0]);
     size_t n = 1;
     for (size_t i = 0; i < sizeof some_pulls / sizeof some_pulls[0]; i++)
@@ -496,7 +506,8 @@ bool curve_fit_adhesion(curve_fitting *f)
         !f->options->plain_least_squares && !(contact_table_tip(f->table)->sample_thickness > 0.0);
     curve_snap found = f->snap;
     if (f->snap_on > 0.0) {
-        if (try_it) { /* from the deepest on: before, the lever jumps, or is attracted */
+        if (try_it) { /* starts at the deepest sample; before it the cantilever jumps or is
+                         attracted */
             curve_leave_out(f, found.start, found.deepest + 1);
             if (fit_adhesion_laws(f, found.pull, found.start, false)) {
                 evaluate(f);
@@ -510,7 +521,7 @@ bool curve_fit_adhesion(curve_fitting *f)
         curve_begin_wave(f, &plainly.wave);
         return curve_scan_and_refine(f);
     }
-    /* Rubber lets go with far more than it is touched with, of which no snap-on was seen. */
+    /* The pull-off of rubber is much stronger than its snap-in, which was not detected. */
     if (!(f->pull_off > 0.0) || !try_it)
         return true;
     const double most = fmin(f->pull_off, CURVE_PULL_NOISE * f->input.step_noise);

@@ -1,28 +1,27 @@
-/* Means of the samples of an approach, its dwell and the free part of its retract, and how the
- * noise of the baseline makes them scatter together.
+/* Means over the samples of an approach, its dwell and the free part of its retract, and their
+ * covariance due to the noise of the baseline.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "indentation/numerics/relaxation.h"
 
 #include <gsl/gsl_linalg.h>
 #include <math.h>
 
-/* Means of the parts of a curve: a line is told by 8 and 16 of them, what bends by 64 and as many
- * as are told of the dwell. More only make the covariance of all larger, which goes with their
- * cube. */
+/* Number of means of each part. A line needs 8 or 16, a curved part 64; the dwell has as many as
+ * its result. The run time grows with the cube of their total. */
 enum { FREE_BINS = 16, PRESSED_BINS = 64, HELD_BINS = WT_DWELL_POINTS, RETRACT_BINS = 8 };
 enum { MOST_NODES = FREE_BINS + PRESSED_BINS + 1 + HELD_BINS + RETRACT_BINS };
-/* Two samples in each mean of a baseline. */
+/* Each mean of a baseline has two samples. */
 enum { LEAST_BASELINE = 2 * FREE_BINS };
-/* The first mean of the dwell is at least this part of it: three decades of times, which is what
- * the means in steps of one factor are shared out over. */
+/* Duration of the first mean of the dwell over that of the dwell. The means with a constant ratio
+ * of times cover three decades. */
 static const double first_share = 1e-3;
-/* Where the contact of the approach begins for its means, before the contact point, in parts of its
- * length: a contact point that is off by as much is still among them. Chosen; the means beside it
- * are fitted wherever they lie. */
+/* Start of the contact means before the contact point, in lengths of the contact. They still
+ * include a contact point with that error. The value is chosen; the fit includes the adjacent means
+ * as well. */
 static const double margin = 0.2;
-/* The last part of a retract that is taken for free of contact and adhesion. Chosen; with 0.75 the
- * neck of an adhesive contact may be in it, with 0.25 the line of drift is told three times
- * worse. */
+/* Last part of a retract that counts as free of contact and adhesion. The value is chosen. At 0.75
+ * it may include the neck of an adhesive contact, at 0.25 the drift is three times less accurate.
+ */
 static const double free_share = 0.5;
 
 static void open_node(const wt_dwell_history *h, dwell_nodes *to, size_t i)
@@ -41,7 +40,7 @@ static void put_sample(const wt_dwell_history *h, dwell_nodes *to, size_t i, dou
     to->to[k] = h->time[i] + step;
 }
 
-/* Equal numbers of samples. */
+/* Adds means with equal numbers of samples. */
 static void put_equal(const wt_dwell_history *h, size_t from, size_t to, size_t bins, double step,
                       dwell_nodes *nodes)
 {
@@ -57,7 +56,7 @@ static void put_equal(const wt_dwell_history *h, size_t from, size_t to, size_t 
     }
 }
 
-/* Times since the approach that grow by one factor. */
+/* Adds means over times since the approach that grow by a constant factor. */
 static void put_held(const wt_dwell_history *h, double step, dwell_nodes *nodes)
 {
     const size_t from = h->n_approach, n = h->n_dwell;
@@ -75,8 +74,8 @@ static void put_held(const wt_dwell_history *h, double step, dwell_nodes *nodes)
     }
 }
 
-/* The retract behind its strongest pull, the farther part of what is farther out than the sample
- * was pressed in. */
+/* Adds the farther part of the retract after its strongest pull. It is at least as far from the
+ * sample as the depth of loading. */
 static void put_retract(const wt_dwell_history *h, dwell_nodes *nodes)
 {
     const size_t from = h->n_approach + h->n_dwell, end = from + h->n_retract;
@@ -96,19 +95,18 @@ static void put_retract(const wt_dwell_history *h, dwell_nodes *nodes)
 
 /* ---- noise ----------------------------------------------------------------------------------- */
 
-/* Noise as white noise and processes of the first order whose times are octaves; those slower than
- * the baseline tells are as strong as the slowest that it does. */
-enum { OCTAVES = 24 }; /* more samples, 2^24, than curves have */
-/* Of a multiplicative step that comes near by its root: a bound of time, for an estimate that is
- * known to some per cent. */
+/* Model of the noise: white noise and first-order processes with times in octaves. Processes slower
+ * than the baseline resolves are as strong as the slowest resolved one. */
+enum { OCTAVES = 24 }; /* covers 2^24 samples, more than a curve has */
+/* Limit of the multiplicative iterations. The estimate needs an accuracy of some per cent. */
 enum { ROUNDS = 400 };
 typedef struct noise {
-    double white, slow[OCTAVES], time[OCTAVES]; /* variances of a sample; [s] */
+    double white, slow[OCTAVES], time[OCTAVES]; /* variances of a sample; times [s] */
     size_t n;
-    double extra; /* more in contact */
+    double extra; /* additional variance in contact */
 } noise;
 
-/* Of a line through n samples against their time, the residuals. */
+/* Residuals of a line through n samples against time. */
 static void take_line(const double *time, const double *force, size_t n, double *residual)
 {
     double t = 0, f = 0, tt = 0, tf = 0;
@@ -124,7 +122,7 @@ static void take_line(const double *time, const double *force, size_t n, double 
         residual[i] = force[i] - f - (tt > 0 ? tf / tt : 0) * (time[i] - t);
 }
 
-/* Mean square of the differences of means of m samples from those of the m before. */
+/* Mean square of the differences between successive means of m samples. */
 static double mean_square_difference(const double *x, size_t n, size_t m)
 {
     double sum = 0, count = 0, step = 0;
@@ -140,7 +138,8 @@ static double mean_square_difference(const double *x, size_t n, size_t m)
     return sum / count;
 }
 
-/* The same of a process with this time and the variance 1, x = duration of a mean over it. */
+/* Mean square difference for a process of variance 1. x = duration of a mean over the time of the
+ * process. */
 static double difference_of(double x)
 {
     const double within = x < 1e-3 ? 1 - x / 3 : 2 * (x + expm1(-x)) / (x * x),
@@ -148,7 +147,7 @@ static double difference_of(double x)
     return fmax(2 * (within - across), 0);
 }
 
-/* Half the mean square of the steps from sample to sample of force - stiffness position. */
+/* Half the mean square of the steps of force - stiffness * position. */
 static double step_variance(const wt_dwell_history *h, size_t from, size_t n, double stiffness)
 {
     double sum = 0;
@@ -160,7 +159,8 @@ static double step_variance(const wt_dwell_history *h, size_t from, size_t n, do
     return n > 1 ? sum / (double)(n - 1) : 0;
 }
 
-/* Variances that give those differences, in the logarithm as near as can be without one below 0. */
+/* Finds non-negative variances that reproduce the measured differences, by iterations in the
+ * logarithm. */
 static void share_out(const double *seen, size_t n, double response[OCTAVES][OCTAVES + 1],
                       double *variance)
 {
@@ -212,7 +212,7 @@ static noise noise_of(const wt_dwell_history *h, size_t n, double stiffness, dou
     return v;
 }
 
-/* Covariance of the means of a noise that decays over a time, over its variance. */
+/* Covariance of two means of a noise with one decay time, over its variance. */
 static double noise_covariance(const dwell_nodes *n, size_t i, size_t k, double time)
 {
     const double x = (n->to[i] - n->from[i]) / time, y = (n->to[k] - n->from[k]) / time;
@@ -265,7 +265,7 @@ const char *dwell_nodes_make(const wt_dwell_history *h, double stiffness, arena 
     put_equal(h, 0, split, FREE_BINS, before, nodes);
     nodes->first_pressed = nodes->n;
     put_equal(h, split, h->n_approach - 1, PRESSED_BINS, before, nodes);
-    put_equal(h, h->n_approach - 1, h->n_approach, 1, before, nodes); /* where the height stops */
+    put_equal(h, h->n_approach - 1, h->n_approach, 1, before, nodes); /* end of the approach */
     nodes->first_held = nodes->n;
     put_held(h, step, nodes);
     nodes->first_free = nodes->n;
@@ -277,7 +277,7 @@ const char *dwell_nodes_make(const wt_dwell_history *h, double stiffness, arena 
         nodes->force[i] /= nodes->count[i];
     }
     const noise v = noise_of(h, split, stiffness, before, residual);
-    if (isnan(v.white) || !make_factor(nodes, &v, memory)) /* shares of nothing are NaN */
+    if (isnan(v.white) || !make_factor(nodes, &v, memory)) /* variances without noise are NaN */
         return "no noise in the baseline";
     return "";
 }

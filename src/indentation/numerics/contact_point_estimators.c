@@ -1,5 +1,5 @@
-/* Where contact begins by estimators that other programs use, for comparison with the fit: none of
- * them fits the baseline, the contact point and the modulus together, and none has an error.
+/* Contact points by estimators of other programs, for comparison with the fit. None of them fits
+ * baseline, contact point and modulus together, and none has an error.
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
@@ -7,9 +7,10 @@
 
 #include <math.h>
 
-static const double baseline_share = 0.1; /* of the samples, which the threshold takes it from */
-static const double threshold = 2.0;      /* largest departures of the baseline */
-static const size_t windows = 20;         /* of the samples: one is what a variance is of */
+static const double baseline_share =
+    0.1;                             /* share of the samples in the baseline of the threshold */
+static const double threshold = 2.0; /* in largest deviations of the baseline */
+static const size_t windows = 20;    /* number of windows; a variance covers one */
 enum { LEAST_WINDOW = 5 };
 
 static const char *const words[WT_CONTACT_ESTIMATORS] = {
@@ -25,7 +26,7 @@ const char *wt_contact_estimator_text(wt_contact_estimator estimator)
     return i < WT_CONTACT_ESTIMATORS ? words[i] : "unknown";
 }
 
-/* Sums over samples from one on. */
+/* Weighted sums over a range of samples. */
 typedef struct sums {
     double n, z, f, zz, zf, ff;
 } sums;
@@ -45,8 +46,8 @@ static double variance(const sums *s)
     return (s->ff - s->f * s->f / s->n) / s->n;
 }
 
-/* Where the force first departs from the mean of the first samples by twice what they do at most.
- * Returns n where there is none. */
+/* Returns the first sample whose force exceeds the baseline mean by twice the largest deviation, or
+ * n without such a sample. */
 static size_t by_threshold(const double *force, size_t n)
 {
     const size_t first = (size_t)(baseline_share * (double)n);
@@ -61,14 +62,14 @@ static size_t by_threshold(const double *force, size_t n)
     return first > 0 ? i : n;
 }
 
-/* How many forces in a row are the same, with one more. */
+/* Returns the length of the run of equal forces after one more sample. */
 static size_t run_on(size_t run, double before, double now)
 {
     return now < before || now > before ? 1 : run + 1;
 }
 
-/* Where the variance of the forces behind is the largest multiple of that of those before. Where
- * these stand still, as forces of a coarse detector do, rounding would choose: n. */
+/* Returns the sample with the largest ratio of the variances after and before it. The result is n
+ * for constant forces of a coarse detector, because rounding would decide. */
 static size_t by_variances(const double *force, size_t n)
 {
     const size_t window = n / windows > LEAST_WINDOW ? n / windows : LEAST_WINDOW;
@@ -99,8 +100,8 @@ static size_t by_variances(const double *force, size_t n)
     return at;
 }
 
-/* Where a constant and a line that meet leave the least squares of the force: for each place the
- * height and the slope are linear. */
+/* Returns the sample where a constant and a line meet with the least squares of the force. Height
+ * and slope are linear parameters for each sample. */
 static size_t by_lines(const double *position, const double *force, size_t n)
 {
     sums all = {0}, behind = {0};
@@ -110,7 +111,7 @@ static size_t by_lines(const double *position, const double *force, size_t n)
         add(&all, position[i], force[i], 1.0);
     for (size_t i = n; i-- > 1;) {
         add(&behind, position[i], force[i], 1.0);
-        /* of x = position - this one, behind it, 0 before */
+        /* Sums of x = position - c after the sample; x is 0 before it. */
         const double c = position[i - 1], x = behind.z - c * behind.n,
                      xx = behind.zz - c * (2.0 * behind.z - c * behind.n),
                      xf = behind.zf - c * behind.f;
@@ -124,7 +125,7 @@ static size_t by_lines(const double *position, const double *force, size_t n)
     return at;
 }
 
-/* The sample farthest below the straight way from the first to the strongest force, both axes
+/* Returns the sample farthest below the line from the first to the strongest force, with both axes
  * scaled to 1. */
 static size_t by_direct_path(const double *force, size_t n)
 {

@@ -1,17 +1,17 @@
 /* Search for the contact point: the cost as a function of the contact point alone.
  *
- * For a given contact point the modulus, the offset and the tilt are linear and are projected out.
- * The cost has several minima on real curves, so it is scanned first, over contact points whose
- * depths below the deepest point form octaves, because a length that does not scale with the
- * indentation of the curve itself has no meaning. The lowest minima are then refined (Brent).
+ * For a given contact point the modulus, the offset and the tilt are linear parameters and are
+ * eliminated. The cost has several minima on real curves. A scan therefore covers contact points
+ * whose depths below the deepest point form octaves, because the relevant length scales with the
+ * indentation of the curve. The lowest minima are then refined (Brent).
  *
- * Each octave has a grid of tip positions, even from its depth to the deepest point. A sample is
- * shared between the two nodes beside it, so that a sum over nodes is the sum over all samples with
- * the contact function between nodes a line, whatever lies between them. The contact points are
- * nodes, too: one column of values of the contact function serves them all.
+ * Each octave has a uniform grid of tip positions from its depth to the deepest point. Each sample
+ * is distributed to its two neighbouring nodes. A sum over nodes is then the sum over all samples
+ * with a contact function that is linear between nodes. The contact points are nodes too, so one
+ * table of the contact function serves them all.
  *
- * In the scan the tilt is not yet taken out of the deflection (that makes the tip position depend
- * on it); the refinement does that.
+ * The scan does not remove the tilt from the deflection, which would make the tip position depend
+ * on it. The refinement does.
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
@@ -23,26 +23,27 @@
 #include <math.h>
 #include <string.h>
 
-/* Of a contact point below the deepest, of all depths: the last of the octaves, 2^-SCAN_OCTAVES. */
+/* Smallest depth of a contact point over the whole depth, 2^-SCAN_OCTAVES. */
 static const double least_depth = 1e-5;
-/* Of the cost between two minima: 1.6 sigma of one from the other in 2,500 samples. */
+/* Smallest rise of the cost between two minima. It is 1.6 standard deviations for 2,500 samples. */
 static const double least_rise = 1.001;
-/* Of the distance of points of the scan: of weights, which change slowly, and where least squares
- * begin, which end by themselves. */
+/* Tolerances over the distance of the scan points: for weights, which change slowly, and for starts
+ * of the least squares. */
 static const double rough = 1e-2, fine = 1e-3;
-/* Largest 1 + S/k: weights from 0.7 to 1 move a minimum by little, and least squares mend that. */
+/* Largest 1 + S/k without weights. Weights from 0.7 to 1 hardly move a minimum, and the least
+ * squares correct it. */
 static const double weights_matter = 1.2;
 enum {
     NODES = SCAN_NODES,
-    REACH = SCAN_REACH, /* how far before the start a contact point is looked for, in all depths */
-    PER_OCTAVE = 16,    /* contact points that are tried: a power of 2, as the nodes */
+    REACH = SCAN_REACH, /* range of contact points before the start, in whole depths */
+    PER_OCTAVE = 16,    /* contact points per octave; a power of 2, as for the nodes */
     MAX_DEPTHS = (SCAN_OCTAVES + REACH) * PER_OCTAVE,
-    MAX_ITERATIONS = 40, /* of Brent: golden sections alone are at 4e-9 then */
-    SAMPLES_BEHIND = 4,  /* of 1024, the deepest: spikes and noise of the end */
-    STRIDE = NODES + 2,  /* of the octaves */
+    MAX_ITERATIONS = 40, /* of Brent; golden sections alone reach 4e-9 */
+    SAMPLES_BEHIND = 4,  /* per 1024 samples; the deepest ones, for spikes and end effects */
+    STRIDE = NODES + 2,  /* offset between octaves */
 };
 
-/* Samples with what does not depend on the contact point. */
+/* Samples with the sums that do not depend on the contact point. */
 typedef struct projection {
     const wt_contact_table *table;
     const curve_samples *samples;
@@ -51,9 +52,9 @@ typedef struct projection {
     double s_w, inverse_w, inverse_zz;
     double origin_position, origin_force; /* means */
     double s_zz, s_zf, s_ff;              /* centred sums */
-    double deepest, top; /* tip position, and how far below it the farthest sample is */
+    double deepest, top; /* deepest tip position, and distance to the farthest sample */
     size_t n_octaves;
-    size_t octave; /* for Brent */
+    size_t octave; /* octave for Brent */
 } projection;
 
 /* Weighted sums of the contact function. */
@@ -78,7 +79,7 @@ WIDE_REGISTERS static void find_tips(projection *p)
     p->top = all.high - all.low;
 }
 
-/* The sums of all samples with the weights of the workspace, or 1. */
+/* Computes the weighted sums of all samples. Without `weighted` the weights are 1. */
 WIDE_REGISTERS static void weigh(projection *p, bool weighted)
 {
     const curve_samples *s = p->samples;
@@ -137,7 +138,7 @@ static projected project(const projection *p, contact_sums s)
                  free_gf = s.gf - p->s_zf * along;
     projected result = {0.0, p->origin_force, p->tilt ? p->s_zf * p->inverse_zz : 0.0,
                         cost_without_contact(p)};
-    /* Where the contact part looks like a straight line nothing is left to decide. */
+    /* No modulus is determined if the contact part is a straight line. */
     if (free_gf > 0.0 && free_gg > 1e-12 * s.gg) {
         result.modulus = free_gf / free_gg;
         const double cost = result.cost - free_gf * result.modulus;
@@ -148,8 +149,8 @@ static projected project(const projection *p, contact_sums s)
     return result;
 }
 
-/* From the tip position at contact, on all samples, to the position at which the lever is straight
- * there. */
+/* Converts a contact at a tip position, with all samples, to the position of contact with the
+ * undeflected cantilever. */
 WIDE_REGISTERS static curve_minimum to_minimum(const projection *p, double contact)
 {
     wt_indent_workspace *w = p->workspace;
@@ -191,9 +192,9 @@ WIDE_REGISTERS static curve_minimum to_minimum(const projection *p, double conta
 
 /* ---- octaves --------------------------------------------------------------------------------- */
 
-/* Where the samples lie: octave l and node as l STRIDE + node, and the share of the node right of
- * it behind the point. With x = fraction 2^-l of the depth, the fraction from 1/2 to 1, or below it
- * in the last octave. */
+/* Computes the grid positions of the samples: octave l and node as l * STRIDE + node, plus the
+ * fraction to the next node. x is the depth fraction times 2^-l, with a fraction from 1/2 to 1; in
+ * the last octave it may be smaller. */
 WIDE_REGISTERS static void find_places(const projection *p)
 {
     const double scale = (1.0 - 0x1p-50) / p->top, last = ldexp(1.0, -(int)p->n_octaves);
@@ -215,8 +216,8 @@ WIDE_REGISTERS static void find_places(const projection *p)
     }
 }
 
-/* Shares the samples between the nodes of the octaves that they lie in, and those of each octave
- * between the nodes of the one before, whose step is twice theirs. */
+/* Distributes the samples to the nodes of their octaves. Each octave is then added to the nodes of
+ * the previous octave, whose step is twice as large. */
 WIDE_REGISTERS static void share_samples(const projection *p)
 {
     scan_octave *octaves = p->workspace->octave;
@@ -227,7 +228,7 @@ WIDE_REGISTERS static void share_samples(const projection *p)
     wide node[SCAN_OCTAVES * STRIDE]; /* sums of weight, force and position */
     for (size_t i = 0; i < p->n_octaves * STRIDE; i++)
         node[i] = nothing;
-    for (size_t i = 0; i < s->n;) { /* those between two nodes, mostly one behind the other */
+    for (size_t i = 0; i < s->n;) { /* consecutive samples between the same nodes */
         const int at = (int)place[i];
         wide to_left = node[at], to_right = node[at + 1];
         for (; i < s->n && (int)place[i] == at; i++) {
@@ -257,7 +258,8 @@ WIDE_REGISTERS static void share_samples(const projection *p)
     }
 }
 
-/* The contact function at distances of a step, in the first octave also of what lies before it. */
+/* Tabulates the contact function at multiples of the step. The first octave includes the range
+ * before the start. */
 static void make_values(const projection *p)
 {
     wt_indent_workspace *w = p->workspace;
@@ -282,7 +284,7 @@ static void make_values(const projection *p)
         w->before_start[1][i] = far[i] * far[i];
 }
 
-/* Of nodes from `first` on, with values of the contact function and of its square. */
+/* Sums over the nodes from `first` on with values of the contact function and of its square. */
 WIDE_REGISTERS static contact_sums sums_of(const scan_octave *o, size_t first, const double *g,
                                            const double *gg)
 {
@@ -316,13 +318,13 @@ static double cost_of(const projection *p, const scan_octave *o, size_t first, c
     return project(p, sums_of(o, first, g, gg)).cost;
 }
 
-/* Of any contact point, on the grid of one octave. */
+/* Cost of any contact point on the grid of one octave. */
 WIDE_REGISTERS static double cost_between(double depth, void *projection_)
 {
     const projection *p = projection_;
     const scan_octave *o = &p->workspace->octave[p->octave];
     const double step = ldexp(p->top, -(int)p->octave) / NODES;
-    const double before = NODES - depth / step; /* nodes, not a whole number of them */
+    const double before = NODES - depth / step; /* in nodes; not an integer */
     const size_t first = before > 0.0 ? (size_t)fmin(before, NODES) : 0;
     double delta[NODES + 1] = {0.0}, g[NODES + 1], gg[NODES + 1];
     for (size_t i = first; i <= NODES; i++)
@@ -333,13 +335,13 @@ WIDE_REGISTERS static double cost_between(double depth, void *projection_)
     return cost_of(p, o, first, g + first, gg + first);
 }
 
-/* To a share of the bracket. */
+/* Brent's minimisation to a relative accuracy of the bracket. */
 static double brent(projection *p, double lo, double middle, double hi, double accuracy)
 {
     gsl_min_fminimizer *minimizer = p->workspace->minimizer;
     gsl_function function = {cost_between, p};
     if (gsl_min_fminimizer_set(minimizer, &function, middle, lo, hi) != GSL_SUCCESS)
-        return middle; /* flat to rounding */
+        return middle; /* constant within rounding */
     for (int i = 0; i < MAX_ITERATIONS; i++) {
         if (gsl_min_fminimizer_iterate(minimizer) != GSL_SUCCESS)
             break;
@@ -350,9 +352,8 @@ static double brent(projection *p, double lo, double middle, double hi, double a
     return gsl_min_fminimizer_x_minimum(minimizer);
 }
 
-/* Indices of the minima of the scan, lowest first, no more than CURVE_MAX_MINIMA. One that no
- * rise parts from a lower one is only a ripple. A minimum at the far end counts: contact before the
- * start. */
+/* Finds the minima of the scan, lowest first, at most CURVE_MAX_MINIMA. A minimum without a rise
+ * before a lower one is a ripple. A minimum at the far end counts: contact before the start. */
 static size_t find_bottoms(const double *cost, size_t n, double nothing, size_t *bottom)
 {
     size_t m = 0;
@@ -371,7 +372,7 @@ static size_t find_bottoms(const double *cost, size_t n, double nothing, size_t 
         bottom[m++] = i;
         highest_since = cost[i];
     }
-    for (size_t i = 1; i < m; i++) { /* by insertion: they are few */
+    for (size_t i = 1; i < m; i++) { /* insertion sort of a few values */
         size_t index = bottom[i], j = i;
         for (; j > 0 && cost[bottom[j - 1]] > cost[index]; j--)
             bottom[j] = bottom[j - 1];
@@ -426,7 +427,7 @@ static void scan(const projection *p, double shallowest, profile *to)
     }
 }
 
-/* The lowest minima of the scan, refined. */
+/* Refines the lowest minima of the scan. */
 static size_t find_minima(projection *p, const profile *points, double accuracy,
                           curve_minimum minima[CURVE_MAX_MINIMA])
 {
@@ -455,7 +456,7 @@ size_t curve_scan(const wt_contact_table *table, const curve_samples *samples, b
     profile points;
     for (size_t i = 0; i + behind <= samples->n; i++)
         nearest = w->tip[i] > nearest ? w->tip[i] : nearest;
-    /* nonsense may be as large as numbers get, or too small to divide by */
+    /* invalid data may overflow or be too small for a division */
     if (!isnormal(p.top) || p.top < 0.0)
         return 0;
     const double shallowest = fmax(p.deepest - nearest, least_depth * p.top);
@@ -466,7 +467,7 @@ size_t curve_scan(const wt_contact_table *table, const curve_samples *samples, b
     share_samples(&p);
     make_values(&p);
     scan(&p, shallowest, &points);
-    if (weighted) { /* for weights any solution that describes the curve will do */
+    if (weighted) { /* an approximate solution is sufficient for the weights */
         if (find_minima(&p, &points, rough, minima) == 0)
             return 0;
         const bool matter = curve_weights(table, samples, &minima[0], w) > weights_matter;
@@ -483,7 +484,7 @@ bool curve_scan_at(const wt_contact_table *table, const curve_samples *samples, 
                    double contact_point, wt_indent_workspace *w, curve_minimum *minimum)
 {
     const projection p = begin(table, samples, tilt, w);
-    /* The tip position of the contact depends on the baseline, which is part of the answer. */
+    /* The tip position at contact depends on the baseline, which is part of the solution. */
     double tip = tip_position(contact_point, p.origin_force, samples->spring_constant);
     for (int i = 0; i < MAX_ITERATIONS; i++) {
         *minimum = to_minimum(&p, tip);

@@ -1,5 +1,5 @@
-/* From samples to a fit without adhesion: scan of the contact point, refinement, and another one
- * with memory where the spectrum of the rubber is known.
+/* Fit without adhesion: scan of the contact point, refinement, and a viscoelastic refinement if
+ * the spectrum of the rubber is known.
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
@@ -7,12 +7,12 @@
 
 #include <math.h>
 
-static const double better_chi2 = 9.0; /* 2 ln(likelihood ratio) of no memory at all */
+static const double better_chi2 = 9.0; /* smallest 2 ln(likelihood ratio) against viscoelasticity */
 
-/* ---- memory ---------------------------------------------------------------------------------- */
+/* ---- viscoelasticity ------------------------------------------------------------------------- */
 
-/* The times of the samples that are left, which are some of those measured, in their order. False
- * if they do not rise. */
+/* Finds the times of the remaining samples, which are a subset of the measured ones in the same
+ * order. Returns false unless the times rise. */
 static bool find_times(const curve_fitting *f)
 {
     const curve_samples *s = &f->input.samples;
@@ -50,8 +50,8 @@ bool curve_remember(curve_fitting *f, const wt_prony *series, bool in_loading_ti
     return true;
 }
 
-/* From the elastic fit to that of rubber with the spectrum of the options, if times are known. A
- * curve that is better described without it is not of that rubber. */
+/* Refits an elastic solution with the spectrum of the options if the times are known. A curve that
+ * the elastic fit describes better has another spectrum. */
 static void add_memory(curve_fitting *f)
 {
     const curve_solution elastic = f->solution;
@@ -68,7 +68,7 @@ static void add_memory(curve_fitting *f)
 
 /* ---- scan and refinement --------------------------------------------------------------------- */
 
-/* Scan and refinement on the samples as they are now; false if nothing but a baseline is found. */
+/* Scans and refines the current samples. Returns false if only a baseline is found. */
 bool curve_scan_and_refine(curve_fitting *f)
 {
     const wt_indent_options *o = f->options;

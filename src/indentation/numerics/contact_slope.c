@@ -1,5 +1,5 @@
-/* Deflection sensitivity: the slope of the detector's signal against the piezo while the tip is
- * pressed on a surface that does not give way.
+/* Deflection sensitivity: slope of the detector signal against the piezo position while the tip
+ * presses on a rigid surface.
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
@@ -12,30 +12,30 @@
 #include <math.h>
 #include <stdlib.h>
 
-/* Most and least blocks of the part, and how many samples each shall have; the fit through their
- * means has three parameters: seven degrees of freedom tell the scatter to a quarter, three are the
- * fewest that tell it. Samples of a curve at least, of which the far end is a tenth, four; curves
- * that tell a scatter. */
+/* Largest and smallest number of blocks in the part, and samples per block. The fit to the block
+ * means has three parameters. Seven degrees of freedom determine the scatter to a quarter, and
+ * three are the minimum. A curve needs at least 40 samples, so that the end tenth has four. A
+ * scatter needs at least three curves. */
 enum {
     BLOCKS = 10,
     LEAST_BLOCKS = 6,
     BLOCK_SAMPLES = 2,
     PARAMETERS = 3,
-    LINE = 2, /* parameters of it */
+    LINE = 2, /* parameters of a line */
     CURVE_LEAST = 40,
     FAR_SHARE = 10,
     LEAST_UNITS = 3
 };
-/* The share of the baseline that is taken for its tilt, which must be as long as the part: what is
- * left keeps long-range forces and the wave of an interference out of it. Chosen; half of it tells
- * the tilt nearly three times worse. */
+/* Share of the baseline for its tilt; it must be as long as the part. The rest may include
+ * long-range forces and optical interference. The value is chosen; half of it makes the tilt nearly
+ * three times less accurate. */
 static const double baseline_share = 0.6;
-/* The least rise, in standard deviations of the noise: from there on a slope is told to some per
- * cent. */
+/* Smallest rise of the signal in standard deviations of the noise. It determines a slope to some
+ * per cent. */
 static const double least_rise = 20;
-/* Intervals of 95 %. */
+/* Probability for intervals of 95 %. */
 static const double level = 0.975;
-/* Standard deviation of a normal distribution over its median distance from the median. */
+/* Standard deviation of a normal distribution over its median absolute deviation. */
 static const double mad_to_deviation = 1.4826;
 
 wt_slope_options wt_slope_defaults(void)
@@ -55,7 +55,7 @@ PARAM_TABLE(wt_slope_params, wt_slope_options, rows, wt_slope_defaults, NO_PARTS
 
 /* ---- the samples ----------------------------------------------------------------------------- */
 
-/* From far to contact. */
+/* Samples from far away to contact. */
 typedef struct samples {
     double *z, *v; /* [n] */
     double *scratch;
@@ -84,8 +84,8 @@ static double far_level(const samples *s)
     return numbers_median(s->scratch, n);
 }
 
-/* Standard deviation of the noise from sample to sample: the steps of the curve, whose median the
- * contact does not reach unless it is most of the curve. */
+/* Standard deviation of the noise from the median step. The contact affects the median only if it
+ * is most of the curve. */
 static double step_noise(const samples *s)
 {
     for (size_t i = 0; i + 1 < s->n; i++)
@@ -96,7 +96,7 @@ static double step_noise(const samples *s)
 /* ---- lines ----------------------------------------------------------------------------------- */
 
 typedef struct line {
-    double z, v, slope; /* through the means */
+    double z, v, slope; /* mean position, mean signal, slope */
 } line;
 
 static line line_through(const double *z, const double *v, size_t n)
@@ -115,13 +115,14 @@ static line line_through(const double *z, const double *v, size_t n)
 
 typedef struct part {
     size_t first, n;
-    double from, to; /* position */
-    double contact;  /* where the line through the part meets the baseline */
+    double from, to; /* limits of the position */
+    double contact;  /* intersection of the line through the part with the baseline */
 } part;
 
-/* The ends are first where the signal crosses them, then where the line through these samples does:
- * noise of the signal does not choose the samples. Positions rise towards contact from here on.
- * False without such a line; p->n is the samples found in any case. */
+/* Finds the part of the contact. The first limits are crossings of the signal, the final ones those
+ * of a line through these samples, so that noise does not select the samples. Positions rise
+ * towards contact afterwards. Returns false without such a line; p->n is the number of samples in
+ * any case. */
 static bool find_part(samples *s, double low, double high, double baseline, part *p)
 {
     size_t peak = 0;
@@ -160,8 +161,8 @@ static bool find_part(samples *s, double low, double high, double baseline, part
     return true;
 }
 
-/* Slope of the baseline far from contact, with its standard error by the means of blocks; NaN if
- * less of it is there than of the part. */
+/* Slope of the baseline far from contact, with a standard error from block means. The result is NaN
+ * if the baseline is shorter than the part. */
 static double baseline_tilt(const samples *s, const part *p, double *standard_error)
 {
     const double end = s->z[0] + baseline_share * (p->contact - s->z[0]);
@@ -188,7 +189,7 @@ static double baseline_tilt(const samples *s, const part *p, double *standard_er
 
 /* ---- the slope ------------------------------------------------------------------------------- */
 
-/* A parabola through the means of the blocks. */
+/* Fits a parabola to the block means. */
 static void fit_blocks(const samples *s, const part *p, wt_contact_slope *c)
 {
     const size_t most = p->n / BLOCK_SAMPLES;
@@ -207,7 +208,7 @@ static void fit_blocks(const samples *s, const part *p, wt_contact_slope *c)
         zzz += z[b] * z[b] * z[b];
         zv += z[b] * v[b];
     }
-    /* the parabola, orthogonal to the line and the constant */
+    /* Quadratic term, orthogonal to the linear and constant terms. */
     double q[BLOCKS];
     for (size_t b = 0; b < n; b++) {
         q[b] = z[b] * z[b] - zz / (double)n - zzz / zz * z[b];
@@ -326,8 +327,8 @@ wt_status wt_contact_slope_fit(const double *position, const double *signal, siz
 
 /* ---- several curves -------------------------------------------------------------------------- */
 
-/* Mean of the values from *at on that are of one unit (NULL: of one value); moves *at behind them.
- */
+/* Mean of the values from *at on that belong to one unit; without units, of one value. Moves *at to
+ * the next unit. */
 static double unit_mean(const double *values, const long *units, size_t n, size_t *at)
 {
     const size_t first = *at;

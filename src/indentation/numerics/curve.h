@@ -1,10 +1,9 @@
-/* Inside the fit room: the parts of the fit of one force curve.
+/* Declarations that the parts of the fit of one force curve share.
  *
- * Coordinates. position = piezo height, turned so that it rises into the sample; force = as
- * measured, both less an origin (their means) so that sums keep their digits. With the baseline f0
- * + t (position - c) removed, the tip is at tip - c = delta = (position - c) (1 + t/k) - (force -
- * f0)/k where c is the contact point: the position at which the tip touches with the lever
- * straight.
+ * Coordinates: position = piezo height, oriented so that it rises into the sample; force = as
+ * measured. Both are relative to their means to preserve digits in sums. With the baseline f0 + t
+ * (position - c) removed, the tip is at tip - c = delta = (position - c) (1 + t/k) - (force -
+ * f0)/k. c is the contact point, the position of first contact with the undeflected cantilever.
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
@@ -19,15 +18,15 @@
 #include <math.h>
 
 enum {
-    CURVE_MIN_SAMPLES = 32, /* the least of baseline and contact, 18, and what is left out */
-    CURVE_MAX_MINIMA = 4,   /* the best two are told, and refinement may change their order */
-    CURVE_TIP_MOVES = 2,    /* radius and half-angle: no tip has more sizes with errors */
-    CURVE_POWER_TERMS = 15, /* of a power law as a series */
+    CURVE_MIN_SAMPLES = 32, /* 18 for baseline and contact, and a reserve for excluded samples */
+    CURVE_MAX_MINIMA = 4,   /* the result has the best two, and refinement may change their order */
+    CURVE_TIP_MOVES = 2,    /* radius and half-angle; tips have no other size with an error */
+    CURVE_POWER_TERMS = 15, /* terms of a power law as a series */
 };
-/* Of the work: less is piezo and noise. */
+/* Smallest significant loss over the work; a smaller one is due to piezo and noise. */
 #define CURVE_LEAST_LOSS 0.03
 
-/* E(t) = t^-power from 1e-4 to 1e3 times the loading time, and a rest for what is slower. */
+/* E(t) = t^-power from 1e-4 to 1e3 loading times, and a constant for slower relaxation. */
 typedef struct curve_power {
     double modulus[CURVE_POWER_TERMS], time[CURVE_POWER_TERMS];
     wt_prony series;
@@ -39,33 +38,33 @@ typedef struct curve_samples {
     size_t n;
     double *position, *force;
     double spring_constant;
-    size_t gap_from, gap_to; /* shallower than the range of the fit: modelled but not compared */
+    size_t gap_from, gap_to; /* samples above the range of the fit: modelled but not compared */
 } curve_samples;
 static inline bool curve_in_gap(const curve_samples *s, size_t i)
 {
     return i >= s->gap_from && i < s->gap_to;
 }
 
-/* A sine on the force: interference of the light that the lever reflects with that of the sample.
- * Its phase is that of the path between them, so it goes with the tip. Other things (the mains, a
- * step of the piezo) go with the height, in contact too. */
+/* Sine in the force due to interference of light reflected by cantilever and sample. Its phase is
+ * that of the optical path, so it depends on the tip position. Other disturbances (mains, steps of
+ * the piezo) depend on the height in contact too. */
 enum { WAVE_COSINE, WAVE_SINE, WAVE_NUMBER, WAVE_PARAMETERS };
 typedef struct curve_wave {
-    double p[WAVE_PARAMETERS]; /* two amplitudes [N], 2 pi / period [1/m]; 0: there is none */
+    double p[WAVE_PARAMETERS]; /* two amplitudes [N], 2 pi / period [1/m]; 0 if there is no wave */
     bool by_height;
 } curve_wave;
 
 /* Sums at depths below the deepest point, from that of an octave to 0, and the contact function at
- * as many distances: curve_scan.c. */
+ * equal distances: contact_point_scan.c. */
 enum { SCAN_OCTAVES = 17, SCAN_NODES = 128, SCAN_REACH = 4 };
 typedef struct scan_octave {
     double weight[SCAN_NODES + 2], force[SCAN_NODES + 2], position[SCAN_NODES + 2];
-    double g[SCAN_NODES + 1], gg[SCAN_NODES + 1]; /* and its square */
+    double g[SCAN_NODES + 1], gg[SCAN_NODES + 1]; /* square of the contact function */
 } scan_octave;
 
-/* Tips with one size larger and smaller by as much, borrowed, NULL: none; and the standard error of
- * the stated one in that. A misfit that they explain is not one of the law, and the standard errors
- * hold theirs. */
+/* Tips with one size decreased and increased by the same factor (borrowed; NULL if none), and the
+ * standard error of the size in units of that step. A misfit that they explain is not a misfit of
+ * the law. The standard errors include them. */
 typedef struct tip_move {
     const wt_contact_table *down, *up;
     double deviation;
@@ -73,49 +72,50 @@ typedef struct tip_move {
 
 struct wt_indent_workspace {
     tip_move tip_move[CURVE_TIP_MOVES];
-    tip_move any_radius; /* of a radius without a stated error: deviation of its logarithm by 1 */
+    tip_move any_radius; /* radius without a stated error; the deviation is 1 in its logarithm */
     size_t capacity;
-    double *block; /* what the arrays below are parts of */
+    double *block; /* storage of the arrays below */
     double *position, *force, *tip, *delta, *g, *slope, *residual, *scratch, *weight;
-    double *by_modulus, *by_work;                     /* of an adhesive contact, at one depth */
-    double *by_contact, *time;                        /* with memory */
-    double *given_force, *given_time, *given_retract; /* of wt_indent_force_curve */
-    double *retract_position, *retract_force; /* of the way out, from curve_read_retract on */
-    double *start_position, *start_force;     /* of fits that only start others */
-    double *without_wave;                     /* forces less the wave; `force` has it */
-    double *wave_column[WAVE_PARAMETERS], *wave_give; /* derivatives: curve_wave.c */
+    double *by_modulus, *by_work; /* of an adhesive contact, at constant depth */
+    double *by_contact, *time;    /* of a viscoelastic contact */
+    double *given_force, *given_time, *given_retract; /* inputs of wt_indent_force_curve */
+    double *retract_position, *retract_force;         /* retract, set by curve_read_retract */
+    double *start_position, *start_force;             /* samples of starting fits */
+    double *without_wave; /* forces minus the wave; `force` includes it */
+    double *wave_column[WAVE_PARAMETERS], *wave_give; /* derivatives: interference_model.c */
     scan_octave octave[SCAN_OCTAVES];
-    double before_start[2][SCAN_REACH * SCAN_NODES + 1]; /* contact function, square */
+    double before_start[2][SCAN_REACH * SCAN_NODES + 1]; /* contact function and its square */
     gsl_min_fminimizer *minimizer;
     hereditary memory;
-    size_t evaluations; /* of the model so far */
-    /* Of the accepted curves so far, relative: by how much a further step may change the modulus
-     * where the fit ends, and would at most. */
+    size_t evaluations; /* evaluations of the model so far */
+    /* Over the accepted curves so far, relative to the modulus: tolerated and estimated change by a
+     * further step of the fit. */
     double step_allowed, step_left;
 };
 
-/* A way in or out, as measured; time NULL: not known. */
+/* Branch as measured; time is NULL if not known. */
 typedef struct curve_branch {
     const double *height, *force, *time;
     size_t n;
 } curve_branch;
 
-/* wt_indent_fit_curve with the way out, of which n may be 0. */
+/* Variant of wt_indent_fit_curve with the retract, whose n may be 0. */
 wt_status curve_fit_branches(const wt_contact_table *table, const wt_indent_options *options,
                              const curve_branch *approach, const curve_branch *retract,
                              double spring_constant, wt_indent_workspace *workspace,
                              wt_indent_fit *fit, wt_error *err);
 
-/* A fit without numbers. */
+/* Sets all numbers of a fit to NaN. */
 void curve_fit_empty(wt_indent_fit *fit);
 
-/* Are the limits of the range in order, and has the tip a radius where one is asked for? */
+/* Checks the order of the limits of the range, and that the tip has a radius if the limits refer to
+ * one. */
 wt_status curve_range_check(const wt_indent_options *options, const wt_tip *tip, wt_error *err);
 
-/* WT_E_MEMORY when n samples find no room. */
+/* Reserves space for n samples. Returns WT_E_MEMORY on failure. */
 wt_status curve_reserve(wt_indent_workspace *workspace, size_t n, wt_error *err);
 
-/* With several sums, for one would wait for itself at each term. */
+/* Dot product with several partial sums, which avoids a dependency between the terms. */
 static inline double curve_dot(const double *a, const double *b, size_t n)
 {
     wide sum = {0.0}, x, y;
@@ -130,7 +130,7 @@ static inline double curve_dot(const double *a, const double *b, size_t n)
     return simd_sum(&sum);
 }
 
-/* The same of one. */
+/* Sum with several partial sums. */
 static inline double curve_sum(const double *a, size_t n)
 {
     wide sum = {0.0}, x;
@@ -144,111 +144,116 @@ static inline double curve_sum(const double *a, size_t n)
     return simd_sum(&sum);
 }
 
-/* Of finite numbers; n > 0. */
+/* Range of n > 0 finite numbers. */
 typedef struct curve_span {
     double low, high;
 } curve_span;
 curve_span curve_span_of(const double *x, size_t n);
-/* The k-th smallest of n numbers from 0 to the largest, which are lost. */
+/* Returns the k-th smallest of n numbers from 0 to `largest`. The function destroys x. */
 double curve_select(double *x, size_t n, size_t k, double largest);
 
-/* The reason of a verdict. */
+/* Sets the reason of a verdict. */
 void curve_set_reason(char reason[160], const char *format, ...) WT_PRINTF(2, 3);
-/* A value as short text with its unit. */
+/* Value with its unit as short text. */
 typedef struct si_text {
     char words[40];
 } si_text;
 si_text curve_si(double value, const char *unit);
 
-/* ---- preparation: curve_prepare.c ------------------------------------------------------------ */
+/* ---- preparation: preparation.c -------------------------------------------------------------- */
 
 typedef struct curve_input {
-    curve_samples samples; /* of the workspace; without missing and repeated ones, centred */
-    size_t n_all;          /* samples.n may be less: a limit of the force */
+    curve_samples samples; /* arrays of the workspace; without missing and repeated samples,
+                              relative to the means */
+    size_t n_all;          /* samples.n is smaller if the force is limited */
     double position_origin, force_origin;
     double direction; /* +1 or -1: position = direction * height */
     size_t n_missing, n_repeated, n_spikes;
     double step_noise; /* noise from successive differences [N] */
-    bool saturated;    /* above the limit of the force */
-    double flat_level; /* at which it stands still, from its start [N]; 0: it does not */
+    bool saturated;    /* saturated above the limit of the force */
+    double flat_level; /* force of the plateau above the start [N]; 0 if there is none */
 } curve_input;
 
-/* Cleans, turns and centres; finds what no fit can mend. A verdict other than accepted ends it. */
+/* Cleans the samples, orients them and subtracts the means. Also finds defects that prevent a fit.
+ * The fit continues only if the verdict is accepted. */
 wt_curve_verdict curve_prepare(const double *height, const double *force, size_t n,
                                double spring_constant, const wt_indent_options *options,
                                wt_indent_workspace *workspace, curve_input *input,
                                char reason[160]);
-/* Turns the samples into those of the motion in reverse: a retract becomes an approach. */
+/* Reverses the direction of motion: a retract becomes an approach. */
 void curve_reverse(curve_samples *samples);
 
-/* ---- scan of the contact point: curve_scan.c ------------------------------------------------- */
+/* ---- scan of the contact point: contact_point_scan.c ----------------------------------------- */
 
-/* A local minimum of the cost with modulus, offset and tilt projected out. */
+/* Local minimum of the cost. Modulus, offset and tilt are eliminated. */
 typedef struct curve_minimum {
     double contact_point;
     double reduced_modulus; /* E/(1-nu^2) */
-    double offset, tilt;    /* baseline at the contact point, its slope */
+    double offset, tilt;    /* baseline at the contact point, and its slope */
     double cost;            /* sum of squares [N^2] */
 } curve_minimum;
 
-/* Fills `minima`, best first; returns how many (0: no contact point gives a positive modulus).
- * weighted: with weights 1/h^2, h = 1 + S/k, where h is far from 1. */
+/* Fills `minima`, best first, and returns their number. 0 means that no contact point has a
+ * positive modulus. weighted: uses weights 1/h^2, h = 1 + S/k, if h differs much from 1. */
 size_t curve_scan(const wt_contact_table *table, const curve_samples *samples, bool tilt,
                   bool weighted, wt_indent_workspace *workspace,
                   curve_minimum minima[CURVE_MAX_MINIMA]);
-/* The same for one given contact point (a position of the samples). */
+/* Variant of curve_scan for one given contact point (a position of the samples). */
 bool curve_scan_at(const wt_contact_table *table, const curve_samples *samples, bool tilt,
                    double contact_point, wt_indent_workspace *workspace, curve_minimum *minimum);
 
-/* ---- refinement and errors: curve_refine.c --------------------------------------------------- */
+/* ---- refinement and errors: least_squares.c -------------------------------------------------- */
 
-/* The last one, the square root of the work of adhesion, has a value in adhesive contact only. */
+/* CURVE_W is the square root of the work of adhesion or the constant pull. It applies to adhesive
+ * contact only. */
 enum { CURVE_E, CURVE_C, CURVE_F0, CURVE_T, CURVE_W, CURVE_N_PARAMETERS };
 
-/* The residual against the noise of the same curve: curve_lack.c. NaN where the baseline is too
- * short to say. */
+/* Lack of fit: the residual compared with the noise of the same curve (lack_of_fit.c). Values are
+ * NaN if the baseline is too short. */
 enum { CURVE_WAVES = WT_CURVE_WAVES };
 typedef struct curve_lack {
-    double statistic, chance; /* of the contact part, and of more than that by noise alone */
-    double baseline_chance;   /* that a straight baseline departs as much from a line */
+    double statistic, chance; /* F statistic of the contact part and its p value */
+    double baseline_chance;   /* p value of a straight baseline */
     double wave[CURVE_WAVES]; /* cosines over the contact [N] */
-    double window;            /* what they are over, to the end [m] */
-    double flat_chance; /* that the force of a contact flattens as much at its top by noise alone */
-    double flat_from;   /* force up to which little of that is to be seen [N] */
+    double window;            /* length of the window of the cosines, up to the end [m] */
+    double flat_chance;       /* p value of the flattening of the force at its top */
+    double flat_from;         /* force below which the flattening is small [N] */
 } curve_lack;
 
 typedef struct curve_solution {
-    double p[CURVE_N_PARAMETERS]; /* reduced modulus, contact point, offset, tilt, root of work */
-    double standard_error[CURVE_N_PARAMETERS]; /* with the next */
-    double misfit_error[CURVE_N_PARAMETERS];   /* of them that of what the law misses: misfit.c */
+    double
+        p[CURVE_N_PARAMETERS]; /* reduced modulus, contact point, offset, tilt, root of the work */
+    double standard_error[CURVE_N_PARAMETERS]; /* includes misfit_error */
+    double misfit_error[CURVE_N_PARAMETERS];   /* part due to the misfit of the law: misfit.c */
     double cost;
     double sensitivity_gain;
-    double bend_shift;    /* of the reduced modulus, if a bent baseline goes on in contact */
-    double curvature;     /* of the baseline [N/m^2] */
-    size_t first_contact; /* samples before it are baseline */
+    double bend_shift; /* change of the reduced modulus if a bent baseline continues in contact */
+    double curvature;  /* of the baseline [N/m^2] */
+    size_t first_contact; /* first sample in contact; earlier ones are baseline */
     double max_indentation;
     double noise, correlation_length;
     double effective_n; /* samples over correlation length */
     curve_lack lack;
-    bool bent; /* the baseline: the errors hold what that does if it goes on in contact */
+    bool bent; /* significant slope change of the baseline; the errors include its continuation in
+                  contact */
     curve_wave wave;
-    double step_allowed, step_left; /* as in the workspace, of this curve */
+    double step_allowed, step_left; /* as in the workspace, for this curve */
     bool converged;
 } curve_solution;
 
 typedef struct curve_kind {
     bool tilt, contact_fixed;
-    bool plain; /* force against measured indentation */
+    bool plain; /* residual of the force against the measured indentation */
     bool adhesive;
-    bool
-        constant_pull; /* of adhesive contact: a force in contact beside that of the law (Derjaguin,
-                          Muller and Toporov; a capillary), in the place of the root of the work */
-    bool memory;       /* the rubber has the spectrum of the options; not with adhesion */
-    bool rough;        /* to a thousandth of a standard error, and without errors */
-    bool no_errors;    /* that is all of it */
-    double below;      /* a fit that cannot come below this cost need not end; 0: each does */
-    size_t jump;       /* of adhesive contact: the first sample in it; 0: where the tip touches */
-    curve_wave wave;   /* where to begin with it */
+    bool constant_pull; /* adhesive contact with a constant force in addition to the contact law
+                           (Derjaguin, Muller and Toporov; a capillary) in the place of the root of
+                           the work */
+    bool memory;        /* the rubber has the spectrum of the options; not with adhesion */
+    bool rough;         /* stop at a thousandth of a standard error and compute no errors */
+    bool no_errors;     /* compute no errors */
+    double below;       /* a fit that cannot reach this cost may stop; 0: no limit */
+    size_t jump;        /* adhesive contact: first sample in contact; 0: at the contact point */
+    curve_wave wave;    /* start values of the wave */
 } curve_kind;
 static inline bool curve_has_wave(const curve_wave *wave)
 {
@@ -259,27 +264,27 @@ static inline double curve_wave_amplitude(const curve_wave *wave)
     return hypot(wave->p[WAVE_COSINE], wave->p[WAVE_SINE]);
 }
 
-/* Least squares in all free parameters at once, starting from p; then the covariance with
- * correlated residuals. With a wave it is fitted, too, and the forces of the samples, which are
- * those of `without_wave`, are left without it; whether it goes with the tip or with the height in
- * contact, the cost decides, and the errors hold what the other would give. */
+/* Least squares in all free parameters from the start p, then the covariance with correlated
+ * residuals. A wave is fitted too, and the forces of the samples (those of `without_wave`) exclude
+ * it. The lower cost decides between a wave that depends on the tip and one that depends on the
+ * height. The errors include the difference between the two. */
 void curve_refine(const wt_contact_table *table, const curve_samples *samples, curve_kind kind,
                   const double p[CURVE_N_PARAMETERS], wt_indent_workspace *workspace,
                   curve_solution *solution);
-/* What a share of a difference between laws would bring, all parameters fitted along: the score
- * test (Rao, Proc. Camb. Phil. Soc. 44 (1948) 50), which needs no fit. */
+/* Result of the score test (Rao, Proc. Camb. Phil. Soc. 44 (1948) 50). It estimates the improvement
+ * by a share of a difference between laws, with all parameters free, without a fit. */
 typedef struct curve_step {
-    double share;   /* of the difference */
+    double share;   /* share of the difference */
     double gain;    /* 2 ln of the ratio of likelihoods */
-    double modulus; /* by how much that moves, relative */
+    double modulus; /* relative change of the modulus */
 } curve_step;
-/* At a solution of this kind; difference: n of them, of the forces of another law, at each sample
- * [N]. Zeros where the samples cannot tell it from the parameters. Leaves the workspace as that of
- * the solution. */
+/* Score test at a solution of this kind. `difference` has n arrays with the differences to the
+ * forces of other laws at each sample [N]. The result is 0 if the parameters can compensate a
+ * difference. The workspace is that of the solution afterwards. */
 void curve_score(const wt_contact_table *table, const curve_samples *samples,
                  const curve_kind *kind, const curve_solution *at, double *const *difference,
                  size_t n, wt_indent_workspace *workspace, curve_step *to);
-/* Weights 1/h^2, h = 1 + S/k, of all samples for a scan, near those that a minimum of another has.
+/* Computes the weights 1/h^2, h = 1 + S/k, of all samples for a scan from those of a minimum.
  * Returns the largest h. */
 double curve_weights(const wt_contact_table *table, const curve_samples *samples,
                      const curve_minimum *minimum, wt_indent_workspace *workspace);

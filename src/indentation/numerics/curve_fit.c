@@ -129,7 +129,7 @@ static void find_rates(const curve_fitting *f, const curve_branch *approach, wt_
     if (duration > 0.0)
         fit->piezo_rate = fabs(height[last] - height[first]) / duration;
     double start = time[i];
-    if (i > first && isfinite(height[i - 1])) { /* between the two samples around contact */
+    if (i > first && isfinite(height[i - 1])) { /* contact lies between two samples */
         double before = f->input.direction * height[i - 1], at = f->input.direction * height[i];
         if (at > before && c > before)
             start -= (at - c) / (at - before) * (time[i] - time[i - 1]);
@@ -217,12 +217,12 @@ static void report_adhesion(const curve_fitting *f, wt_indent_fit *fit)
         fit->tabor_number = adhesion_tabor(&law);
 }
 
-/* The factor on the spectrum, and the modulus that it is at the loading time of the curve. */
+/* Computes the factor on the spectrum, and the modulus at the loading time of the curve. */
 static void report_spectrum(const curve_fitting *f, wt_indent_fit *fit)
 {
     const wt_prony *spectrum = f->options->spectrum;
-    /* a memory of a power of time, which is taken where that of the spectrum does not converge, has
-     * another unit */
+    /* A power-law relaxation replaces the spectrum if that does not converge, and has another unit.
+     */
     const bool memory = f->kind.memory && !f->kind.adhesive && !(f->loss_power > 0.0);
     if (spectrum == NULL || !(fit->load_time > 0.0) || (f->another_rubber && !f->kind.adhesive))
         return;
@@ -235,10 +235,12 @@ static void report_spectrum(const curve_fitting *f, wt_indent_fit *fit)
     fit->misfit_error *= here / unit;
 }
 
-static const double outside_95 = 0.05;   /* of an interval of 95 % */
-static const double error_digits = 1e-3; /* of an error, which is said with two */
+static const double outside_95 = 0.05; /* probability outside of a 95 % interval */
+static const double error_digits =
+    1e-3; /* tolerance of an error, which is reported with two digits */
 
-/* Standard error with which an interval of 95 % about the one fit holds 95 % of what both say. */
+/* Search for the standard error of an interval about one fit that includes 95 % of the mixture of
+ * two fits. */
 typedef struct two_fits {
     double error;
     const curve_other *other;
@@ -255,7 +257,7 @@ static double held_of_two(double with_other, void *user)
     return outside_95 - beyond;
 }
 
-/* What the other fit adds to an error, in its square. */
+/* Returns the error that the alternative fit adds, as a root of the difference of squares. */
 static double error_by(double error, const curve_other *other)
 {
     two_fits of = {error, other};
@@ -328,11 +330,11 @@ static void report(curve_fitting *f, wt_indent_fit *fit)
     }
 }
 
-/* 2 ln(likelihood ratio) within which 95 % of the values of one parameter lie. */
+/* 2 ln(likelihood ratio) of a 95 % interval for one parameter. */
 static const double likely_chi2 = 3.84;
 
-/* Two contact points that are about as likely: the better one's modulus, and what the other's is
- * off as far as it is likely. */
+/* Adds the error due to a second contact point of similar likelihood. The result keeps the modulus
+ * of the better one. */
 static void add_other_contact(curve_fitting *f)
 {
     if (f->n_minima < 2 || f->kind.adhesive)
@@ -401,7 +403,7 @@ static void fit_once(const curve_fitting *of, const curve_branch *retract, doubl
         curve_report_way_out(f, fit);
 }
 
-/* The fit of the forces up to a limit, as fit_force makes it. */
+/* Fits the forces up to a limit, as the option fit-force does. */
 static void fit_below(const curve_fitting *of, const curve_branch *retract, double spring_constant,
                       double limit, curve_fitting *f, wt_indent_fit *fit)
 {
@@ -414,11 +416,11 @@ static void fit_below(const curve_fitting *of, const curve_branch *retract, doub
     f->options = of->options;
 }
 
-/* Each at most three quarters of the one before: to a third of the force. */
+/* Each limit is at most three quarters of the previous one, down to a third of the force. */
 enum { LIMIT_ROUNDS = 4 };
 
-/* A saturated curve has a modulus below the force that its verdict names, which may take that test
- * again; it stays refused where the rest has none. */
+/* Fits a saturated curve below the force in its verdict, and repeats this if the result is still
+ * saturated. The curve stays rejected if the lower part has no modulus. */
 static void fit_below_saturation(const curve_fitting *of, const curve_branch *retract,
                                  double spring_constant, curve_fitting *f, wt_indent_fit *fit)
 {

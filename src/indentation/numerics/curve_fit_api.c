@@ -1,5 +1,5 @@
-/* The fit of a force curve as it was read: which segment, which channels, what is missing; and the
- * indentation for plots.
+/* Fit of a force curve as it was read: selection of segment and channels, missing channels, and
+ * indentations for plots.
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
@@ -43,7 +43,7 @@ static wt_status no_force(wt_error *err, const wt_segment *segment)
                    "see what the file holds with: weartrack info FILE");
 }
 
-/* Empty where height or force are not there. */
+/* Returns the retract; it is empty if height or force are missing. */
 static curve_branch way_out(const wt_segment *retract, const wt_cantilever *cantilever,
                             wt_indent_workspace *workspace)
 {

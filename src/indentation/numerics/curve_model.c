@@ -1,12 +1,12 @@
-/* The force that lever and sample give together at the height of each sample.
+/* Force in the equilibrium of cantilever and sample at the height of each sample.
  *
- * What is compared. The noise sits in the force, and the force is also in the tip position, so that
- * a noise e appears in "force minus E* G(measured indentation)" as h e with h = 1 + S/k (S =
- * contact stiffness, k = spring constant): 13 times larger in contact than before it for rubber of
- * 20 MPa and a lever of 0.1 N/m, and correlated with the abscissa. Least squares in that residual
- * is neither efficient nor unbiased. Here the force is compared with the one that lever and sample
- * together give at the height of the sample, k (z - delta) = E* G(delta), which leaves e as it is.
- * The plain residual, as most programs use it, is there for comparison with them.
+ * The noise is in the force, and the tip position includes the force. A noise e therefore appears
+ * in "force minus E* G(measured indentation)" as h e with h = 1 + S/k (S = contact stiffness, k =
+ * spring constant). For rubber of 20 MPa and a cantilever of 0.1 N/m it is 13 times larger in
+ * contact than before it, and correlated with the abscissa. Least squares in that residual are
+ * neither efficient nor unbiased. This file compares the force with the equilibrium force at the
+ * height of the sample, k (z - delta) = E* G(delta), which does not change e. The plain residual
+ * that most programs use is available for comparison.
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
@@ -17,9 +17,9 @@
 #include <math.h>
 #include <string.h>
 
-enum { N = CURVE_N_PARAMETERS, MAX_NEWTON = 50 /* halves alone are at 1e-15 */ };
+enum { N = CURVE_N_PARAMETERS, MAX_NEWTON = 50 /* bisection alone reaches 1e-15 */ };
 
-/* How far before contact samples begin to be looked at one by one, as a share of the depth. */
+/* Distance before contact from which samples are evaluated one by one, over the depth. */
 static const double margin = 0.1;
 
 WIDE_REGISTERS static void sum_baseline(curve_law *m, size_t n)
@@ -55,8 +55,8 @@ WIDE_REGISTERS static void sum_baseline(curve_law *m, size_t n)
     m->ff = simd_sum(&ff);
 }
 
-/* In the plain residual noise decides which samples are in contact: none is left to the sums. Nor
- * where a wave changes all of them. */
+/* Number of samples that enter by sums alone. It is 0 for the plain residual, where noise decides
+ * which samples are in contact, and with a wave, which changes all samples. */
 static size_t count_baseline(const curve_law *m, double c)
 {
     const curve_samples *s = m->samples;
@@ -72,7 +72,7 @@ static size_t count_baseline(const curve_law *m, double c)
     return n;
 }
 
-/* Indentations as measured. */
+/* Computes the measured indentations. */
 static void measure(curve_law *m, const double p[N], size_t first)
 {
     m->balanced = false;
@@ -83,7 +83,7 @@ static void measure(curve_law *m, const double p[N], size_t first)
             (s->position[i] - p[CURVE_C]) * stretch - (s->force[i] - p[CURVE_F0]) / k;
 }
 
-/* One of Newton's steps of each sample in contact; returns the largest. */
+/* Performs a Newton step for each sample in contact and returns the largest step. */
 WIDE_REGISTERS static double step_on(const curve_law *m, const double p[N], size_t first)
 {
     const curve_samples *s = m->samples;
@@ -128,25 +128,25 @@ WIDE_REGISTERS static double step_on(const curve_law *m, const double p[N], size
     return largest;
 }
 
-/* Turns the indentations of the workspace into those at which lever and sample are in balance, with
- * G and G' there. k (z - x) - E* G(x) falls and is concave in x, so Newton's method converges from
- * anywhere; the indentations of the evaluation before are a good start. */
+/* Replaces the indentations of the workspace by those in equilibrium, with G and G'. k (z - x) - E*
+ * G(x) falls and is concave in x, so Newton's method converges from any start. The indentations of
+ * the previous evaluation are a good start. */
 WIDE_REGISTERS static void balance(curve_law *m, const double p[N], size_t first)
 {
     const curve_samples *s = m->samples;
     wt_indent_workspace *w = m->workspace;
-    if (m->balanced) /* with what is known of where they were */
+    if (m->balanced) /* starts with the previous values of G and G' */
         (void)step_on(m, p, first);
     m->balanced = true;
     for (size_t i = first; i < s->n; i++) {
         const double z = s->position[i] - p[CURVE_C], delta = w->delta[i];
-        const bool inside = (delta > 0.0) & (delta < z); /* no branch: noise decides */
+        const bool inside = (delta > 0.0) & (delta < z); /* no branch, because noise decides */
         w->delta[i] = inside ? delta : z;
     }
-    const double deepest = /* of a curve that does not touch it is not negative */
+    const double deepest = /* not negative for a curve without contact */
         first < s->n ? fmax(0.0, curve_span_of(s->position + first, s->n - first).high - p[CURVE_C])
                      : 0.0;
-    /* After a step of 1e-7 the error is of the order of its square. */
+    /* The error after a step of 1e-7 is of the order of its square. */
     double largest_step = (double)INFINITY;
     for (int i = 0; i < MAX_NEWTON && largest_step > 1e-7 * deepest; i++) {
         wt_contact_table_eval(m->table, w->delta + first, s->n - first, w->g + first,
@@ -155,7 +155,7 @@ WIDE_REGISTERS static void balance(curve_law *m, const double p[N], size_t first
     }
 }
 
-/* Along the branch; samples that are held at its end are all at one place. */
+/* Evaluates a block of the branch. Samples at the end of the branch are all equal. */
 static void along(const adhesion *law, const double *bare, size_t n, adhesive_contacts *to)
 {
     size_t same = 1;
@@ -171,8 +171,8 @@ static void along(const adhesion *law, const double *bare, size_t n, adhesive_co
     }
 }
 
-/* The same for adhesive contact: lever and sample in balance on the branch of large radii, which a
- * sample is on from its jump on, or from where the tip touches. */
+/* Equilibrium with adhesive contact on the branch of large radii. A sample is on it from its jump
+ * on, or from first contact. */
 static void balance_adhesive(const curve_law *m, const double p[N], size_t first)
 {
     const curve_samples *s = m->samples;
@@ -180,7 +180,7 @@ static void balance_adhesive(const curve_law *m, const double p[N], size_t first
     const double k = s->spring_constant, e = p[CURVE_E], root = p[CURVE_W];
     const adhesion law = {m->table, e, root * root};
     const double release = adhesion_release(&law, k);
-    double *const z = w->residual, *const bare = w->delta; /* which both are made of them */
+    double *const z = w->residual, *const bare = w->delta; /* inputs of both results */
     for (size_t i = first; i < s->n; i++) {
         z[i] = s->position[i] - p[CURVE_C];
         w->delta[i] = w->g[i] = w->slope[i] = w->by_modulus[i] = w->by_work[i] = 0.0;
@@ -194,7 +194,10 @@ static void balance_adhesive(const curve_law *m, const double p[N], size_t first
         along(&law, bare + i, n, &c);
         for (size_t j = 0; j < n; j++) {
             const bool touches = m->jump > 0 || z[i + j] > 0.0;
-            const bool moves = touches && bare[i + j] > release * (1.0 + 1e-9); /* else held */
+            const bool moves =
+                touches &&
+                bare[i + j] >
+                    release * (1.0 + 1e-9); /* other samples are at the end of the branch */
             w->delta[i + j] = touches ? c.depth[j] : 0.0;
             w->g[i + j] = touches ? c.force[j] / e : 0.0;
             w->slope[i + j] = moves ? c.stiffness[j] / e : 0.0;
@@ -204,7 +207,7 @@ static void balance_adhesive(const curve_law *m, const double p[N], size_t first
     }
 }
 
-/* Contact with a constant pull P: the lever is at a height that is larger by P/k. */
+/* Equilibrium with a constant pull P, which is equivalent to a height increased by P/k. */
 static void balance_pull(curve_law *m, const double p[N], size_t first)
 {
     const curve_samples *s = m->samples;
@@ -213,7 +216,7 @@ static void balance_pull(curve_law *m, const double p[N], size_t first)
     double higher[N];
     memcpy(higher, p, sizeof higher);
     higher[CURVE_C] -= pull / k;
-    m->balanced = false; /* the forces of before have the pull in them */
+    m->balanced = false; /* the previous forces include the pull */
     balance(m, higher, first);
     for (size_t i = first; i < s->n; i++) {
         const double z = s->position[i] - p[CURVE_C], g = w->g[i];
@@ -293,7 +296,7 @@ void curve_model_complete(const curve_law *m, const double p[N])
         w->by_modulus[i] = w->by_contact[i] = w->by_work[i] = 0.0;
 }
 
-/* Of the first n parameters. */
+/* Adds a row for the first n parameters. */
 static inline void add_row(normal_equations *e, const double row[N], double r, size_t n)
 {
     for (size_t a = 0; a < n; a++) {
@@ -303,8 +306,8 @@ static inline void add_row(normal_equations *e, const double row[N], double r, s
     }
 }
 
-/* Rows of curve_model_row for contact without memory, of which all are compared: four at once.
- * Returns the sample to go on with. */
+/* Adds the rows of curve_model_row for non-viscoelastic contact with all samples compared, four at
+ * a time. Returns the next sample. */
 WIDE_REGISTERS static size_t sum_four(const curve_law *m, const double p[N], normal_equations *to)
 {
     const curve_samples *s = m->samples;
@@ -377,7 +380,7 @@ static void sum_rows(const curve_law *m, const double p[N], normal_equations *to
     const curve_samples *s = m->samples;
     const bool simple = !m->plain && !m->memory && !m->wave && s->gap_to <= s->gap_from;
     const size_t first = simple ? sum_four(m, p, to) : m->n_baseline;
-    normal_equations e = *to; /* whose sums stay in registers */
+    normal_equations e = *to; /* a local copy keeps the sums in registers */
     for (size_t i = first; i < s->n; i++) {
         double row[N], r = m->workspace->residual[i];
         curve_model_row(m, p, i, row);
@@ -394,7 +397,7 @@ static void sum_rows(const curve_law *m, const double p[N], normal_equations *to
 void curve_model_normal(const curve_law *m, const double p[N], normal_equations *e)
 {
     memset(e, 0, sizeof *e);
-    /* Before contact the row is (0, -t, 1, z - c), and r = f - f0 - t (z - c). */
+    /* Rows before contact are (0, -t, 1, z - c), and r = f - f0 - t (z - c). */
     const double n = (double)m->n_baseline, t = p[CURVE_T], shift = m->z0 - p[CURVE_C];
     const double offset = m->f0 - p[CURVE_F0] - t * shift;
     const double sz = m->z + n * shift, szz = m->zz + shift * (2.0 * m->z + n * shift);

@@ -1,4 +1,4 @@
-/* Inside the fit room: the force that lever and sample give together, its residuals and derivatives
+/* Model of the force in the equilibrium of cantilever and sample, with residuals and derivatives
  * for all samples of a curve.
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
@@ -14,22 +14,24 @@ typedef struct curve_law {
     wt_indent_workspace *workspace; /* delta, g, slope, residual: of the latest evaluation */
     bool free[CURVE_N_PARAMETERS];
     bool plain, adhesive, memory;
-    bool constant_pull; /* adhesive by a force of its own, the parameter of the work [N] */
-    bool rough;         /* as in the kind */
-    double below;       /* as in the kind */
-    bool balanced;      /* the indentations of the workspace, with the force and its slope there */
-    bool wave; /* in the force; the derivatives then are those less what the wave can imitate */
+    bool constant_pull; /* adhesion is a constant force [N], in the place of the root of the work */
+    bool rough;         /* as in curve_kind */
+    double below;       /* as in curve_kind */
+    bool balanced; /* the indentations of the workspace are in equilibrium, with the force and its
+                      slope */
+    bool wave; /* the force includes a wave; the derivatives then exclude their projection on the
+                  wave */
     double imitated[WAVE_PARAMETERS][CURVE_N_PARAMETERS];
-    size_t jump; /* of adhesive contact: its first sample; 0: where the tip touches */
-    /* The first samples, far from contact for any step of the fit, enter by their sums alone. */
+    size_t jump; /* adhesive contact: first sample; 0: at the contact point */
+    /* The first samples are far from contact in any step of the fit and enter by sums alone. */
     size_t n_baseline;
     double baseline_end; /* largest position among them */
     double z0, f0;       /* origin of the sums */
     double z, zz, f, zf, ff;
 } curve_law;
 
-/* The law of a kind of fit, to be evaluated; and all of its samples at p, where they were fitted.
- */
+/* curve_law_of creates the law of a kind of fit. curve_law_evaluate evaluates all samples at the
+ * fitted parameters p. */
 curve_law curve_law_of(const wt_contact_table *table, const curve_samples *samples,
                        const curve_kind *kind, wt_indent_workspace *workspace);
 void curve_law_evaluate(curve_law *model, const double p[CURVE_N_PARAMETERS],
@@ -39,52 +41,54 @@ typedef struct normal_equations {
     double jj[CURVE_N_PARAMETERS][CURVE_N_PARAMETERS], jr[CURVE_N_PARAMETERS];
 } normal_equations;
 
-/* Begins at parameters p; with indentations that a fit of the same samples has left. */
+/* curve_model_start starts at the parameters p. curve_model_resume starts with the indentations of
+ * a previous fit of the same samples. */
 void curve_model_start(curve_law *model, const double p[CURVE_N_PARAMETERS]);
 void curve_model_resume(curve_law *model, const double p[CURVE_N_PARAMETERS]);
 /* Evaluates at p and returns the sum of squares. */
 double curve_model_cost(curve_law *model, const double p[CURVE_N_PARAMETERS]);
-/* At the parameters of the latest evaluation. */
+/* Computes the normal equations at the parameters of the latest evaluation. */
 void curve_model_normal(const curve_law *model, const double p[CURVE_N_PARAMETERS],
                         normal_equations *equations);
-/* At the parameters of the latest evaluation, fills in the samples that the sums stand for. */
+/* Computes the samples that the sums represent, at the parameters of the latest evaluation. */
 void curve_model_complete(const curve_law *model, const double p[CURVE_N_PARAMETERS]);
-/* Of the residuals e, those of the noise, at the parameters of the latest evaluation. */
+/* Tests the lack of fit at the parameters of the latest evaluation. `e` has the residuals of the
+ * noise. */
 curve_lack curve_lack_of_fit(const curve_law *model, const double p[CURVE_N_PARAMETERS],
                              const double *e);
-/* What the noise does to the sums J'e, at the parameters of the latest evaluation. */
+/* Effect of the noise on the sums J'e at the parameters of the latest evaluation. */
 typedef struct curve_noise {
-    double variance;           /* of a sample of the baseline */
-    double correlation_length; /* [samples], of waves as long as the contact */
+    double variance;           /* variance of a sample of the baseline */
+    double correlation_length; /* [samples], for waves as long as the contact */
     double scatter[CURVE_N_PARAMETERS][CURVE_N_PARAMETERS]; /* covariance of J'e */
-    double bend[CURVE_N_PARAMETERS]; /* J' of the bend of the baseline, which is in it */
-    double curvature; /* of the baseline, bent or not: the square of the position in it [N/m^2] */
+    double bend[CURVE_N_PARAMETERS]; /* J' times the slope change of the baseline, which `scatter`
+                                        includes */
+    double curvature; /* coefficient of the square of the position in the baseline [N/m^2] */
 } curve_noise;
-/* Of the residuals e, those of the noise, of which the first `first` are the baseline; bent: it is
- * not straight, and nobody knows how that goes on in contact. */
+/* Estimates the noise from the residuals e, of which the first `first` are the baseline. `bent`
+ * states that the baseline is not straight, and its continuation in contact is unknown. */
 curve_noise curve_noise_of(const curve_law *model, const double p[CURVE_N_PARAMETERS],
                            const double *e, size_t first, bool bent);
-/* Variance of a unit wave of means over `length` samples, by its frequency: 1 is half a cycle for
- * each of them. */
+/* Variance of a unit wave of means over `length` samples by frequency. A frequency of 1 is half a
+ * cycle per mean. */
 enum { NOISE_BANDS = 52 };
 typedef struct curve_spectrum {
     double density[NOISE_BANDS], length;
 } curve_spectrum;
-/* The mean spectrum of at most 512 residuals x, each the mean of to->length samples. False if there
- * is nothing. */
+/* Computes the mean spectrum of at most 512 residuals x, each the mean of to->length samples.
+ * Returns false if the residuals are 0. */
 bool curve_noise_spectrum(const double *x, size_t n, curve_spectrum *to);
-/* Of unit wave k, half a cycle each, of n blocks of `length` samples. */
+/* Variance of unit wave k, with k half cycles, over n blocks of `length` samples. */
 double curve_noise_variance(const curve_spectrum *s, double k, size_t n, size_t length);
-/* h = 1 + S/k of sample i. */
+/* Factor h = 1 + S/k of sample i. */
 static inline double curve_model_factor(const curve_law *m, const double p[CURVE_N_PARAMETERS],
                                         size_t i)
 {
     return 1.0 + p[CURVE_E] * m->workspace->slope[i] / m->samples->spring_constant;
 }
 
-/* Derivatives of the modelled force of sample i; 0 where a parameter is not free, or it is not
- * compared. Returns what the
- * residual makes of a noise of 1. */
+/* Computes the derivatives of the modelled force of sample i. They are 0 for fixed parameters and
+ * for samples that are not compared. Returns the factor of the noise in the residual. */
 static inline double curve_model_row(const curve_law *m, const double p[CURVE_N_PARAMETERS],
                                      size_t i, double row[CURVE_N_PARAMETERS])
 {
@@ -107,27 +111,27 @@ static inline double curve_model_row(const curve_law *m, const double p[CURVE_N_
     return plain;
 }
 
-/* ---- with a wave in the force: curve_wave.c ---------------------------------------------------
- */
+/* ---- optical interference: interference_model.c ---------------------------------------------- */
 
-/* At the latest evaluation, which was at p: takes the wave out of the forces of the samples and
- * returns the sum of squares then. */
+/* Subtracts the wave from the forces after an evaluation at p, and returns the sum of squares. */
 double curve_wave_cost(const curve_law *model, const double p[CURVE_N_PARAMETERS],
                        const curve_wave *wave);
-/* What the wave can imitate of the derivatives goes into the model. */
+/* Projection of the derivatives on the wave and the step of the wave. */
 typedef struct wave_step {
-    double step[WAVE_PARAMETERS]; /* to the least sum of squares, were the other parameters held */
-    double gain;                  /* which then falls by so much */
+    double step[WAVE_PARAMETERS]; /* step to the minimum with the other parameters fixed */
+    double gain;                  /* decrease of the sum of squares by that step */
 } wave_step;
-/* At the latest evaluation and wave; false if the wave is not determined. */
+/* Computes the projection at the latest evaluation and wave. Returns false if the wave is not
+ * determined. */
 bool curve_wave_imitate(curve_law *model, const double p[CURVE_N_PARAMETERS], wave_step *to);
 
-/* Lever and rubber with memory in balance: curve_memory.c. Of samples from `first` on, those before
- * it are out of contact: depth, force over modulus, and its slope of the moment; the derivatives by
- * modulus and contact point, times h. */
+/* Computes the equilibrium of cantilever and viscoelastic rubber (hereditary_fit.c) for the samples
+ * from `first` on; earlier samples are out of contact. The results are depth, force over modulus
+ * with its instantaneous slope, and the derivatives by modulus and contact point times h. */
 void curve_balance_memory(const curve_law *model, const double p[CURVE_N_PARAMETERS], size_t first);
-/* The depth x at which k (z - x) = E (past + now G(x)), if k z > E past; G and its slope there.
- * start: a guess, 0: none. The left side less the right falls and is concave. */
+/* Solves k (z - x) = E (past + now G(x)) for the depth x if k z > E past, and returns G and its
+ * slope there. `start` is an initial value or 0. The left side minus the right side falls and is
+ * concave. */
 double curve_balanced_depth(const wt_contact_table *table, double k, double z, double e,
                             double past, double now, double start, double *g, double *slope);
 

@@ -1,11 +1,11 @@
-/* What the noise of a force curve does to the numbers of its fit.
+/* Effect of the noise of a force curve on its fit.
  *
- * Forces are averaged in blocks, a few dozen of them over the contact. The spectrum of the noise is
- * that of the baseline: cosines of its residual, to which shapes are fitted (Whittle): white, white
- * below a power of the frequency, white below a first-order process. Each weighs what its
- * likelihood says, for the slow waves that matter to the contact are few in a baseline and no
- * single shape is sure. The mean of them (of the standard deviations) then gives the variance of
- * sum_i J_i e_i along the curve, whatever the colour.
+ * Forces are averaged in blocks, a few dozen over the contact. The cosine spectrum of the baseline
+ * residual determines the spectrum of the noise. The candidate shapes (Whittle likelihood) are
+ * white, white plus a power of the frequency, and white plus a first-order process. They are
+ * averaged with their likelihoods, because the baseline has few of the slow waves that matter in
+ * contact. The mean (of the standard deviations) gives the variance of sum_i J_i e_i along the
+ * curve for any colour of the noise.
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
@@ -18,27 +18,27 @@
 enum {
     N = CURVE_N_PARAMETERS,
     IN_CONTACT = 32, /* blocks */
-    BLOCKS = 512,    /* most of all */
+    BLOCKS = 512,    /* largest total */
     FINE = 192,      /* of the baseline, for its spectrum */
-    LEAST = 16,      /* of these */
-    WAVES = 64,      /* looked at one by one; faster ones together */
+    LEAST = 16,      /* smallest number in the baseline */
+    WAVES = 64,      /* evaluated one by one; faster waves are combined */
     AT_ONCE = 16,    /* a multiple of WIDE */
     PARTS = AT_ONCE / WIDE,
-    PER_OCTAVE = 4, /* bands: in half of one the frequency changes by 9 % */
-    POWERS = 4,     /* of 1/f: halves, to the 2 of a random walk */
-    CORNERS = 9,    /* octaves, to the longest waves of 512 blocks */
-    HEIGHTS = 5,    /* over the white part: octaves of the knee */
+    PER_OCTAVE = 4, /* bands; within half a band the frequency changes by 9 % */
+    POWERS = 4,     /* exponents of 1/f in halves, up to 2 for a random walk */
+    CORNERS = 9,    /* octaves, up to the longest waves of 512 blocks */
+    HEIGHTS = 5,    /* heights above the white part: octaves of the knee */
 };
 
 typedef struct block_sums {
-    size_t n, length;                               /* blocks, samples in one */
+    size_t n, length;                               /* number of blocks, samples per block */
     double e[BLOCKS], z[BLOCKS], column[N][BLOCKS]; /* means of residual and position, sums of J */
 } block_sums;
 
-/* Spectra that noise may have, in bands of the frequency. */
+/* Possible spectra of the noise, in bands of the frequency. */
 enum { SHAPES = 82 };
 static struct {
-    double knee[SHAPES]; /* below it they are no longer white */
+    double knee[SHAPES]; /* frequency below which the spectrum is not white */
     double inverse[SHAPES][NOISE_BANDS], logarithm[SHAPES][NOISE_BANDS],
         root[SHAPES][NOISE_BANDS]; /* of the density */
 } shapes;
@@ -81,14 +81,14 @@ double curve_noise_variance(const curve_spectrum *s, double k, size_t n, size_t 
     return part * s->density[band_of(part * k / (double)n)];
 }
 
-/* How much of unit cosines k to k + AT_ONCE - 1 of n blocks there is in each of n_x. Several at
- * once, for each term of a wave waits for the one before. */
+/* Projects each of n_x series on the unit cosines k to k + AT_ONCE - 1 of n blocks. Several cosines
+ * at once avoid the latency of the recursion. */
 WIDE_REGISTERS static void find_waves(size_t k, size_t n, const double (*x)[BLOCKS], size_t n_x,
                                       double along[AT_ONCE][N])
 {
     wide twice[PARTS], before[PARTS], now[PARTS], sums[N][PARTS] = {{{0.0}}};
     double last[AT_ONCE], sum[N][AT_ONCE];
-    const double mirror = k % 2 == 0 ? 1.0 : -1.0; /* the second half of wave k */
+    const double mirror = k % 2 == 0 ? 1.0 : -1.0; /* sign of the second half of wave k */
     for (size_t j = 0; j < AT_ONCE; j++) {
         const double angle = M_PI * (double)(k + j) / (double)n, half = cos(0.5 * angle);
         twice[j / WIDE][j % WIDE] = 2.0 * (2.0 * half * half - 1.0);
@@ -121,8 +121,8 @@ WIDE_REGISTERS static void find_waves(size_t k, size_t n, const double (*x)[BLOC
     }
 }
 
-/* Takes the powers of z below `count` out of the first n of x. With 3, z2 becomes the square over
- * `all`, less what the others have of it there. Returns what x had of the last one. */
+/* Subtracts the powers of z below `count` from the first n values of x. With count 3, z2 receives
+ * the orthogonal square over `all` values. Returns the coefficient of the last power. */
 WIDE_REGISTERS static double remove_powers(const double *z, double *x, size_t n, size_t all,
                                            int count, double *z2)
 {
@@ -183,7 +183,7 @@ bool curve_noise_spectrum(const double *x, size_t n, curve_spectrum *to)
 {
     double power[NOISE_BANDS] = {0.0}, count[NOISE_BANDS] = {0.0};
     double chance[SHAPES], level[SHAPES], best = -(double)INFINITY, all = 0.0;
-    const double waves = (double)n - 2.0; /* an offset and a tilt are not in x */
+    const double waves = (double)n - 2.0; /* x excludes an offset and a tilt */
     double *const density = to->density, rest = curve_dot(x, x, n);
     (void)pthread_once(&shapes_once, make_shapes);
     for (size_t first = 0; first < n && first <= WAVES; first += AT_ONCE) {
@@ -209,7 +209,7 @@ bool curve_noise_spectrum(const double *x, size_t n, curve_spectrum *to)
         bands--;
     for (size_t s = 0; s < SHAPES; s++) {
         chance[s] = -(double)INFINITY;
-        if (s > 0 && shapes.knee[s] < 8.0 / (double)n) /* nothing here tells it from white */
+        if (s > 0 && shapes.knee[s] < 8.0 / (double)n) /* not distinguishable from white noise */
             continue;
         const double logarithms = curve_dot(count, shapes.logarithm[s], bands),
                      sum = curve_dot(power, shapes.inverse[s], bands);
@@ -235,7 +235,7 @@ bool curve_noise_spectrum(const double *x, size_t n, curve_spectrum *to)
     return true;
 }
 
-/* to = J' (covariance of the noise) J, of the first parameters. */
+/* Computes J' (covariance of the noise) J for the free parameters. */
 WIDE_REGISTERS static void sum_waves(const block_sums *b, const curve_spectrum *s, size_t n_free,
                                      double to[N][N])
 {
@@ -263,8 +263,9 @@ WIDE_REGISTERS static void sum_waves(const block_sums *b, const curve_spectrum *
                 to[c][d] += curve_noise_variance(s, (double)k, b->n, b->length) * left[c][d];
 }
 
-/* Of the baseline, the first `first` samples e, less a line, or where it is bent a parabola, which
- * goes to `bow` all along the blocks. False if there is too little. */
+/* Spectrum of the baseline residual without a line, or without a parabola if the baseline is bent.
+ * The function also returns that parabola over all blocks. It returns false if the baseline is too
+ * short. */
 WIDE_REGISTERS static bool read_baseline(const curve_law *m, const double *e, size_t first,
                                          block_sums *b, bool bent, double *bow, double *curvature,
                                          curve_spectrum *to)
@@ -304,7 +305,8 @@ WIDE_REGISTERS curve_noise curve_noise_of(const curve_law *m, const double p[N],
         if (!curve_noise_spectrum(b.e, b.n, &s))
             return noise;
     }
-    if (noise.variance > 0.0) { /* at waves as long as the contact that the baseline shows, too */
+    if (noise.variance >
+        0.0) { /* at waves as long as the contact that the baseline also resolves */
         const double contact = (double)(m->samples->n - first);
         const double wave = fmax(2.0 / contact, 4.0 / (double)first);
         noise.correlation_length = fmax(1.0, curve_noise_variance(&s, wave, 1, 1) / noise.variance);

@@ -1,4 +1,4 @@
-/* The verdict on one force curve and its reason.
+/* Verdict on one force curve and its reason.
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
@@ -11,27 +11,28 @@
 #include <math.h>
 #include <string.h>
 
-/* Limits of plausibility; every verdict names the number and the limit. */
-/* Force in contact, in noise of the baseline: the largest of 2,000 samples is 3.5. */
+/* Limits of plausibility; each verdict states the value and the limit. */
+/* Smallest force in contact over the noise of the baseline. The largest of 2,000 samples is 3.5. */
 static const double contact_noise = 5.0;
-/* Departure from a line, of the largest force: in contact it would be an error of the modulus of
- * that size and more. */
+/* Largest departure from a line over the largest force. In contact it would cause an error of the
+ * modulus of at least that size. */
 static const double baseline_bend = 0.1;
-/* % of modulus per % of sensitivity: sensitivities are known to 1 % at best, and the modulus then
- * to largest_error. */
+/* Largest change of the modulus in per cent per per cent of sensitivity. Sensitivities have errors
+ * of 1 % at best, and the modulus then has largest_error. */
 static const double rigid_gain = 50.0;
-static const double told_gain = 1000.0;  /* of it, in words: more digits say nothing */
-static const double reverse_ratio = 0.5; /* cost of the fit in reverse: no near tie */
+static const double told_gain = 1000.0;  /* largest reported value; a larger one has no meaning */
+static const double reverse_ratio = 0.5; /* cost of the reversed fit; near ties do not count */
 enum { BEND_BLOCKS = 16 };
-static const double least_bias = 0.005; /* of a modulus by loss, to be said: a digit of it */
-/* Of the work: at a tan delta of 1, to which elastic fits of rubber with broad spectra were tried:
- * a pyramid was up to 12 % off, a cone 17 %. */
+static const double least_bias = 0.005; /* smallest reported bias of the modulus by loss */
+/* Largest tested loss over the work, at a tan delta of 1. Elastic fits of rubber with broad spectra
+ * differed by up to 12 % for a pyramid and 17 % for a cone. */
 static const double most_tried = 0.85;
-/* Of a top of the force that flattens by noise: a map of a thousand has one. */
+/* Significance level of flattening by noise; a map of a thousand curves has one. */
 static const double flat_chance = 0.001;
-static const double most_flat = 0.5;   /* loss: much of it flattens the force, too */
-static const double below_flat = 0.9;  /* of the force that stands still: clear of its noise */
-static const double large_error = 0.2; /* of a modulus, to be said: only its order is known then */
+static const double most_flat = 0.5;  /* largest loss; more loss flattens the force too */
+static const double below_flat = 0.9; /* share of the plateau force that is clear of its noise */
+static const double large_error =
+    0.2; /* smallest reported error of the modulus; only its order of magnitude is known */
 
 static const struct {
     const char *id, *text;
@@ -64,8 +65,8 @@ bool wt_curve_usable_id(const char *id)
            strcmp(id, wt_curve_verdict_id(WT_CURVE_DOUBTFUL)) == 0;
 }
 
-/* How far means over blocks of the baseline residual depart from a line, peak to peak of a wave of
- * their scatter, beyond what white noise does. */
+/* Peak-to-peak departure of the baseline residual from a line: that of a sine with the variance of
+ * the block means in excess of white noise. */
 static double baseline_departure(const curve_fitting *f)
 {
     const curve_samples *s = &f->input.samples;
@@ -85,7 +86,7 @@ static double baseline_departure(const curve_fitting *f)
 
 /* ---- verdict --------------------------------------------------------------------------------- */
 
-/* How far the mean force falls from the first tenth of the samples to the last. */
+/* Decrease of the mean force from the first tenth of the samples to the last. */
 static double force_fall(const curve_samples *s)
 {
     size_t tenth = s->n / 10;
@@ -135,7 +136,7 @@ bool curve_leaves_the_sample(curve_fitting *f, char reason[160])
     return false;
 }
 
-/* What is against the contact point; accepted if nothing is. */
+/* Tests the contact point. Returns accepted if there is no objection. */
 static wt_curve_verdict contact_verdict(const curve_fitting *f, const wt_indent_fit *fit,
                                         char reason[160])
 {
@@ -189,14 +190,14 @@ bool curve_unknown_loss(const curve_fitting *f)
            !f->kind.memory;
 }
 
-/* Forces of a punch do not rise ever steeper. */
+/* True if the force flattens. A punch is exempt, because its force need not steepen. */
 static bool force_flattens(const curve_fitting *f)
 {
     return f->solution.lack.flat_chance < flat_chance && !(f->loss > most_flat) &&
            contact_table_tip(f->table)->shape != WT_TIP_PUNCH;
 }
 
-/* Whether the contact law holds so deep. */
+/* True if the depth exceeds the range of the contact law. */
 static bool beyond_contact_law(const curve_fitting *f, char reason[160])
 {
     const double depth = f->solution.max_indentation;
@@ -216,7 +217,7 @@ static bool beyond_contact_law(const curve_fitting *f, char reason[160])
     return reach > THIN_SAMPLE_REACH;
 }
 
-/* "misfit: E +- 6 % of 7 %" */
+/* Formats "E +- 6 % of 7 %". */
 static si_text misfit_text(const wt_indent_fit *fit)
 {
     si_text text;
@@ -226,7 +227,7 @@ static si_text misfit_text(const wt_indent_fit *fit)
     return text;
 }
 
-/* What may be behind it. */
+/* Returns possible causes of a misfit. */
 static const char *cause_of_misfit(const curve_fitting *f)
 {
     if (f->snap_on > 0.0 || f->pull_off > 0.0)
@@ -236,7 +237,7 @@ static const char *cause_of_misfit(const curve_fitting *f)
     return "another tip, a layer, loss, adhesion, piezo or detector";
 }
 
-/* A modulus with too wide an interval: what makes it wide. */
+/* Tests the interval of the modulus and states why it is wide. */
 static wt_curve_verdict interval_verdict(const curve_fitting *f, const wt_indent_fit *fit,
                                          char reason[160])
 {
@@ -265,7 +266,7 @@ static wt_curve_verdict interval_verdict(const curve_fitting *f, const wt_indent
     return WT_CURVE_IMPRECISE;
 }
 
-/* A modulus, and what is against it. */
+/* Tests the modulus and states the objections. */
 static wt_curve_verdict law_verdict(const curve_fitting *f, const wt_indent_fit *fit,
                                     char reason[160])
 {
@@ -331,7 +332,7 @@ void curve_append_note(char reason[160], const char *text)
         strcat(reason, text);
 }
 
-/* Appends what is odd about an accepted curve. */
+/* Appends remarks on an accepted curve. */
 static void add_notes(const curve_fitting *f, const wt_indent_fit *fit, char reason[160])
 {
     char text[160];
@@ -403,7 +404,7 @@ static void add_notes(const curve_fitting *f, const wt_indent_fit *fit, char rea
         curve_append_note(reason, "; the range of the fit did not settle");
 }
 
-/* Before what else is said of a usable fit: that it is of the forces below a limit alone. */
+/* Changes the verdict of a usable fit to doubtful, because it only covers forces below a limit. */
 static wt_curve_verdict judge_below(const curve_fitting *f, wt_curve_verdict verdict,
                                     char reason[160])
 {

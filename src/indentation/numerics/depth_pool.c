@@ -1,9 +1,10 @@
-/* The curves of a group together: their mean residual, what a law of the modulus against depth
- * makes of it, and numbers of such a law with their errors. Each curve has its share in the
- * parameters, and the scatter of the shares between spots is their error, enlarged by what is not
- * known of the weights. What all curves share does not scatter: a bend that their baselines have in
- * common goes on in contact, nobody knows how, and what it does there if it does is part of the
- * errors; so is what is not known of the memory that stands for loss.
+/* Combined curves of a group: mean residual, fit of a law of the modulus against depth, and
+ * derived numbers with errors.
+ *
+ * Each curve contributes to the parameters. The scatter of the contributions between spots is
+ * their error, enlarged by the uncertainty of the weights. Shared effects do not scatter. A slope
+ * change of all baselines may continue in contact, and the error includes that effect. It also
+ * includes the uncertainty of the relaxation that represents loss.
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
@@ -23,18 +24,21 @@
 
 enum {
     W = CURVE_WAVES,
-    LEAST_SPOTS = 3,     /* two have a scatter of one degree of freedom, 13 standard errors wide */
-    MAX_ITERATIONS = 50, /* a bound of least squares in four parameters */
+    LEAST_SPOTS =
+        3, /* two spots have one degree of freedom and an interval of 13 standard errors */
+    MAX_ITERATIONS = 50, /* limit of the least squares in four parameters */
 };
-static const double shape_error = 0.01; /* of a modulus by a law that is one of several */
-static const double largest_log = 4.0;  /* of a factor: of 55 one side is as good as rigid */
+static const double shape_error =
+    0.01; /* relative error of the modulus due to the choice of the law */
+static const double largest_log =
+    4.0; /* largest log factor; at a factor of 55 one side is nearly rigid */
 
 static size_t n_parameters(depth_law law)
 {
     return law == DEPTH_LINE || law == DEPTH_TIED ? 3 : 4;
 }
 
-/* x solved by the factor of the scatter: of the size of its error each. */
+/* Solves by the Cholesky factor of the scatter, so that each number is in units of its error. */
 static void whiten(const depth_mean *m, double x[W])
 {
     gsl_matrix_const_view factor = gsl_matrix_const_view_array(m->factor, W, W);
@@ -58,7 +62,7 @@ static int residual_of(const gsl_vector *p, void *user, gsl_vector *r)
     return GSL_SUCCESS;
 }
 
-/* By differences, whose steps must not shrink with parameters that are nearly 0. */
+/* Derivatives by central differences. The step is absolute, because parameters may be nearly 0. */
 static int derivatives_of(const gsl_vector *at, void *user, gsl_matrix *jacobian)
 {
     const depth_mean *m = user;
@@ -101,7 +105,7 @@ depth_fit depth_fit_law(depth_pool *d, depth_law law, const double *start, wt_er
     if (status == GSL_SUCCESS)
         status =
             gsl_multifit_nlinear_driver(MAX_ITERATIONS, 1e-8, 1e-10, 0.0, NULL, NULL, &info, w);
-    if (status == GSL_SUCCESS || status == GSL_ENOPROG) { /* no step that helps: it is there */
+    if (status == GSL_SUCCESS || status == GSL_ENOPROG) { /* no further improvement: converged */
         double square[DEPTH_PARAMETERS * DEPTH_PARAMETERS];
         gsl_matrix_view inverse = gsl_matrix_view_array(square, n_p, n_p);
         const gsl_matrix *j = gsl_multifit_nlinear_jac(w);
@@ -133,7 +137,7 @@ static int by_spot(const void *a, const void *b)
     return (x->spot > y->spot) - (x->spot < y->spot);
 }
 
-/* Mean curve and scatter; false if the scatter has no inverse. */
+/* Computes the mean curve and its scatter. Returns false if the scatter matrix is singular. */
 static bool make_mean(depth_pool *d, const wt_contact_table *table, double poisson_ratio)
 {
     const double curves = (double)d->n;
@@ -168,12 +172,12 @@ static bool make_mean(depth_pool *d, const wt_contact_table *table, double poiss
     return m->force > 0.0 && gsl_linalg_cholesky_decomp1(&scatter.matrix) == GSL_SUCCESS;
 }
 
-/* Mean of d->value of the curves over each spot, or of each curve. */
+/* Moments of d->value over units. A unit is the mean over a spot, or a curve. */
 static moments over_units(depth_pool *d)
 {
     size_t unit = 0, in_unit = 0;
     for (size_t i = 0; i < d->n; i++) {
-        const double value = d->value[i]; /* not before d->value[unit] */
+        const double value = d->value[i]; /* at or after d->value[unit] */
         if (i > 0 && (!d->by_spot || d->curve[i].spot != d->curve[i - 1].spot)) {
             d->value[unit++] /= (double)in_unit;
             in_unit = 0;
@@ -185,7 +189,7 @@ static moments over_units(depth_pool *d)
     return moments_of(d->value, unit);
 }
 
-/* The parabola of the baselines over the window, if it is more than they scatter. */
+/* Computes the mean parabola of the baselines over the window if it is significant. */
 static void find_bend(depth_pool *d)
 {
     depth_mean *m = &d->mean;
@@ -196,7 +200,8 @@ static void find_bend(depth_pool *d)
     const double error = students_t_quantile(all.n - 1.0) * sqrt(all.variance / all.n);
     const double curvature = fabs(all.mean) > error ? all.mean : 0.0;
     const double middle = 0.5 * (m->length - m->baseline), n = m->length + m->baseline;
-    for (size_t i = 0; i < DEPTH_POINTS; i++) { /* less the line it is fitted with, all along */
+    for (size_t i = 0; i < DEPTH_POINTS;
+         i++) { /* subtracts the line that the baseline fit includes */
         z[i] = depth_mean_point(m, i) - middle;
         bend[i] = curvature * (z[i] * z[i] - n * n / 12.0);
     }
@@ -228,8 +233,8 @@ depth_value depth_value_of(depth_pool *d, const depth_fit *fit, double at,
             at + depth_share_of(m, fit, by, wave) + (with_level ? log(d->curve[i].modulus) : 0.0);
     }
     const moments all = over_units(d);
-    /* The weights are of the same curves: Rao, Biometrika 54 (1967) 447. And where the law leaves
-     * more than scatter, its parameters are off by as much. */
+    /* The weights come from the same curves: Rao, Biometrika 54 (1967) 447. A significant lack of
+     * fit also increases the error of the parameters. */
     const double curves = (double)d->n, left = fmax(1.0, curves - 1.0 - rest);
     const double more = (curves - 1.0) / left * (1.0 + fit->left / (curves - 1.0));
     const double scatter = sqrt(all.variance / all.n * more * fit->excess);

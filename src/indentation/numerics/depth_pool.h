@@ -1,5 +1,5 @@
-/* Inside the fit room: the curves of a group together, a law of the modulus against depth fitted to
- * their mean residual, and numbers of that law with their errors.
+/* Combined curves of a group, the fit of a law of the modulus against depth to their mean
+ * residual, and numbers of that law with errors.
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
@@ -10,46 +10,50 @@
 #include "core/math/students_t.h"
 #include "indentation/numerics/depth_residuals.h"
 
-/* Of the error of a memory, at no depth more than at the whole one. */
+/* Largest ratio of the loss error at a shallow depth to that at the whole depth. */
 #define DEPTH_MORE_SHALLOW 1.5
 
 typedef struct depth_pool {
-    const wt_depth_curve *curve; /* [n] by spot */
-    size_t n, n_lossy, n_units;  /* n_lossy: left out */
-    bool by_spot, known;         /* known: there is a mean */
+    const wt_depth_curve *curve; /* [n] sorted by spot */
+    size_t n, n_lossy, n_units;  /* n_lossy: excluded curves */
+    bool by_spot, known;         /* true if the mean curve exists */
     depth_mean mean;
-    double *value; /* [n], then of the units */
+    double *value; /* [n] of the curves, then of the units */
 } depth_pool;
 
 typedef struct depth_fit {
     depth_law law;
     double p[DEPTH_PARAMETERS];
-    double gain[DEPTH_PARAMETERS][CURVE_WAVES]; /* of the parameters by the whitened waves */
-    double left;                                /* of the squares */
-    double excess;                              /* of them over what scatter leaves; 1 at least */
-    double chance;                              /* of more by scatter alone */
+    double gain[DEPTH_PARAMETERS]
+               [CURVE_WAVES]; /* derivatives of the parameters by the whitened cosines */
+    double left;              /* remaining sum of squares */
+    double excess;            /* remaining sum of squares over that from scatter; at least 1 */
+    double chance;            /* p value of the lack of fit */
     bool good;
 } depth_fit;
 
-/* A number of the curves: its mean, error by scatter, and what all curves share in it: signed, for
- * two groups may share it, too. */
+/* Number of the curves: mean, error by scatter, and systematic errors. The latter have a sign,
+ * because two groups may share them. */
 typedef struct depth_value {
     double mean;
     t_error scatter;
     double bend, loss;
 } depth_value;
 
-/* Curves sorted, their mean if they are enough; memory.failed where that has no room. */
+/* Sorts the curves and computes their mean if there are enough. memory.failed is true if memory is
+ * short. */
 void depth_pool_make(depth_pool *d, const wt_contact_table *table, double poisson_ratio,
                      const wt_depth_curve *curve, size_t n, arena *memory);
-/* Least squares from `start`; the member `thin` of the mean says what a tied layer is tied to. */
+/* Fits a law by least squares from `start`. The member `tie` of the mean has the constraint of a
+ * tied layer. */
 depth_fit depth_fit_law(depth_pool *d, depth_law law, const double *start,
                         wt_error *err) WT_NODISCARD;
-/* `at` for the parameters of the fit, its derivatives by them, and with_level: with ln E of each
- * curve; losses: errors of the memory in it. By Student's t over the units. */
+/* Computes a number with its error. `at` is its value at the parameters of the fit and `by` its
+ * derivatives. with_level adds ln E of each curve. `losses` is the factor of the loss error. The
+ * interval uses Student's t over the units. */
 depth_value depth_value_of(depth_pool *d, const depth_fit *fit, double at,
                            const double by[DEPTH_PARAMETERS], bool with_level, double losses);
-/* What whole waves w, over the force, add to a number with these derivatives. */
+/* Returns the change of a number with these derivatives due to cosines w, over the force. */
 double depth_share_of(const depth_mean *m, const depth_fit *fit, const double by[DEPTH_PARAMETERS],
                       const double w[CURVE_WAVES]);
 

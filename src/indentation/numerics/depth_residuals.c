@@ -1,4 +1,5 @@
-/* Forces of lever and rubber under a modulus that changes with depth, and their cosines.
+/* Forces in the equilibrium of cantilever and rubber with a modulus that depends on depth, and
+ * their cosines.
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
@@ -11,7 +12,7 @@
 
 enum {
     W = CURVE_WAVES,
-    MAX_STEPS = 60, /* halves alone are at the last digit */
+    MAX_STEPS = 60, /* bisection alone reaches the last digit */
 };
 
 depth_modulus depth_modulus_of(const depth_mean *m, depth_law law, const double *p)
@@ -40,13 +41,14 @@ double depth_log_modulus(const depth_modulus *l, double u)
     return l->level + (u - 1.0) * (l->slope + (l->law == DEPTH_BENT ? l->bend * (u - 1.0) : 0.0));
 }
 
-/* A point of which the balance of lever and rubber is looked for. */
+/* Point with its bracket in the search for the equilibrium. */
 typedef struct balance_point {
-    size_t to; /* its number */
+    size_t to; /* index of the point */
     double z, low, high;
 } balance_point;
 
-/* One step of n of them, of depths x; returns how many are not there, which come first then. */
+/* Performs one step for n points at depths x. Returns the number of points that have not converged;
+ * they come first afterwards. */
 static size_t step_points(const depth_mean *m, const depth_modulus *l, balance_point *b, double *x,
                           size_t n, double force[DEPTH_POINTS])
 {
@@ -60,7 +62,7 @@ static size_t step_points(const depth_mean *m, const depth_modulus *l, balance_p
             m->reduced * (l != NULL ? exp(depth_log_modulus(l, slope[j] / m->widest)) : 1.0);
         const double over = m->k * (at.z - next) - e * g[j];
         *(over > 0.0 ? &at.low : &at.high) = next;
-        const double step = over / (m->k + e * slope[j]); /* Newton's but for a change of E */
+        const double step = over / (m->k + e * slope[j]); /* Newton's step with constant E */
         const bool there = fabs(step) < 1e-13 * at.z;
         if (!there)
             next = next + step > at.low && next + step < at.high ? next + step
@@ -74,7 +76,8 @@ static size_t step_points(const depth_mean *m, const depth_modulus *l, balance_p
     return left;
 }
 
-/* Force of lever and rubber at positions from the contact point; l NULL: of the fit. */
+/* Computes the equilibrium force at positions from the contact point. l is NULL for the modulus of
+ * the fit. */
 static void forces_at(const depth_mean *m, const depth_modulus *l, const double z[DEPTH_POINTS],
                       double force[DEPTH_POINTS])
 {
@@ -92,8 +95,8 @@ static void forces_at(const depth_mean *m, const depth_modulus *l, const double 
         n = step_points(m, l, b, x, n, force);
 }
 
-/* Takes out of differences at the points of the window the line that they and no difference before
- * them would be fitted with. */
+/* Subtracts the line that a fit to the differences in the window, and to zeros before it, would
+ * have. */
 static void take_out_line(const depth_mean *m, const double *z, double *d)
 {
     const double from = -m->baseline, to = m->length, n = to - from,

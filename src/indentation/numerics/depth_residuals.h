@@ -1,5 +1,5 @@
-/* Inside the fit room: the mean residual of the curves of a group, as cosines, and what a modulus
- * that changes with depth makes of it.
+/* Mean residual of the curves of a group as cosines, and the effect of a modulus that depends on
+ * depth.
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
@@ -9,13 +9,15 @@
 #include "indentation/numerics/curve.h"
 
 enum {
-    DEPTH_POINTS = 48, /* of the window of a residual: eight to a half wave of its fastest cosine */
-    DEPTH_PARAMETERS = 4, /* those of a layer */
+    DEPTH_POINTS =
+        48, /* points of the window of a residual; eight per half wave of the fastest cosine */
+    DEPTH_PARAMETERS = 4, /* parameters of a layer */
 };
 
-/* Contact point [depth], then: ln of the modulus at the top, slope, bend; or ln E1, ln E1/E2, ln
- * (contact radius over thickness); or, of a layer of given thickness on a bulk of given modulus, ln
- * E1 and the slope of what the curves have beside it. */
+/* Laws. The first parameter is the shift of the contact point over the depth. DEPTH_LINE and
+ * DEPTH_BENT: ln of the modulus at the largest depth, slope, curvature. DEPTH_LAYER: ln E1, ln
+ * E1/E2, ln (contact radius over thickness). DEPTH_TIED (layer of given thickness on a bulk of
+ * given modulus): ln E1, additional slope. */
 typedef enum depth_law { DEPTH_LINE, DEPTH_BENT, DEPTH_LAYER, DEPTH_TIED } depth_law;
 enum {
     DEPTH_CONTACT,
@@ -25,46 +27,46 @@ enum {
     DEPTH_RATIO = DEPTH_SLOPE,
     DEPTH_REACH = DEPTH_BEND
 };
-/* What a layer is tied to: contact radius at the depth over its thickness, and ln of the modulus of
- * the fit over that of the bulk. */
+/* Constraint of a tied layer: contact radius at the depth over the thickness, and ln of the modulus
+ * of the fit over that of the bulk. */
 typedef struct depth_tie {
     double reach, log_ratio;
 } depth_tie;
 
-/* The mean curve: what all are taken to share. */
+/* Mean curve, with the parameters that all curves share. */
 typedef struct depth_mean {
     const wt_contact_table *table;
     double reduced, k, depth, force, length, baseline, window;
-    double widest;            /* G' at the depth: twice the contact radius */
-    double wave[CURVE_WAVES]; /* over the force */
-    double
-        bend[CURVE_WAVES]; /* those of the bend that the baselines have in common, if it goes on */
+    double widest;            /* G' at the depth, which is twice the contact radius */
+    double wave[CURVE_WAVES]; /* relative to the force */
+    double bend[CURVE_WAVES]; /* cosines of the common slope change of the baselines, if it
+                                 continues in contact */
     double loss_error;
-    double factor[CURVE_WAVES * CURVE_WAVES]; /* Cholesky's of the scatter of a mean */
+    double factor[CURVE_WAVES * CURVE_WAVES]; /* Cholesky factor of the covariance of the mean */
     depth_law law;
     depth_tie tie;
     double fitted[DEPTH_POINTS];              /* force of the fit at the points of the window */
-    double cosine[DEPTH_POINTS][CURVE_WAVES]; /* of unit waves there */
+    double cosine[DEPTH_POINTS][CURVE_WAVES]; /* unit cosines at the points */
 } depth_mean;
 
-/* ln of the modulus over that of the fit, at a contact radius. */
+/* ln of the modulus over that of the fit, as a function of the contact radius. */
 typedef struct depth_modulus {
     depth_law law;
-    double level, slope, bend; /* of line and parabola; slope: of a tied layer, too */
+    double level, slope, bend; /* of line and parabola; slope also of a tied layer */
     double ratio, reach;       /* of a layer */
 } depth_modulus;
 
 depth_modulus depth_modulus_of(const depth_mean *m, depth_law law, const double *p);
 double depth_log_modulus(const depth_modulus *l, double u);
 
-/* What all fits of the mean curve need at the points of its window. */
+/* Tabulates values at the points of the window that all fits of the mean curve share. */
 void depth_mean_prepare(depth_mean *m);
 /* Position of a point of the window. */
 double depth_mean_point(const depth_mean *m, size_t i);
-/* Cosines over the window of a force, of the largest one. */
+/* Computes the cosines of a force over the window, relative to the largest force. */
 void depth_mean_cosines(const depth_mean *m, const double d[DEPTH_POINTS],
                         double wave[CURVE_WAVES]);
-/* Those of the force of p less that of the fit. */
+/* Computes the cosines of the force at p minus that of the fit. */
 void depth_mean_waves(const depth_mean *m, const double *p, double wave[CURVE_WAVES]);
 
 #endif

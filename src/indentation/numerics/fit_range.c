@@ -1,6 +1,6 @@
-/* The range of the fit: which of the samples in contact are compared with the law. Those deeper
- * than the range are left off; those shallower are modelled, for rubber remembers them, but not
- * compared. The contact point stays free and the baseline is in the fit.
+/* Range of the fit: the samples in contact that are compared with the law. Deeper samples are
+ * excluded. Shallower samples are modelled, because they affect viscoelastic rubber, but not
+ * compared. The contact point is free, and the fit includes the baseline.
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
@@ -10,7 +10,8 @@
 
 #include <math.h>
 
-/* A bound: what goes to and fro for six rounds may only grow from then on, which ends. */
+/* Limits of the iterations. After six rounds the range may only change in one direction, which ends
+ * a cycle. */
 enum { MAX_ROUNDS = 12, FREE_ROUNDS = 6 };
 
 static wt_status check_order(const char *from_name, double from, const char *to_name, double to,
@@ -44,7 +45,7 @@ wt_status curve_range_check(const wt_indent_options *o, const wt_tip *tip, wt_er
     return status;
 }
 
-/* ---- where the limits are ---------------------------------------------------------------------*/
+/* ---- positions of the limits ----------------------------------------------------------------- */
 
 static double force_at(const curve_fitting *f, size_t i)
 {
@@ -63,8 +64,8 @@ static size_t count_all(const curve_fitting *f)
     return f->input.n_all - f->n_snap;
 }
 
-/* The first sample in contact beyond a limit: halfway between the first above it and the last
- * below, for noise must not decide on which side. */
+/* Returns the first sample in contact beyond a limit. It is halfway between the first sample above
+ * and the last below, so that noise does not decide. */
 static size_t crossing(const curve_fitting *f, double (*value)(const curve_fitting *, size_t),
                        double limit)
 {
@@ -87,7 +88,7 @@ static double largest_force(const curve_fitting *f)
     return largest;
 }
 
-/* `to` 0: all; `from` the first in contact: from there on. */
+/* Samples from `from` to before `to` are in the range. */
 typedef struct range {
     size_t from, to;
 } range;
@@ -133,7 +134,7 @@ size_t curve_in_range(const curve_fitting *f)
     return s->n > first ? s->n - first : 0;
 }
 
-/* ---- the fit of it ----------------------------------------------------------------------------*/
+/* ---- fit of the range ------------------------------------------------------------------------ */
 
 static bool limited(const wt_indent_options *o)
 {
@@ -142,7 +143,8 @@ static bool limited(const wt_indent_options *o)
            o->fit_force_fraction_from > 0.0;
 }
 
-/* What is fitted depends on the contact point and the contact point on what is fitted. */
+/* The range depends on the contact point and the contact point on the range, so the fit iterates.
+ */
 bool curve_fit_range(curve_fitting *f)
 {
     curve_samples *s = &f->input.samples;
@@ -153,7 +155,7 @@ bool curve_fit_range(curve_fitting *f)
         const bool lower = now.from > f->solution.first_contact;
         size_t gap_from = lower ? f->solution.first_contact : 0;
         size_t gap_to = lower ? now.from : 0;
-        if (round >= FREE_ROUNDS) { /* else it may go to and fro */
+        if (round >= FREE_ROUNDS) { /* prevents a cycle */
             now.to = now.to < s->n ? now.to : s->n;
             gap_to = gap_to > s->gap_to ? gap_to : s->gap_to;
             gap_from = gap_from < s->gap_from ? gap_from : s->gap_from;
@@ -165,7 +167,7 @@ bool curve_fit_range(curve_fitting *f)
         s->gap_from = gap_from;
         s->gap_to = gap_to;
         if (curve_in_range(f) < CURVE_CONTACT_SAMPLES) {
-            f->range_empty = true; /* the verdict follows */
+            f->range_empty = true; /* the verdict reports it */
             return true;
         }
         if (same_end || f->kind.adhesive)

@@ -1,5 +1,6 @@
-/* Does the contact law describe the curves of a group together? The mean of their residuals against
- * the scatter of them, whatever the noise: Hotelling's T^2 of the first cosines over the contact.
+/* Test of the contact law by the curves of a group: Hotelling's T^2 of the mean of the first
+ * cosines of the residual over the contact. The scatter of the curves determines the test for any
+ * noise.
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
@@ -12,7 +13,7 @@
 #include <gsl/gsl_linalg.h>
 #include <math.h>
 
-/* T squared needs more curves than waves; as many again are its degrees of freedom. */
+/* T^2 requires more curves than cosines. Twice as many give as many degrees of freedom. */
 enum { W = CURVE_WAVES, LEAST_CURVES = 2 * W };
 
 wt_curve_pool wt_curve_pool_make(const double (*misfit)[WT_CURVE_WAVES], size_t n)

@@ -1,8 +1,8 @@
 /* Groups of moduli and their comparison.
  *
- * Moduli scatter by factors, so everything is made of ln E: ratio, interval, p and effect size
- * (Hedges, J. Educ. Stat. 6 (1981) 107). Curves on one spot share the place and are not
- * independent: where spots are known, the spot is the unit and its mean the observation.
+ * Moduli scatter by factors, so all statistics use ln E: ratio, interval, p value and effect size
+ * (Hedges, J. Educ. Stat. 6 (1981) 107). Curves on one spot share the position and are not
+ * independent. If spots are known, the spot is the unit and its mean the observation.
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
@@ -21,7 +21,7 @@ typedef struct curve {
     double modulus;
 } curve;
 
-/* The observations: curves, or means over spots. */
+/* Observations: curves, or means over spots. */
 typedef struct units {
     double *log_modulus; /* [n] */
     size_t n;
@@ -51,7 +51,8 @@ static wt_status check_group(const wt_group *group, wt_error *err)
     return WT_OK;
 }
 
-/* In an order that does not depend on that of the curves, so that sums have the same bits. */
+/* Creates the units in an order that does not depend on that of the curves, so that sums are
+ * reproducible. */
 static wt_status make_units(const wt_group *group, bool use_spots, arena *memory, units *u,
                             wt_error *err)
 {
@@ -94,16 +95,16 @@ static int by_cell(const void *a, const void *b)
     return (x->log_modulus > y->log_modulus) - (x->log_modulus < y->log_modulus);
 }
 
-/* Variance of the mean of a group by its curves alone, which scatter about the mean of their spot
- * and rate; 0 where no two of them share both. */
+/* Variance of the mean of a group due to the scatter of its curves within spots and rates. It is 0
+ * if no two curves share both. */
 static double curve_variance(const wt_group *group, arena *memory)
 {
     if (group->spot == NULL)
-        return 0; /* each is a spot */
+        return 0; /* each curve is a spot */
     cell *cells = arena_alloc(memory, group->n, sizeof *cells);
     double sum = 0, freedom = 0;
     if (cells == NULL)
-        return (double)NAN; /* memory->failed says why */
+        return (double)NAN; /* memory->failed reports the failure */
     for (size_t i = 0; i < group->n; i++)
         cells[i] = (cell){group->spot[i], group->rate_class != NULL ? group->rate_class[i] : 0,
                           log(group->modulus[i])};
@@ -173,7 +174,7 @@ wt_status wt_group_summarise(const wt_group *group, wt_group_summary *summary, w
 
 /* ---- two groups ------------------------------------------------------------------------------ */
 
-/* Bulk and track; the units are spots if both name them. */
+/* Summarises bulk and track. The units are spots if both groups have them. */
 static wt_status summarise_both(const wt_group *const groups[2], arena *memory, wt_comparison *c,
                                 wt_error *err)
 {
@@ -189,7 +190,7 @@ static wt_status summarise_both(const wt_group *const groups[2], arena *memory, 
     return status;
 }
 
-/* Whether the spots do not tell how much they scatter. */
+/* True if the spots do not determine their scatter. */
 static bool few_spots(const compare_units *u)
 {
     const size_t fewer = u->n[0] < u->n[1] ? u->n[0] : u->n[1],
@@ -197,7 +198,8 @@ static bool few_spots(const compare_units *u)
     return fewer < 2 && more < COMPARE_MANY_SPOTS;
 }
 
-/* given: how much the spots of both groups scatter. */
+/* Returns the reason why the comparison is undecided. `given` states that the scatter of the spots
+ * of both groups is given. */
 static wt_verdict_undecided_reason why_unsettled(const compare_units *u, bool given)
 {
     const bool lone = u->n[0] < 2 || u->n[1] < 2;
@@ -208,7 +210,7 @@ static wt_verdict_undecided_reason why_unsettled(const compare_units *u, bool gi
     return u->apart && u->interaction_p < 0.05 ? WT_RATES_TWIST : WT_SETTLED;
 }
 
-/* Hedges' g of the pooled scatter, and that scatter. */
+/* Sets Hedges' g with the pooled standard deviation. */
 static void put_effect(moments a, moments b, wt_comparison *c)
 {
     const double df = a.n + b.n - 2.0;
@@ -220,7 +222,8 @@ static void put_effect(moments a, moments b, wt_comparison *c)
                          : (double)NAN;
 }
 
-/* given: variance of the difference of spots that do not tell it. */
+/* Sets the interval of the ratio. `given` is the variance of the difference if the spots do not
+ * determine it. */
 static void put_interval(const compare_units *u, moments a, moments b, double known, double given,
                          wt_comparison *c)
 {
@@ -268,7 +271,7 @@ static wt_status compare_values(const compare_units *u, const wt_estimate *offse
         for (int g = 0; g < 2; g++) {
             const double spot = groups[g]->spot_scatter, all = (double)groups[g]->n;
             given += spot * spot / (double)u->n[g];
-            if (c->by_spot) /* of the curves that are compared */
+            if (c->by_spot) /* scatter of the curves in the comparison */
                 given += curve_variance(groups[g], memory) * all / (double)u->curves[g];
         }
     if (memory->failed)

@@ -1,4 +1,4 @@
-/* Two groups of moduli: the values of their units, and the tests of these. Internal to indentation.
+/* Comparison of two groups of moduli: values of their units and tests. Internal to indentation.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #ifndef WT_INDENTATION_NUMERICS_GROUP_STATISTICS_H
 #define WT_INDENTATION_NUMERICS_GROUP_STATISTICS_H
@@ -8,24 +8,25 @@
 #include "weartrack/fit.h"
 
 typedef struct compare_units {
-    double *value[2]; /* [n] ln E of the units of bulk and track, at one rate */
+    double *value[2]; /* [n] ln E of the units of bulk and track at one rate */
     size_t n[2], curves[2];
     wt_rate_matching rates_by;
-    bool apart;                          /* no rate in common */
-    bool known;                          /* the values are at one rate */
-    double shift_variance;               /* of the difference, by the slope within the spots */
-    double slope, slope_error, slope_df; /* that slope; NaN if not known */
-    double between_error, between_df;    /* of the difference, with WT_RATES_BETWEEN */
-    double interaction_p;                /* of one slope in both groups; NaN if not known */
+    bool apart;            /* the groups have no rate in common */
+    bool known;            /* the values are at one rate */
+    double shift_variance; /* variance of the difference due to the slope within the spots */
+    double slope, slope_error,
+        slope_df; /* slope of ln E against ln rate within the spots; NaN if not known */
+    double between_error, between_df; /* error of the difference, for WT_RATES_BETWEEN */
+    double interaction_p;             /* p value of equal slopes in both groups; NaN if not known */
 } compare_units;
 
 wt_status compare_units_make(const wt_group *const groups[2], bool by_spot, arena *memory,
                              compare_units *units, wt_error *err) WT_NODISCARD;
 
-/* One spot against so many or more: from three on they tell how much spots scatter. */
+/* Smallest number of spots that determine their scatter, for a comparison with a single spot. */
 enum { COMPARE_MANY_SPOTS = 3 };
-/* Of the difference of two means, one of them of two units or more; `shift` adds to it, and `known`
- * as a normal variance. */
+/* Standard error of the difference of two means, one of which has two units or more. `shift` adds
+ * an error and `known` a normal variance. */
 t_error compare_welch(moments a, moments b, t_error shift, double known);
 wt_status compare_ranks(const compare_units *units, arena *memory, wt_comparison *result,
                         wt_error *err) WT_NODISCARD;

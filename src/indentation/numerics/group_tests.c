@@ -1,11 +1,11 @@
-/* Tests of two groups of units: Welch, Mann and Whitney, Holm; how many spots.
+/* Tests of two groups of units (Welch, Mann and Whitney, Holm), and the required number of spots.
  *
- * Welch's interval is too narrow where two units meet more and lie close together by chance: it
- * holds the truth in 89 to 93 %. There the pooled scatter is a floor. Free scatters (Behrens and
- * Fisher) would make it up to three times as wide.
+ * Welch's interval is too narrow if two units are compared with more and lie close together by
+ * chance; its coverage is 89 to 93 %. The pooled standard deviation is then a lower bound.
+ * Separate variances (Behrens and Fisher) would make the interval up to three times as wide.
  *
- * Welch, Biometrika 34 (1947) 28; Mann and Whitney,
- * Ann. Math. Stat. 18 (1947) 50; Holm, Scand. J. Stat. 6 (1979) 65.
+ * Welch, Biometrika 34 (1947) 28; Mann and Whitney, Ann. Math. Stat. 18 (1947) 50; Holm, Scand. J.
+ * Stat. 6 (1979) 65.
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
@@ -17,20 +17,19 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Up to this many units together the counts of the exact distribution, at most 50 over 25, 1.3e14,
- * are exact in a double. */
+/* Largest number of units for the exact distribution. Its counts, at most 50 over 25 or 1.3e14, are
+ * exact in a double. */
 enum { EXACT_UNITS = 50 };
-/* The chance, customary since Cohen (1988), to see a difference that is there. */
+/* Customary power of a test since Cohen (1988). */
 static const double power = 0.8;
 
 /* ---- the difference of two means ------------------------------------------------------------- */
 
-/* How much more a single unit may scatter than those of the other group. A heuristic: it does not
- * tell, and a track is less even than the bulk, but where spots scatter three times as much one
- * sees it. */
+/* Largest scatter of a single unit over that of the other group. This is a heuristic. A single unit
+ * has no scatter, and a track is less uniform than the bulk. A ratio of three would be visible. */
 static const double lone_scatter = 2;
 
-/* One unit against several, whose scatter is all there is. */
+/* Standard error of one unit against several, whose scatter is the only one available. */
 static t_error compare_lone(moments several, t_error shift, double known)
 {
     const t_error own = {sqrt(several.variance * (1 / several.n + lone_scatter * lone_scatter)),
@@ -39,7 +38,8 @@ static t_error compare_lone(moments several, t_error shift, double known)
     return t_error_sum(parts, COUNT_OF(parts));
 }
 
-/* Welch's, or where two units meet more and are the narrower, that of the pooled scatter. */
+/* Uses the pooled standard deviation if two units are compared with more and Welch's interval is
+ * narrower. */
 t_error compare_welch(moments a, moments b, t_error shift, double known)
 {
     if (fmin(a.n, b.n) < 2)
@@ -72,7 +72,7 @@ size_t wt_spots_needed(double log_ratio, double scatter)
 
 /* ---- ranks ----------------------------------------------------------------------------------- */
 
-/* Number of ways in which m + n units without ties give each U = 0..m n: the coefficients of the
+/* Number of rankings of m + n units without ties for each U = 0..m n: the coefficients of the
  * Gaussian binomial. counts: [m n + 1]. */
 static void count_rankings(size_t m, size_t n, double *counts)
 {
@@ -80,9 +80,9 @@ static void count_rankings(size_t m, size_t n, double *counts)
     memset(counts, 0, (top + 1) * sizeof *counts);
     counts[0] = 1.0;
     for (size_t j = 1; j <= m; j++) {
-        for (size_t u = top; u >= n + j; u--) /* times 1 - x^(n+j) */
+        for (size_t u = top; u >= n + j; u--) /* multiplies by 1 - x^(n+j) */
             counts[u] -= counts[u - n - j];
-        for (size_t u = j; u <= top; u++) /* over 1 - x^j */
+        for (size_t u = j; u <= top; u++) /* divides by 1 - x^j */
             counts[u] += counts[u - j];
     }
 }
@@ -92,8 +92,8 @@ typedef struct ranked {
     bool track;
 } ranked;
 
-/* U of the track by the sum of its ranks, equal values sharing the mean of theirs; *ties is the sum
- * of t^3 - t over groups of t equal values. Exact: all are whole numbers or halves. */
+/* Computes U of the track from the sum of its ranks, with mean ranks for ties. *ties is the sum of
+ * t^3 - t over groups of t equal values. All values are integers or halves and exact. */
 static wt_status rank_units(const compare_units *units, arena *memory, double *u, double *ties,
                             wt_error *err)
 {
@@ -136,7 +136,7 @@ wt_status compare_ranks(const compare_units *units, arena *memory, wt_comparison
     result->mann_whitney_exact = ties == 0.0 && m + n <= EXACT_UNITS;
     if (!result->mann_whitney_exact) {
         double variance = pairs / 12.0 * (all + 1.0 - ties / (all * (all - 1.0)));
-        double distance = fmax(0.0, 0.5 * pairs - lower - 0.5); /* continuity */
+        double distance = fmax(0.0, 0.5 * pairs - lower - 0.5); /* continuity correction */
         result->mann_whitney_p =
             variance > 0.0 ? fmin(1.0, 2.0 * gsl_cdf_ugaussian_Q(distance / sqrt(variance))) : 1.0;
         return WT_OK;
@@ -160,7 +160,7 @@ void wt_holm(const double *p, size_t n, double *adjusted)
     size_t left = 0;
     for (size_t i = 0; i < n; i++) {
         left += isnan(p[i]) ? 0 : 1;
-        adjusted[i] = isnan(p[i]) ? (double)NAN : -1.0; /* -1: not yet done */
+        adjusted[i] = isnan(p[i]) ? (double)NAN : -1.0; /* -1: pending */
     }
     for (double highest = 0.0; left > 0; left--) {
         size_t smallest = n;

@@ -1,10 +1,11 @@
-/* The units of two groups of moduli, all at one rate.
+/* Units of two groups of moduli at one rate.
  *
- * A cell is the curves of one spot at one rate. A unit's value is the mean of its cells, each moved
- * to the middle rate x0 by the slope beta of ln E against ln rate: m = mean(y - beta (x - x0)).
- * With the same rates in both groups and none missing beta cancels; else its variance enters times
- * the square of what is left of x. beta is that within the spots where spots have several rates,
- * for their own scatter does not touch it; else that between them.
+ * A cell is the set of curves of one spot at one rate. The value of a unit is the mean of its
+ * cells, each shifted to the middle rate x0 by the slope beta of ln E against ln rate: m = mean(y
+ * - beta (x - x0)). If both groups have the same rates, beta cancels. Otherwise its variance adds
+ * in proportion to the square of the remaining difference in x. beta is the slope within the spots
+ * if they have several rates, because the scatter of the spots does not affect it; otherwise it is
+ * the slope between them.
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
@@ -14,13 +15,13 @@
 #include <math.h>
 #include <stdlib.h>
 
-/* Rates of one class differ by less than this [ln]: half a decade, as steps of the rate are one or
- * half a decade, and a soft group indents a little faster. A modulus that rises by 6 % in an e-fold
- * of rate, as rubber on its plateau, is off by 3 to 4 % between the middle and an end of it.
- * Without a slope it is left. */
+/* Largest difference of rates of one class [ln]. It is half a decade, because steps of the rate are
+ * one or half a decade and a soft group indents slightly faster. A modulus that rises by 6 % per
+ * e-fold of rate, as rubber on its plateau, changes by 3 to 4 % from the middle to a limit. Without
+ * a slope this difference remains. */
 static const double same_rate = 0.5 * M_LN10;
 
-/* The curves of one spot at one rate. */
+/* Curves of one spot at one rate. */
 typedef struct cell {
     int group; /* 0 = bulk, 1 = track */
     size_t unit;
@@ -52,7 +53,8 @@ static int by_cell(const void *a, const void *b)
     return (p->x > q->x) - (p->x < q->x);
 }
 
-/* In an order that does not depend on that of the curves, so that sums have the same bits. */
+/* Adds the cells in an order that does not depend on that of the curves, so that sums are
+ * reproducible. */
 static void add_cells(const wt_group *group, int g, bool by_spot, curve *curves, cells *to)
 {
     for (size_t i = 0; i < group->n; i++)
@@ -78,7 +80,7 @@ static void add_cells(const wt_group *group, int g, bool by_spot, curve *curves,
     }
 }
 
-/* What the cells of a class have in common: their curves and the sum of ln rate, by group. */
+/* Sums over the cells of a class, by group: curves and ln rate. */
 typedef struct rate {
     double curves[2], x[2];
 } rate;
@@ -91,9 +93,9 @@ static size_t count_rates(const cells *all)
     return (size_t)last + 1;
 }
 
-/* One x for a class: the rates of its curves scatter with their moduli, and the softer group
- * indents a little faster, which is not the slope. Where there are rates in common, those alone are
- * kept. */
+/* Assigns one rate to each class, and only keeps common rates if there are any. The rates of the
+ * curves scatter with their moduli, and the softer group indents slightly faster, which is not the
+ * slope. */
 static void level_rates(cells *all, rate *rates, bool *apart)
 {
     const size_t n_rates = count_rates(all);
@@ -120,7 +122,7 @@ static void level_rates(cells *all, rate *rates, bool *apart)
 
 /* ---- sums over the cells --------------------------------------------------------------------- */
 
-/* Of one unit: its cells are neighbours. */
+/* Sums of one unit. Its cells are adjacent. */
 typedef struct spot {
     int group;
     size_t cells, curves;
@@ -155,7 +157,7 @@ static size_t sum_spots(const cells *all, spot *spots)
     return n;
 }
 
-/* The slope within the spots, and whether that of the two groups is one. */
+/* Fits the slope within the spots and tests if it is equal in both groups. */
 static void slope_within(const spot *spots, size_t n, compare_units *u)
 {
     double xx[2] = {0}, xy[2] = {0}, yy = 0, cells_used = 0;
@@ -180,7 +182,8 @@ static void slope_within(const spot *spots, size_t n, compare_units *u)
     u->interaction_p = 2 * gsl_cdf_tdist_Q(t, df - 1);
 }
 
-/* Means of x over the units of each group, and what is left within the groups. */
+/* Computes the means of x over the units of each group, and returns the sum of squares within the
+ * groups. */
 static double mean_rates(const spot *spots, size_t n, double x[2], double *xy)
 {
     double y[2] = {0}, count[2] = {0}, xx = 0;
@@ -202,7 +205,7 @@ static double mean_rates(const spot *spots, size_t n, double x[2], double *xy)
     return xx;
 }
 
-/* Each spot has one rate: the means of the spots on group and ln rate. */
+/* Fits the means of the spots by group and ln rate, if each spot has one rate. */
 static bool slope_between(const spot *spots, size_t n, double xx, double xy, double *slope,
                           compare_units *u)
 {

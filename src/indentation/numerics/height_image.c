@@ -1,4 +1,4 @@
-/* Height images at a place: planes and what they leave, heights between the pixels, dents.
+/* Height images at a position: planes and their residuals, interpolated heights, depressions.
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
@@ -12,7 +12,8 @@
 
 /* ---- planes ---------------------------------------------------------------------------------- */
 
-/* First and last pixel of an axis within a distance of a place; none: first > last. */
+/* Finds the first and last pixel of an axis within a distance of a position. Without pixels first >
+ * last. */
 static void pixel_span(double centre, double reach, double step, size_t n, size_t *first,
                        size_t *last)
 {
@@ -20,18 +21,18 @@ static void pixel_span(double centre, double reach, double step, size_t n, size_
     *first = 1;
     *last = 0;
     if (!(high >= 0 && low <= (double)(n - 1)))
-        return; /* such numbers may not fit */
+        return; /* such numbers may overflow */
     *first = low > 0 ? (size_t)low : 0;
     *last = high < (double)(n - 1) ? (size_t)high : n - 1;
 }
 
 bool spot_solve(size_t n, double m[SPOT_UNKNOWNS][SPOT_UNKNOWNS], double v[SPOT_UNKNOWNS])
 {
-    /* What rounding may have left of the unknowns before is nothing. */
+    /* Relative tolerance for the rounding error of previous unknowns. */
     return cholesky_solve(&m[0][0], SPOT_UNKNOWNS, n, (double)(n * n) * DBL_EPSILON, v);
 }
 
-/* Calls `visit` for each pixel of a disc; u and v are in units of its radius. */
+/* Calls `visit` for each pixel of a disc. u and v are in radii. */
 typedef void disc_visit(void *user, double u, double v, double z);
 static void visit_disc(const wt_height_map *f, double x, double y, double radius, disc_visit *visit,
                        void *user)
@@ -64,7 +65,7 @@ static void add_pixel(void *user, double u, double v, double z)
     for (int i = 0; i < 3; i++) {
         for (int k = 0; k < 3; k++)
             s->m[i][k] += row[i] * row[k];
-        s->v[i] += row[i] * (z - s->plane[0]); /* less a height near to all of them */
+        s->v[i] += row[i] * (z - s->plane[0]); /* minus one height, for precision */
     }
 }
 
@@ -115,11 +116,11 @@ bool spot_covers(const wt_height_map *f, double x, double y, double radius)
     return p.n >= SPOT_LEAST_PIXELS && 10 * p.missing <= p.n + p.missing;
 }
 
-/* ---- between the pixels ---------------------------------------------------------------------- */
+/* ---- interpolation --------------------------------------------------------------------------- */
 
-enum { NODES = 6 }; /* of a polynomial of the fifth degree */
+enum { NODES = 6 }; /* nodes of a fifth-degree polynomial */
 
-/* Of the polynomial through the pixels -2 .. 3, at 0 <= t < 1. */
+/* Weights of the polynomial through the pixels -2 .. 3, at 0 <= t < 1. */
 static void polynomial_weights(double t, double w[NODES])
 {
     const double a = t + 2, b = t + 1, d = t - 1, e = t - 2, f = t - 3;
@@ -149,18 +150,18 @@ double spot_between(const wt_height_map *f, double i, double j)
     return sum;
 }
 
-/* ---- dents ----------------------------------------------------------------------------------- */
+/* ---- depressions ----------------------------------------------------------------------------- */
 
-/* The rows about a place, each less the line through its means from two to four radii on the left
- * and on the right: what is the same all along a row while it is scanned is no dent. */
+/* Rows around a position, each minus the line through its means from two to four radii on the left
+ * and on the right. An offset of a scanned row is no depression. */
 typedef struct patch {
     wt_height_map field;
-    double x, y; /* the place in it */
+    double x, y; /* position in the patch [m] */
     double *z;
 } patch;
 
-/* Mean place and height of the known pixels of a row from low to high [m]; false if there are
- * none. */
+/* Mean position and height of the known pixels of a row from low to high [m]. Returns false if
+ * there are none. */
 static bool row_mean(const wt_height_map *f, size_t j, double low, double high, double *u,
                      double *z)
 {
@@ -204,12 +205,12 @@ static wt_status cut_patch(const wt_height_map *f, double x, double y, double ra
     return WT_OK;
 }
 
-/* Mean depth within a radius. Counting pixels would make the rim of the disc a pixel wide, which
- * makes a dent of four pixels by 1 % less deep; so rings are summed, by the rule of Gauss of two
- * points in r^2. NaN if more than a tenth is not known. */
+/* Mean depth within a radius. Counted pixels would blur the rim of the disc by a pixel and reduce
+ * the depth of a depression of four pixels by 1 %. The function therefore sums rings with the
+ * two-point Gauss rule in r^2. The result is NaN if more than a tenth is unknown. */
 static double mean_depth(const patch *p, double radius)
 {
-    enum { MORE_RINGS = 8 }; /* where a disc is a pixel wide, a ring is an eighth of it */
+    enum { MORE_RINGS = 8 }; /* a ring is at most an eighth of a pixel-wide disc */
     const double across = radius / fmin(p->field.dx, p->field.dy), gauss = 0.5 / sqrt(3);
     const size_t rings = 2 * ((size_t)ceil(across) + MORE_RINGS),
                  spokes = (size_t)ceil(2 * M_PI * across) + 2 * MORE_RINGS;

@@ -1,5 +1,4 @@
-/* Inside the fit room: a place of a height image under a tip, and what changed there between two
- * images.
+/* Position of a height image under a tip, and the change there between two images.
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
 #ifndef WT_INDENTATION_NUMERICS_HEIGHT_IMAGE_H
@@ -10,59 +9,61 @@
 #include <stdbool.h>
 #include <stddef.h>
 
-/* Fewest pixels that a disc is described by: four for each constant of a plane. */
+/* Smallest number of pixels of a disc: four for each parameter of a plane. */
 enum { SPOT_LEAST_PIXELS = 12 };
 
-/* A plane by least squares over a disc, and what is left of the heights. */
+/* Least-squares plane over a disc, and the residual heights. */
 typedef struct spot_plane {
     double height, slope_x, slope_y; /* height at the centre */
-    double rms;                      /* with the three numbers of the plane taken off */
-    size_t n, missing;               /* pixels */
+    double rms;                      /* root mean square with n - 3 degrees of freedom */
+    size_t n, missing;               /* numbers of pixels */
 } spot_plane;
 
-/* NaN with fewer than SPOT_LEAST_PIXELS. */
+/* Fits a plane. The result is NaN with fewer than SPOT_LEAST_PIXELS. */
 spot_plane spot_plane_fit(const wt_height_map *field, double x, double y, double radius);
-/* Is a disc inside of the image, with enough pixels and no more than a tenth of them missing? */
+/* True if a disc lies inside the image with enough pixels, at most a tenth of them missing. */
 bool spot_covers(const wt_height_map *field, double x, double y, double radius);
-/* Height at a place in pixels by polynomials of the fifth degree through six pixels each way; NaN
- * where they are not all known. */
+/* Height at a position in pixels by fifth-degree polynomials through six pixels in each direction.
+ * The result is NaN if one of them is unknown. */
 double spot_between(const wt_height_map *field, double i, double j);
-/* Solves n symmetric equations, of which the lower triangle is read, in place: m becomes its factor
- * of Cholesky. False if they do not tell all. */
+/* Solves n symmetric equations from their lower triangle in place. m becomes its Cholesky factor.
+ * Returns false if the matrix is singular. */
 enum { SPOT_UNKNOWNS = 3 };
 bool spot_solve(size_t n, double m[SPOT_UNKNOWNS][SPOT_UNKNOWNS], double v[SPOT_UNKNOWNS]);
 
-/* ---- how two images lie beside one another: spot_align.c ------------------------------------- */
+/* ---- alignment of two images: image_alignment.c ---------------------------------------------- */
 
-/* What is at p in the first is at p + shift in the second. The shift changes evenly over the image,
- * as steady drift makes it: here at p = (x, y). */
+/* Shift between two images: position p of the first is p + shift in the second. The shift is linear
+ * in the position, as for a steady drift. The members apply at p = (at_x, at_y). */
 typedef struct spot_shift {
-    double x, y, x_error, y_error; /* at the place [m] */
-    double gradient[2][2];         /* of the shifts in x and y, along x and y */
-    double at_x, at_y;             /* the place */
-    double overlap;                /* share of the pixels of the first that are in the second */
-    size_t blocks, degrees;        /* parts of the image that tell the shift; of freedom */
-    bool found;                    /* they agree within half a pixel */
+    double x, y, x_error, y_error; /* at the position [m] */
+    double gradient[2][2];         /* gradient of the shifts in x and y, along x and y */
+    double at_x, at_y;             /* position */
+    double overlap;         /* share of the pixels of the first image that the second covers */
+    size_t blocks, degrees; /* image blocks that determine the shift; degrees of freedom */
+    bool found;             /* the blocks agree within half a pixel */
 } spot_shift;
-/* By the heights, without the disc about the place; both images have pixels of one size. Looks at
- * all shifts at which a quarter of the smaller image lies in the other. WT_E_MEMORY. */
+/* Finds the shift from the heights outside of the disc at the position. Both images must have equal
+ * pixels. The search covers all shifts with an overlap of a quarter of the smaller image. Returns
+ * WT_E_MEMORY on failure. */
 wt_status spot_align(const wt_height_map *before, const wt_height_map *after, double x, double y,
                      double radius, spot_shift *shift, wt_error *err) WT_NODISCARD;
-/* The image with pixels of another size, from the same first pixel on; z is to be freed. */
+/* Resamples an image from the same first pixel on. The caller frees to->z. */
 wt_status spot_resample(const wt_height_map *field, double dx, double dy, wt_height_map *to,
                         wt_error *err) WT_NODISCARD;
-/* after(p + shift) - before(p) at each pixel of `before`, NaN where it is not known. */
+/* Computes after(p + shift) - before(p) at each pixel of `before`; NaN if not known. */
 void spot_difference(const wt_height_map *before, const wt_height_map *after,
                      const spot_shift *shift, double *difference);
 
-/* ---- dents ----------------------------------------------------------------------------------- */
+/* ---- depressions ----------------------------------------------------------------------------- */
 
-/* How far a difference lies below the lines that join its rows from two to four radii on the left
- * with the same on the right: rows are what was scanned at one go. */
+/* Depth of a difference below lines that join its rows from two to four radii on both sides. A row
+ * is one scan line. */
 typedef struct spot_depression {
-    double depth, volume; /* mean within the radius [m], within two of them [m^3] */
+    double depth, volume; /* mean within the radius [m], within two radii [m^3] */
 } spot_depression;
-/* NaN where the difference does not cover it. WT_E_MEMORY. */
+/* Measures a depression. The result is NaN if the difference does not cover it. Returns WT_E_MEMORY
+ * on failure. */
 wt_status spot_depression_at(const wt_height_map *difference, double x, double y, double radius,
                              spot_depression *dent, wt_error *err) WT_NODISCARD;
 

@@ -1,6 +1,6 @@
-/* Lever and rubber with memory in balance at the height of each sample, one after the other: what
- * was pressed in before still pushes, less and less. Between samples the elastic force changes
- * evenly in time. The derivatives go along, for what they were before is remembered, too.
+/* Equilibrium of cantilever and viscoelastic rubber at the height of each sample in turn. Earlier
+ * loading contributes a decaying force. The elastic force changes linearly in time between
+ * samples. The recursion includes the derivatives, which depend on earlier values too.
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
@@ -9,11 +9,11 @@
 #include <math.h>
 #include <string.h>
 
-enum { MAX_NEWTON = 30 }; /* from the step before; halves are at 1e-9 */
-/* Steps of time that differ by less are one: a file gives them in so many digits. */
+enum { MAX_NEWTON = 30 }; /* from the previous step; bisection reaches 1e-9 */
+/* Relative tolerance of equal time steps, because files store few digits. */
 static const double same_step = 1e-3;
 
-/* Elastic force over modulus and its derivatives, as they go along. */
+/* States of the elastic force over modulus and of its derivatives. */
 enum { FORCE, BY_MODULUS, BY_CONTACT, N_MEMORIES };
 
 double curve_balanced_depth(const wt_contact_table *table, double k, double z, double e,

@@ -1,7 +1,7 @@
-/* A curve of rubber that loses work, and no spectrum of it is known. The work that the way out does
- * not give back says which power of time the relaxation is near to; with this memory the fit is
- * made once more. Other spectra that lose as much have, at 1/(loading time), a modulus a few per
- * cent above: the mean of them is taken, and how they scatter is in the error.
+/* Fit of a curve that loses work without a known spectrum. The lost work determines the exponent
+ * of a power-law relaxation, and the fit is repeated with it. Other spectra of equal loss have a
+ * modulus at 1/(loading time) that is a few per cent larger. The result uses their mean, and the
+ * error includes their scatter.
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
@@ -12,16 +12,17 @@
 #include <math.h>
 
 static const double least_loss = CURVE_LEAST_LOSS;
-/* With adhesion: beyond it the shape of loss stands for what the work of adhesion should. */
+/* Largest loss with adhesion; beyond it the loss replaces the effect of the work of adhesion. */
 static const double most_loss = 0.5;
 static const double least_power = 1e-3, most_power = 0.8, power_close = 1e-3;
-static const double better_chi2 = 9.0; /* 2 ln(likelihood ratio) of no memory at all */
-/* Of the modulus by a power law, per loss: what Cole-Cole and power spectra of several widths,
- * below and above their peaks, have more, and their scatter; for pyramid, sphere and cone and
- * levers of a tenth of the contact to ten times. */
+static const double better_chi2 = 9.0; /* smallest 2 ln(likelihood ratio) against a relaxation */
+/* Mean excess of the modulus of other spectra over that of a power law, per loss, and its standard
+ * deviation. The spectra are Cole-Cole and power laws of several widths, below and above their
+ * peaks. They were tested for pyramid, sphere and cone with cantilevers of 0.1 to 10 contact
+ * stiffnesses. */
 static const double more = 0.04, law_error = 0.045;
 enum {
-    STEPS = 24, /* of a way in, for its loss */
+    STEPS = 24, /* steps of the approach for its loss */
     HALF_DECADES = CURVE_POWER_TERMS,
     FASTEST = -8, /* in half decades of the loading time */
 };
@@ -40,8 +41,8 @@ void curve_power_make(curve_power *to, double power, double load_time)
                    .relaxation_time = to->time};
 }
 
-/* Work that a power law loses in a loop as deep as that of the curve, in and out at one speed, as
- * curve_read_retract counts it. NaN if there is no memory. */
+/* Loss of a power law in a loop to the depth of the curve with equal speeds, with the definition of
+ * curve_read_retract. The result is NaN if memory is short. */
 static double loss_of(const curve_fitting *f, double power)
 {
     const curve_samples *s = &f->input.samples;
@@ -73,7 +74,7 @@ static double loss_beyond(double power, void *user)
     return loss_of(f, power) - f->loss;
 }
 
-/* The power that loses what the curve does; NaN if none does. */
+/* Finds the power with the loss of the curve; NaN if there is none. */
 static double find_power(curve_fitting *f)
 {
     double power = (double)NAN;
@@ -87,8 +88,8 @@ static void refine(curve_fitting *f, const curve_solution *from)
     curve_refine(f->table, &f->input.samples, f->kind, from->p, f->workspace, &f->solution);
 }
 
-/* The fit with the memory of a power law; false, and the fit as it was, where times or a power are
- * not known, or the way in tells that this is not its memory. */
+/* Refits the curve with a power law. Returns false and restores the fit if the times or the power
+ * are not known, or the approach contradicts the relaxation. */
 static bool remember_power(curve_fitting *f)
 {
     const curve_solution elastic = f->solution;
@@ -111,7 +112,7 @@ static bool remember_power(curve_fitting *f)
         f->loss_bias = elastic.p[CURVE_E] / s->p[CURVE_E] / (1.0 + f->loss_shift) - 1.0;
         return true;
     }
-    if (s->converged && (worse || explained)) /* of the piezo, not of the rubber */
+    if (s->converged && (worse || explained)) /* the loss is that of the piezo, not of the rubber */
         f->loss_power = f->loss_bias = 0.0;
     f->kind.memory = false;
     f->solution = elastic;

@@ -1,5 +1,5 @@
-/* How two height images lie beside one another: whole pixels from coarse to fine, then the parts of
- * the image for themselves, whose shifts change evenly over the image if the drift is steady.
+/* Alignment of two height images: a search in whole pixels from coarse to fine, then shifts of
+ * image blocks, which are linear in the position if the drift is steady.
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
@@ -8,17 +8,17 @@
 #include <math.h>
 #include <stdlib.h>
 
-/* Pixels along an image where the search over all shifts begins: time goes with their fourth power.
- * From there on pixels are halved, by which the best shift is off by one or two: so far beside it
- * is looked. */
+/* Pixels along an image at the start of the search over all shifts, whose run time grows with their
+ * fourth power. The resolution then doubles in steps. The best shift changes by one or two pixels,
+ * and the search covers three pixels to each side. */
 enum { COARSE = 64, NEAR = 3 };
-/* Parts along an axis, each with its own shift; fewest of all parts, twice the constants of a
- * drift. */
+/* Blocks along an axis, each with its own shift, and the smallest number of blocks, which is twice
+ * the number of drift parameters. */
 enum { SIDE = 4, PARTS = SIDE * SIDE, LEAST_PARTS = 6 };
-/* A bound of time. */
+/* Limit of the iterations. */
 enum { MOST_STEPS = 20 };
 
-/* A part of the first image, pixels from..to, without a disc. */
+/* Part of the first image: pixels from..to without a disc. */
 typedef struct region {
     size_t i[2], j[2];
     double x, y, radius;
@@ -32,8 +32,8 @@ static bool left_out(const wt_height_map *f, const region *r, size_t i, size_t j
 
 /* ---- whole pixels ---------------------------------------------------------------------------- */
 
-/* Adds the differences of a line, less a height near to all of them, to the equations of a plane
- * through them, and gives their squares; u is where the line begins. */
+/* Adds the differences of a line, minus one height for precision, to the equations of a plane.
+ * Returns their sum of squares. u is the start of the line. */
 static double add_line(const double *was, const double *is, size_t pixels, const double u[2],
                        double *height, double m[SPOT_UNKNOWNS][SPOT_UNKNOWNS], double *v)
 {
@@ -65,9 +65,9 @@ static double add_line(const double *was, const double *is, size_t pixels, const
     return squares;
 }
 
-/* Variance of the difference with the second image moved by whole pixels, less its plane: a tilt
- * between the images would make the fewest pixels that meet fit best. Infinite where fewer than
- * `least` do. */
+/* Variance of the difference to the second image, shifted by whole pixels, minus its plane. Without
+ * the plane, a tilt between the images would favour the smallest overlap. The result is infinite
+ * with fewer than `least` pixels. */
 static double height_variance(const wt_height_map *before, const wt_height_map *after,
                               const region *r, const long s[2], size_t least)
 {
@@ -99,7 +99,7 @@ static double height_variance(const wt_height_map *before, const wt_height_map *
     return squares / n;
 }
 
-/* The best shift within from..to of both axes. */
+/* Finds the best shift within from..to of both axes. */
 static bool best_shift(const wt_height_map *before, const wt_height_map *after, const region *r,
                        const long from[2], const long to[2], size_t least, long shift[2])
 {
@@ -117,7 +117,7 @@ static bool best_shift(const wt_height_map *before, const wt_height_map *after, 
     return isfinite(best);
 }
 
-/* Means of f x f pixels. */
+/* Computes means of f x f pixels. */
 static wt_status coarsen_image(const wt_height_map *of, size_t f, wt_height_map *to, wt_error *err)
 {
     *to = (wt_height_map){NULL, of->nx / f, of->ny / f, of->dx * (double)f, of->dy * (double)f};
@@ -136,7 +136,8 @@ static wt_status coarsen_image(const wt_height_map *of, size_t f, wt_height_map 
     return WT_OK;
 }
 
-/* With pixels of f x f: all shifts, or those about the one of the next coarser pixels. */
+/* Searches with pixels of f x f: all shifts, or those near the result of the next coarser pixels.
+ */
 static wt_status search_level(const wt_height_map *before, const wt_height_map *after, region all,
                               size_t f, bool first, long shift[2], bool *found, wt_error *err)
 {
@@ -174,17 +175,17 @@ static wt_status find_whole(const wt_height_map *before, const wt_height_map *af
     return status;
 }
 
-/* ---- parts of a pixel ------------------------------------------------------------------------ */
+/* ---- subpixel shifts ------------------------------------------------------------------------- */
 
-/* Of a part of the image: its middle [m], its shift [pixels], how much it tells of each axis. */
+/* Image block: centre [m], shift [pixels], and weight for each axis. */
 typedef struct part {
     double x, y, shift[2], weight[2];
 } part;
 
-/* Slope of the difference along the rows, shift in x and y, and the difference itself. */
+/* Slope of the difference along the rows, shifts in x and y, and the difference itself. */
 enum { SLOPE, SHIFT_X, SHIFT_Y, UNKNOWNS, DIFFERENCE = UNKNOWNS, TERMS };
 
-/* Adds a row whose height is free: how high a row lies is what scanning leaves uncertain. */
+/* Adds a row with a free offset, because scanning does not determine the offset of a row. */
 static void add_row(const double sum[TERMS], double products[TERMS][TERMS], size_t n,
                     double m[SPOT_UNKNOWNS][SPOT_UNKNOWNS], double *v)
 {
@@ -195,8 +196,8 @@ static void add_row(const double sum[TERMS], double products[TERMS][TERMS], size
     }
 }
 
-/* What one step of Gauss and Newton needs. The slopes are those of the first image at its pixels,
- * whose noise has nothing to do with that of the heights compared. */
+/* Sums the equations of a Gauss-Newton step. The slopes are those of the first image at its pixels,
+ * whose noise is independent of that of the interpolated heights. */
 static void sum_part(const wt_height_map *before, const wt_height_map *after, const region *r,
                      const double shift[2], double m[SPOT_UNKNOWNS][SPOT_UNKNOWNS], double *v)
 {
@@ -225,7 +226,7 @@ static void sum_part(const wt_height_map *before, const wt_height_map *after, co
     }
 }
 
-/* Shift of a part that begins with whole pixels; false if it tells none. */
+/* Refines the shift of a block from whole pixels. Returns false if it is not determined. */
 static bool refine_shift(const wt_height_map *before, const wt_height_map *after, const region *r,
                          part *p)
 {
@@ -239,17 +240,17 @@ static bool refine_shift(const wt_height_map *before, const wt_height_map *after
         p->shift[1] += v[SHIFT_Y];
         if (!(hypot(p->shift[0] - start[0], p->shift[1] - start[1]) < 2))
             return false;
-        /* The inverse of the last two unknowns, from the factor. */
+        /* Inverse of the last two unknowns from the Cholesky factor. */
         const double a = m[SHIFT_X][SHIFT_X], b = m[SHIFT_Y][SHIFT_X], c = m[SHIFT_Y][SHIFT_Y];
         p->weight[0] = a * a * c * c / (b * b + c * c);
         p->weight[1] = c * c;
-        if (hypot(v[SHIFT_X], v[SHIFT_Y]) < 1e-4) /* of a pixel */
+        if (hypot(v[SHIFT_X], v[SHIFT_Y]) < 1e-4) /* tolerance in pixels */
             return true;
     }
     return false;
 }
 
-/* The image with nothing known in the disc. */
+/* Copies the image with NaN in the disc. */
 static wt_status cut_disc(const wt_height_map *f, const region *r, wt_height_map *to, wt_error *err)
 {
     double *z = malloc(f->nx * f->ny * sizeof *z);
@@ -272,7 +273,7 @@ static size_t count_outside(const wt_height_map *f, const region *r)
     return n;
 }
 
-/* The parts of what both images show; `cut` is the first without the disc. */
+/* Finds the shifts of the blocks of the overlap. `cut` is the first image without the disc. */
 static size_t find_parts(const wt_height_map *before, const wt_height_map *cut,
                          const wt_height_map *after, const region *all, const long whole[2],
                          part parts[PARTS])
@@ -307,11 +308,12 @@ static size_t find_parts(const wt_height_map *before, const wt_height_map *cut,
     return n;
 }
 
-/* ---- even drift ------------------------------------------------------------------------------ */
+/* ---- steady drift ---------------------------------------------------------------------------- */
 
-/* A plane through the shifts of the parts along one axis: at the place, along x and y. */
+/* Plane through the shifts of the blocks along one axis: value at the position, gradient along x
+ * and y. */
 typedef struct drift {
-    double at, gradient[2], error, rms; /* [pixels]; rms: what the parts are off it */
+    double at, gradient[2], error, rms; /* [pixels]; rms of the residuals of the blocks */
 } drift;
 
 static bool fit_drift(const part *parts, size_t n, int axis, const region *all, double length,
@@ -347,7 +349,7 @@ static bool fit_drift(const part *parts, size_t n, int axis, const region *all, 
     return weight > 0;
 }
 
-/* Leaves out up to a quarter of the parts, the one that is off most after the other, until the
+/* Fits the drift. Excludes up to a quarter of the blocks, the largest residual first, until the
  * rest agrees. */
 static bool fit_parts(part *parts, size_t *n, const region *all, double length, drift found[2])
 {

@@ -1,13 +1,13 @@
-/* Is there a sine on the baseline? Interference of light has periods from about half a wavelength
- * (in water) to the length of the baseline.
+/* Detection of a sine in the baseline. Optical interference has periods from about half a
+ * wavelength (in water) to the length of the baseline.
  *
- * The baseline in blocks, less a cubic, has a spectrum, of which a peak must stand out of what lies
- * within an octave on either side: few curves go further. Of those the sine of the largest gain is
- * taken out, the colour of the rest is that of noise (curve_noise.c), and the gain is compared with
- * it at its frequency; the chance is that of the largest among as many as the baseline tells apart.
- * Since a cubic is in the rest, too, a bent baseline is none. A sine must be there in either half
- * of the baseline, or, if it has few cycles, leave it straight: what comes near contact only is
- * something else.
+ * The block means of the baseline minus a cubic have a spectrum. A peak must exceed the values
+ * within an octave on either side, which few curves pass. A sine of the largest gain is then
+ * subtracted, and the noise of the rest (curve_noise.c) is the reference for the gain at that
+ * frequency. The significance level is that of the largest among all resolved periods. The rest
+ * includes a cubic, so a bent baseline has no sine. A sine must be present in both halves of the
+ * baseline, or, with few cycles, leave a straight baseline. A disturbance near contact alone has
+ * another cause.
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
@@ -20,39 +20,42 @@
 #include <string.h>
 
 enum {
-    MOST = 256, /* blocks: the shortest periods of 10 um, in four each */
-    LEAST = 64, /* for a spectrum that has an octave on either side */
+    MOST = 256, /* blocks; four per shortest period over 10 um */
+    LEAST = 64, /* minimum for a spectrum with an octave on either side */
     BLOCKS = 2 * MOST,
     TRANSFORM = 2 * BLOCKS,
-    PER_PERIOD = 4, /* blocks, least: their mean then has 90 % of a sine */
-    POWERS = 4,     /* a cubic: what drift does */
-    CLOSER = 12,    /* steps to the period, before it is fitted */
+    PER_PERIOD = 4, /* smallest number of blocks; their mean keeps 90 % of a sine */
+    POWERS = 4,     /* a cubic for drift */
+    CLOSER = 12,    /* steps to the period before the fit */
 };
-static const double shortest = 150e-9; /* [m]: half of a blue wavelength in water */
-static const double longest = 1.5e-6;  /* slower ones are drift, whose shape nobody knows */
-static const double wave_again = 2.0;  /* a fitted one so much larger is that of the contact */
-/* A peak, of the height that it would need: between two frequencies of the transform it has less,
- * and noise of another colour around it. */
+static const double shortest = 150e-9; /* [m]; half a blue wavelength in water */
+static const double longest = 1.5e-6;  /* [m]; slower oscillations are drift of unknown shape */
+static const double wave_again =
+    2.0; /* largest ratio of the fitted amplitude; a larger sine belongs to the contact */
+/* Smallest ratio of a peak to the required one. Between two frequencies of the transform a peak is
+ * lower, and coloured noise surrounds it. */
 static const double worth_a_look = 0.25;
 static const double false_alarms =
-    0.001; /* of baselines without a sine: a map of a thousand has one */
+    0.001; /* for baselines without a sine: one in a map of a thousand */
 static const double least_half =
-    0.25;                        /* of the gain, from either half: half of what a sine has there */
-static const double bent = 0.01; /* chance of the baseline if it were straight, as in the fit */
-static const double few_cycles = 3.0; /* cycles, of which a cubic leaves little to the spectrum */
-/* Blocks to a degree of freedom: the colour of the noise about a peak is found from few. */
+    0.25; /* smallest share of the gain in either half; a sine has twice as much */
+static const double bent = 0.01;      /* p value of a straight baseline, as in the fit */
+static const double few_cycles = 3.0; /* cycles below which a cubic leaves little in the spectrum */
+/* Blocks per degree of freedom; few blocks determine the colour of the noise around a peak. */
 static const double per_freedom = 10.0;
-static const double negligible_amplitude = 2e-5; /* of the force: what rounding in files makes */
-static const double before_contact = 0.2;        /* of the contact: a snap-on hides there */
+static const double negligible_amplitude = 2e-5; /* relative to the force; rounding in files */
+static const double before_contact =
+    0.2; /* share of the contact excluded before it, where a snap-in may be */
 
 typedef struct baseline {
     size_t n;                     /* blocks */
-    double length;                /* samples in one */
-    double x[BLOCKS], z[BLOCKS];  /* residual less a cubic; position */
+    double length;                /* samples per block */
+    double x[BLOCKS], z[BLOCKS];  /* residual minus a cubic; position */
     double power[POWERS][BLOCKS]; /* orthonormal */
     double travel;
-    double cycle, lowest, highest; /* wave numbers: one over the travel, and those looked at */
-    double waves, freedom;         /* told apart among them; of the noise */
+    double cycle, lowest,
+        highest; /* wave numbers: one cycle over the travel, and the range of the search */
+    double waves, freedom; /* resolved waves in the range; degrees of freedom of the noise */
 } baseline;
 
 WIDE_REGISTERS static void remove_powers(const baseline *b, double *x)
@@ -64,7 +67,7 @@ WIDE_REGISTERS static void remove_powers(const baseline *b, double *x)
     }
 }
 
-/* False if no period fits. */
+/* Averages the baseline. Returns false if it contains no period. */
 WIDE_REGISTERS static bool average(const curve_fitting *f, baseline *b)
 {
     const curve_samples *s = &f->input.samples;
@@ -114,7 +117,7 @@ WIDE_REGISTERS static bool average(const curve_fitting *f, baseline *b)
     return b->highest > b->lowest;
 }
 
-/* Wave number of the peak that stands out most; 0: none does. */
+/* Returns the wave number of the most significant peak; 0 if there is none. */
 static double find_peak(const baseline *b)
 {
     double x[TRANSFORM], sum[BLOCKS + 1];
@@ -125,12 +128,12 @@ static double find_peak(const baseline *b)
     memset(x + b->n, 0, (size - b->n) * sizeof *x);
     gsl_fft_real_radix2_transform(x, 1, size);
     const size_t half = size / 2;
-    sum[0] = sum[1] = 0.0; /* below k */
+    sum[0] = sum[1] = 0.0; /* cumulative sums below k */
     for (size_t k = 1; k < half; k++) {
         x[k] = x[k] * x[k] + x[size - k] * x[size - k];
         sum[k + 1] = sum[k] + x[k];
     }
-    /* of the transform in a cycle over the baseline */
+    /* Bins of the transform per cycle over the baseline. */
     const double cycle = (double)size / (double)b->n, unit = b->cycle / cycle;
     const size_t beside = (size_t)(1.5 * cycle) + 1;
     const double needed =
@@ -154,11 +157,11 @@ static double find_peak(const baseline *b)
             best = k;
         }
     }
-    const double number = (double)best * unit; /* a faster one that stands out more is no light */
+    const double number = (double)best * unit; /* a faster and stronger peak is no interference */
     return number < b->highest ? number : 0.0;
 }
 
-/* Least squares with a sine of this wave number; returns by how much the sum of squares falls. */
+/* Fits a sine of this wave number. Returns the decrease of the sum of squares. */
 WIDE_REGISTERS static double fit_sine(const baseline *b, double number, curve_wave *wave,
                                       double *fitted)
 {
@@ -186,26 +189,26 @@ static double gain_at(double number, void *user)
     return fit_sine(user, number, &ignored, NULL);
 }
 
-/* The wave number of the largest gain within half a cycle. */
+/* Returns the wave number of the largest gain within half a cycle. */
 static double refine_number(baseline *b, double number)
 {
     return root_maximum(gain_at, b, fmax(number - 0.5 * b->cycle, b->lowest),
                         number + 0.5 * b->cycle, CLOSER);
 }
 
-/* Chance that noise of the colour of `rest` makes a gain as large at this or another period. */
+/* p value: probability that noise with the spectrum of `rest` has such a gain at any period. */
 static double chance_of(const baseline *b, const double *rest, double number, double gain)
 {
     curve_spectrum noise = {.length = b->length};
     if (!curve_noise_spectrum(rest, b->n, &noise))
-        return 0.0; /* nothing is left */
+        return 0.0; /* the rest is zero */
     const double each =
         gain / 2.0 / curve_noise_variance(&noise, 2.0 * number / b->cycle, b->n, (size_t)b->length);
     const double one = pow(1.0 + 2.0 * each / b->freedom, -0.5 * b->freedom);
     return -expm1(b->waves * log1p(-one));
 }
 
-/* False if there is none; slow: of few cycles. */
+/* Finds a significant sine. Returns false if there is none. slow: it has few cycles. */
 static bool find_wave(const curve_fitting *f, curve_wave *wave, bool *slow)
 {
     baseline b;
@@ -213,7 +216,7 @@ static bool find_wave(const curve_fitting *f, curve_wave *wave, bool *slow)
     if (!average(f, &b))
         return false;
     double peak = find_peak(&b);
-    if (f->solution.lack.baseline_chance < bent) { /* by few cycles? */
+    if (f->solution.lack.baseline_chance < bent) { /* searches sines of few cycles */
         double most = peak > 0.0 ? fit_sine(&b, peak, wave, NULL) : 0.0;
         for (double number = b.lowest; number < few_cycles * b.cycle && number < b.highest;
              number += 0.25 * b.cycle) {

@@ -1,14 +1,14 @@
-/* A sine in the force, fitted with everything else.
+/* Model of a sine in the force that is fitted together with the other parameters.
  *
- * Interference adds to the signal of the detector a wave of the path between lever and sample. Out
- * of contact the path is that of the piezo. In contact it changes by the indentation alone, so the
- * wave goes on with a longer period, the longer the stiffer the sample: its phase is taken to be
- * that of the tip, z - P/k, as P is the force of contact. Amplitude and period are taken to be the
- * same all along; that the spot of light moves on the detector and the lever turns are left out. A
- * disturbance that does not come from this path goes on with the height: curve_refine.c tries both.
+ * Interference adds to the detector signal a sine of the optical path between cantilever and
+ * sample. Out of contact the path is that of the piezo. In contact it changes by the indentation
+ * alone, and the period is longer for a stiffer sample. The phase is taken as that of the tip, z -
+ * P/k with the contact force P. Amplitude and period are constant; the motion of the laser spot on
+ * the detector and the rotation of the cantilever are neglected. A disturbance with another origin
+ * depends on the height; least_squares.c tests both.
  *
- * Of the derivatives by the other parameters the parts that the wave imitates are taken out, so
- * that steps, errors and gains follow from them as if there were no wave (Frisch and Waugh).
+ * The derivatives by the other parameters exclude their projection on the wave. Steps, errors and
+ * gains then follow as without a wave (Frisch and Waugh).
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
@@ -75,7 +75,7 @@ bool curve_wave_imitate(curve_law *m, const double p[N], wave_step *to)
     if (gsl_linalg_cholesky_decomp1(&matrix.matrix) != GSL_SUCCESS)
         return false;
     to->gain = 0.0;
-    for (size_t a = 0; a <= N; a++) { /* the last one is the step */
+    for (size_t a = 0; a <= N; a++) { /* the last column is the step */
         double x[M];
         for (size_t j = 0; j < M; j++)
             x[j] = scale[j] * (a < N ? wj[j][a] : wr[j]);

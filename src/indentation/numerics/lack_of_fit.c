@@ -1,17 +1,16 @@
-/* Does the contact law describe the curve? Its residual against the noise of the same curve.
+/* Test of the contact law: residual of one curve compared with its noise.
  *
- * Its blocks (residual_blocks.h) less what their noise owes to those before are white if the law
- * is right. It is compared with
- * the first cosines over the contact, less what the parameters of the fit can imitate: the share of
- * each cosine is then of the size of the innovations. The baseline itself is tried against a
- * parabola and a cubic.
+ * The blocks (residual_blocks.h) minus their autoregression are white if the law is correct. The
+ * test projects them on the first cosines over the contact that the parameters of the fit do not
+ * explain. Each projection then has the size of the innovations. The baseline alone is tested
+ * against a parabola and a cubic.
  *
- * The force of a contact rises ever steeper with the height. Where it bends the other way at its
- * top the detector saturates, or the sample gives way: so parabolas through the last blocks,
- * whitened alike, are tried, too.
+ * The force of a contact steepens with the height. A flattening at its top indicates a saturated
+ * detector or a yielding sample. The file therefore tests parabolas through the last blocks in the
+ * same way.
  *
- * A curve that passes may still be of a wrong tip, or of a layer: these change the modulus far more
- * than the residual.
+ * A curve that passes may still have a wrong tip or a layer, because these change the modulus much
+ * more than the residual.
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
@@ -23,22 +22,22 @@
 
 enum {
     N = CURVE_N_PARAMETERS,
-    COSINES = 8, /* a smooth misfit is in the first; more share its power with noise */
-    TOPS = 3,    /* lengths of the top: so many eighths of the window */
+    COSINES = 8, /* a smooth misfit is in the first; more cosines add noise */
+    TOPS = 3,    /* lengths of the top, in eighths of the window */
     POWERS = 4,
     MAX_COLUMNS = BLOCKS_COLUMNS + COSINES,
     BEFORE = BLOCKS_BEFORE,
     WINDOW = BLOCKS_WINDOW,
     MAX_ORDER = BLOCKS_MAX_ORDER,
 };
-static const double least_bend = 3.0;      /* innovations: less is noise in 1 of 400 */
-static const double less_steep = 0.9;      /* at the end than at the steepest */
-static const double still_straight = 0.75; /* of the force where it is steepest */
+static const double least_bend = 3.0;      /* in innovations; noise exceeds it in 1 of 400 cases */
+static const double less_steep = 0.9;      /* largest slope at the end over the steepest slope */
+static const double still_straight = 0.75; /* share of the force at the steepest slope */
 
 typedef residual_blocks blocks;
 typedef double waves[COSINES][BLOCKS_HISTORY];
 
-/* Cosines over the window, nothing before it. */
+/* Tabulates cosines over the window, and zeros before it. */
 static void make_waves(const blocks *b, waves to)
 {
     memset(to, 0, sizeof(waves));
@@ -92,7 +91,8 @@ static double baseline_residual_chance(const blocks *b)
     return gsl_cdf_fdist_Q(taken / (double)counted / b->innovation, (double)counted, b->freedom);
 }
 
-/* How much a parabola bends through the last n of N whitened blocks, in innovations; its sign. */
+/* Curvature of a parabola through the last n of N whitened blocks, in standard deviations of the
+ * innovation, with its sign. */
 WIDE_REGISTERS static double bend_of(const blocks *b, const double *force, double (*column)[WINDOW],
                                      size_t n)
 {
@@ -110,7 +110,8 @@ WIDE_REGISTERS static double bend_of(const blocks *b, const double *force, doubl
     return bend / sqrt(b->innovation);
 }
 
-/* Against the height, for samples may be left out and a piezo may slow down. */
+/* Tests the flattening against the height, because samples may be missing and a piezo may slow
+ * down. */
 WIDE_REGISTERS static void find_flat_top(const curve_law *m, const double p[N], const blocks *b,
                                          curve_lack *lack)
 {
@@ -135,7 +136,7 @@ WIDE_REGISTERS static void find_flat_top(const curve_law *m, const double p[N], 
     double slope = 0.0;
     for (size_t i = MAX_ORDER; i + 3 < all; i++) {
         const double moved = power[1][i + 3] - power[1][i];
-        if (!(moved > 0.0)) /* a height that is held or steps back shows no slope */
+        if (!(moved > 0.0)) /* a constant or decreasing height has no slope */
             continue;
         slope = (force[i + 3] - force[i]) / moved;
         if (slope > steepest) {
@@ -143,7 +144,7 @@ WIDE_REGISTERS static void find_flat_top(const curve_law *m, const double p[N], 
             lack->flat_from = still_straight * (0.5 * (force[i + 3] + force[i]) - p[CURVE_F0]);
         }
     }
-    const bool flat = most > least_bend && slope < less_steep * steepest; /* the last one */
+    const bool flat = most > least_bend && slope < less_steep * steepest; /* slope at the end */
     lack->flat_chance = flat ? 0.5 * TOPS * gsl_cdf_fdist_Q(most * most, 1.0, b->freedom) : 1.0;
 }
 

@@ -1,6 +1,6 @@
-/* Do the curves and another source (the theory, a section under the microscope) mean one thickness?
- * The curves have a deviate for each thickness, the other source one of ln of it by its interval; a
- * thickness is as far off as the root of the sum of both squares says.
+/* Comparison of the layer thickness from the curves with another source (theory, or a section
+ * under the microscope). The curves have a deviate for each thickness, the other source one of its
+ * logarithm by its interval. The sum of both squares measures the deviation of a thickness.
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
@@ -9,14 +9,14 @@
 #include <gsl/gsl_cdf.h>
 #include <math.h>
 
-enum { POINTS = 2000, RATIOS = 241 };   /* 1 % apart */
-static const double widest_ratio = 8.0; /* in ln: of 3000 no other end is looked for */
-/* Of a "no", which is to be wrong in fewer than the customary 5 of 100 also where an interval is
- * somewhat short. */
+enum { POINTS = 2000, RATIOS = 241 };   /* steps of 1 % */
+static const double widest_ratio = 8.0; /* in ln; ratios beyond 3000 are not searched */
+/* Significance level of a "no". It is below the customary 5 % as a reserve for intervals that are
+ * too narrow. */
 static const double no_level = 0.01;
-static const double reach = 6.0; /* standard errors of the other source that are looked at */
+static const double reach = 6.0; /* range in standard errors of the other source */
 
-/* ln of the other thickness: its value, and the standard errors below and above. */
+/* Logarithm of the other thickness: value, and standard errors below and above. */
 typedef struct other_source {
     double at, below, above;
 } other_source;
@@ -27,8 +27,8 @@ static double square_off(const other_source *o, double x)
     return isinf(error) ? 0.0 : off * off / (error * error);
 }
 
-/* Of the curves, on a line between steps; of thicker layers as of the first. Where the law of a
- * layer ends before one is too thin, the curves say nothing of thinner ones. */
+/* Squared deviate of the curves with linear interpolation. Thicker layers have that of the first
+ * step. The curves do not constrain layers below the range of the law if `below` is true. */
 static double square_of_curves(const wt_layer_profile *p, double x)
 {
     size_t i = 1;
@@ -44,7 +44,7 @@ static double square_of_curves(const wt_layer_profile *p, double x)
     return z * z;
 }
 
-/* Least sum of squares where ln of the thickness by the curves is `shift` more than the other. */
+/* Smallest sum of squares if ln of the thickness by the curves exceeds the other by `shift`. */
 static double least_square(const double x[POINTS], const double of_curves[POINTS],
                            const other_source *o, double shift)
 {
@@ -54,7 +54,7 @@ static double least_square(const double x[POINTS], const double of_curves[POINTS
     return least;
 }
 
-/* Where both allow it: the sum less its least one. */
+/* Finds the joint interval from the sum of squares minus its minimum. */
 static void find_both(const double x[POINTS], const double of_curves[POINTS], const other_source *o,
                       double limit, wt_layer_agreement *to)
 {

@@ -1,12 +1,13 @@
-/* Which thickness of a layer on the bulk do the curves of the track allow? One curve does not tell
- * the moduli of both and the thickness; but that of the bulk is measured beside the track, and with
- * it the ratio of what a homogeneous fit makes of the track. Then each thickness leaves one number
- * open, the modulus of the layer, and says how the modulus must change over the depth. A law of
- * that layer with a further slope is fitted to the mean curve (modulus_depth.c says how); the slope
- * must be that of the bulk, where there is no layer, within their errors. What passes that test at
- * 5 % is the interval, so that it has one end where the curves tell one. Where the ratio does not
- * tell a layer from the bulk, the error of the slope by that of the ratio lets every thickness
- * pass.
+/* Interval of the layer thickness that the curves of the track allow.
+ *
+ * One curve does not determine both moduli and the thickness. The modulus of the bulk is measured
+ * next to the track, so the ratio of the homogeneous fits is known. Each thickness then leaves one
+ * free parameter, the modulus of the layer, and predicts the change of the modulus with depth. The
+ * file fits a law of that layer with an additional slope to the mean curve (see modulus_depth.c).
+ * The slope must equal that of the bulk, where no layer exists, within the errors. The interval
+ * contains all thicknesses that pass this test at 5 %, so it may be bounded on one side. If the
+ * ratio does not distinguish layer and bulk, the error of the slope due to the ratio lets every
+ * thickness pass.
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
@@ -19,20 +20,20 @@
 #include <math.h>
 #include <string.h>
 
-/* Thickness over contact radius: where a layer is as good as without end (1e-3 of the change is
- * left), and next to where the law ends. */
+/* Range of thickness over contact radius. The upper limit is nearly an infinite layer (1e-3 of the
+ * change remains), the lower one is near the end of the range of the law. */
 static const double thickest = 1000.0, thinnest = 1.0 / 5.9;
 enum { HALVES = 60 }; /* more than the binary digits of a double */
-/* Of the change over the depth that a layer makes, by the law: that is within 2 % of the modulus
- * where both differ by a factor of 3, so 2 % of the change, and the contact point, which is fitted
- * with the slope, makes up to three times of it. */
+/* Relative error of the predicted change over depth. The law is accurate to 2 % of the modulus for
+ * a ratio of 3, which is 2 % of the change. The contact point, fitted together with the slope,
+ * increases it up to threefold. */
 static const double law_share = 0.06;
 
-/* ln(E1/E2) with which a layer has ln(E_app/E2) = log_ratio at x = contact radius over thickness;
- * NaN where the law does not reach. */
+/* Finds ln(E1/E2) of a layer with ln(E_app/E2) = log_ratio at x = contact radius over thickness.
+ * The result is NaN outside the range of the law. */
 static double layer_log_ratio(double log_ratio, double x)
 {
-    double low = -2.0, high = 2.0; /* farther than the law reaches */
+    double low = -2.0, high = 2.0; /* beyond the range of the law */
     for (int i = 0; i < HALVES; i++) {
         const double middle = 0.5 * (low + high);
         const double apparent = middle + log(thin_layer_apparent(exp(middle), x));
@@ -50,18 +51,18 @@ double wt_layer_modulus(const wt_layer_profile *profile, double ratio, double th
                                                           : (double)NAN;
 }
 
-/* Of ln of the modulus over the depth: what is not the same in two rubbers under one tip (memory,
- * a little adhesion) and no law of elastic contact has; as much as is allowed to one law of several
- * elsewhere (depth_pool.c). */
+/* Change of ln of the modulus over depth that two rubbers under one tip may differ by without a
+ * layer (relaxation, weak adhesion). It equals the error due to the choice of a law elsewhere
+ * (depth_pool.c). */
 static const double unlike = 0.01;
 
-/* A thickness with what its law leaves; the first is without end. */
+/* Thickness with the fit of its law; the first is infinite. */
 typedef struct layer_step {
     depth_tie tie;
     depth_fit fit;
 } layer_step;
 
-/* Bulk and track with the slope of the bulk. */
+/* Curves of bulk and track, and the slope of the bulk. */
 typedef struct layer_test {
     depth_pool arena[2];
     depth_value bulk;
@@ -70,9 +71,10 @@ typedef struct layer_test {
     layer_step step[WT_LAYER_STEPS];
 } layer_test;
 
-static const double by_slope[DEPTH_PARAMETERS] = {[DEPTH_SLOPE] = 1.0}; /* the slope by itself */
+static const double by_slope[DEPTH_PARAMETERS] = {[DEPTH_SLOPE] =
+                                                      1.0}; /* derivatives of the slope itself */
 
-/* What the slope of the track changes by with ln of the ratio. */
+/* Derivative of the slope of the track by ln of the ratio. */
 static double gain_of_ratio(depth_mean *m, const depth_fit *fit)
 {
     const double at = m->tie.log_ratio, step = 1e-4;
@@ -89,9 +91,8 @@ static double gain_of_ratio(depth_mean *m, const depth_fit *fit)
     return -depth_share_of(m, fit, by_slope, more);
 }
 
-/* How far the slope beside the layer is from that of the bulk, as a standard normal deviate;
- * excess: what the thickness that leaves least leaves over scatter, for what a wrong one leaves is
- * no error. */
+/* Difference of the additional slope to that of the bulk as a standard normal deviate. `excess` is
+ * the smallest lack of fit over all thicknesses, because that of a wrong thickness is no error. */
 static double deviate_of(layer_test *t, const layer_step *step, double excess)
 {
     depth_pool *track = &t->arena[1];
@@ -108,12 +109,12 @@ static double deviate_of(layer_test *t, const layer_step *step, double excess)
                           of_law * of_law + unlike * unlike;
     const t_error error = t_error_with(t_error_sum(parts, COUNT_OF(parts)), shared);
     const double ratio = (v.mean - t->bulk.mean) / error.error;
-    const double most = 30.0; /* of a normal law nothing is left there */
+    const double most = 30.0; /* limit beyond the precision of the normal distribution */
     const double beyond = gsl_cdf_tdist_Q(fabs(ratio), error.df);
     return copysign(beyond > 0.0 ? fmin(gsl_cdf_ugaussian_Qinv(beyond), most) : most, ratio);
 }
 
-/* Whether the law reaches that thickness and is fitted there. */
+/* Fits the law at a thickness. Returns false outside its range or without convergence. */
 static bool take_step(layer_test *t, double log_thickness, layer_step *to, wt_error *err)
 {
     depth_mean *m = &t->arena[1].mean;
@@ -130,11 +131,11 @@ static bool take_step(layer_test *t, double log_thickness, layer_step *to, wt_er
 
 /* ---- the interval ---------------------------------------------------------------------------- */
 
-/* Widens the interval by what is allowed between two steps, of which the deviate is taken to be a
- * line. */
+/* Extends the interval by the allowed part between two steps, with linear interpolation of the
+ * deviate. */
 static void add_allowed(const double x[2], const double z[2], double limit, double range[2])
 {
-    double ends[2] = {0.0, 1.0}; /* of the way from the first to the second */
+    double ends[2] = {0.0, 1.0}; /* shares of the way from the first to the second step */
     const double slope = z[1] - z[0];
     if (fabs(z[0]) > limit && fabs(z[1]) > limit && (z[0] > 0) == (z[1] > 0))
         return;
@@ -149,7 +150,7 @@ static void add_allowed(const double x[2], const double z[2], double limit, doub
     }
 }
 
-/* Where the deviate goes through 0, or is the nearest to it. */
+/* Returns where the deviate is 0, or the step nearest to it. */
 static double root_of(const wt_layer_profile *p)
 {
     size_t nearest = 0;
@@ -163,8 +164,9 @@ static double root_of(const wt_layer_profile *p)
     return p->log_thickness[nearest];
 }
 
-/* Thinner layers change more over the depth, a soft one upwards; so a layer at the thin end that is
- * not allowed excludes all below if it changes too much, else none. */
+/* Sets the interval. Thinner layers predict a larger change over depth, upwards for a soft layer.
+ * If the thinnest layer is not allowed, it excludes all thinner ones only if its change is too
+ * large. */
 static void judge(wt_layer_profile *p, double log_ratio)
 {
     const double limit = gsl_cdf_ugaussian_Pinv(0.975);
@@ -207,7 +209,7 @@ static wt_status make_profile(layer_test *t, wt_layer_profile *p, wt_error *err)
         t->bulk = depth_value_of(&t->arena[0], &bulk, bulk.p[DEPTH_SLOPE], by_slope, false,
                                  DEPTH_MORE_SHALLOW);
         p->log_thickness[0] = top;
-        t->step[0].fit = line; /* as good as without end */
+        t->step[0].fit = line; /* nearly infinite */
         p->n_steps = 1;
     }
     if (p->n_steps == 1 && isnan(layer_log_ratio(t->log_ratio.value, 0.0)))

@@ -1,7 +1,9 @@
-/* Least squares of one force curve in modulus, contact point, baseline offset and tilt at once
+/* Least squares of one force curve in modulus, contact point, baseline offset and tilt
  * (Levenberg-Marquardt), and the errors of the result:
+ *
  *     covariance = (J'J)^-1 [ covariance of J'e ] (J'J)^-1
- * with the noise e as correlated as that of the baseline (curve_noise.c).
+ *
+ * with the correlations of the noise e of the baseline (curve_noise.c).
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
@@ -12,13 +14,15 @@
 #include <math.h>
 #include <string.h>
 
-/* Bounds: with the kinks of adhesion steps need not end, and each costs more. */
+/* Limits of the iterations. Adhesive fits may not converge because of kinks, and each iteration
+ * costs more. */
 enum { N = CURVE_N_PARAMETERS, MAX_ITERATIONS = 60, MAX_ADHESIVE = 25 };
 
-/* Of a straight baseline that looks as bent: to say so, and to allow for it in the errors. */
+/* p values of a straight baseline below which it is reported as bent, and below which the errors
+ * include it. */
 static const double bent_chance = 0.01, perhaps_bent = 0.05;
 
-/* Solves (J'J + damping diag) x = y for several y, columns scaled to 1. */
+/* Solves (J'J + damping diag) x = y for several y with columns scaled to 1. */
 static bool solve(const normal_equations *e, double damping, double (*y)[N], size_t n_y)
 {
     double scaled[N * N], scale[N];
@@ -53,17 +57,17 @@ static double dot(const double a[N], const double b[N])
     return sum;
 }
 
-/* A decrease of the cost that is none: by a step of so many standard errors, or of the rounding of
- * the forces. */
+/* Smallest step, in standard errors, that decreases the cost significantly. */
 static const double least_step = 1e-5;
 
-/* Of what a step may leave that is none: a thousandth of a standard error. */
+/* Factor on the smallest decrease for approximate convergence: a thousandth of a standard error. */
 static const double nearly = 1e4;
-static const double stuck = 1e8;    /* a tenth */
-static const double at_kink = 1e10; /* one: what a sample at a kink keeps from being gained */
+static const double stuck = 1e8; /* a tenth of a standard error */
+static const double at_kink =
+    1e10; /* one standard error; limit of the gain that a sample at a kink prevents */
 static const double least_damping = 1e-3;
-/* How many times the decrease of the cost that a step promises a whole fit may bring: near its end
- * it is one, and a jump of one sample more or less keeps it near. */
+/* Largest ratio of the decrease of the cost in a whole fit to the predicted decrease of a step.
+ * Near convergence it is one, also with a jump shifted by one sample. */
 static const double most_promises = 10.0;
 
 static double by_step(const curve_samples *s, double cost)
@@ -82,7 +86,7 @@ static double cost_at(curve_law *m, const double p[N], const curve_wave *wave)
     return m->wave ? curve_wave_cost(m, p, wave) : cost;
 }
 
-/* Of the wave, along with a step of the others. */
+/* Parameters of the wave after a step of the other parameters. */
 static curve_wave wave_after(const curve_law *m, const curve_wave *wave, const wave_step *alone,
                              const double step[N], double damping)
 {
@@ -92,11 +96,11 @@ static curve_wave wave_after(const curve_law *m, const curve_wave *wave, const w
     return to;
 }
 
-/* Leaves the model evaluated at p and the wave. */
+/* Minimises the cost. The model is evaluated at p and the wave afterwards. */
 static bool minimise(curve_law *m, double p[N], curve_wave *wave, double *cost)
 {
     const curve_samples *s = m->samples;
-    double expected = (double)INFINITY, kept = 0.0; /* damping to begin a step with */
+    double expected = (double)INFINITY, kept = 0.0; /* damping at the start of a step */
     const double rounding = by_rounding(s), close = m->rough ? nearly : 1.0;
     wave_step alone = {.gain = 0.0};
     curve_model_start(m, p);
@@ -129,24 +133,25 @@ static bool minimise(curve_law *m, double p[N], curve_wave *wave, double *cost)
             if (solved && !too_far && trial[CURVE_E] > 0.0 && trial[CURVE_W] >= 0.0 &&
                 (!m->wave || trial_wave.p[WAVE_NUMBER] > 0.0)) {
                 double trial_cost = cost_at(m, trial, &trial_wave);
-                /* Near the minimum the decrease drowns in the rounding of the cost and its sums. */
+                /* Near the minimum the decrease is below the rounding error of the cost. */
                 if (trial_cost < before || (damping == 0.0 && near)) {
                     *cost = trial_cost;
                     memcpy(p, trial, sizeof trial);
                     *wave = trial_wave;
                     moved = true;
-                    if (damping <= kept) /* at once */
+                    if (damping <= kept) /* accepted at the first attempt */
                         kept = 0.1 * damping < least_damping ? 0.0 : 0.1 * damping;
                     else
                         kept = damping;
                 }
             }
-            /* At a kink, where a sample lets go, nothing more is gained however much is expected.
-             */
+            /* A kink, where a sample pulls off, prevents any further decrease, however large the
+             * predicted one. */
             if (moved && m->adhesive && damping > 0.0 &&
                 before - *cost < stuck * by_step(s, before))
                 return expected <= at_kink * by_step(s, before);
-            if (damping > 1e8) { /* nothing descends: rounding decides, unless much was expected */
+            if (damping > 1e8) { /* no descent: converged within rounding unless a larger decrease
+                                    was predicted */
                 *cost = cost_at(m, p, wave);
                 return expected <= 1e6 * rounding;
             }
@@ -173,8 +178,8 @@ WIDE_REGISTERS static void statistics(const curve_law *m, curve_solution *s)
 
     const size_t first = s->first_contact;
 
-    /* A sensitivity larger by a share u acts like a noise of u times the force f: J'f is J'r where
-     * the baseline is, which has nothing but noise. */
+    /* A sensitivity that is larger by a share u acts like a noise of u times the force f. On the
+     * baseline, which is noise alone, J'f equals J'r. */
     normal_equations e;
     curve_model_normal(m, p, &e);
     double row[N], gain[N];
@@ -203,7 +208,7 @@ WIDE_REGISTERS static void statistics(const curve_law *m, curve_solution *s)
     for (size_t a = 0; a < N; a++)
         inverse[a][a] = 1.0;
     memcpy(inverse[N], gain, sizeof gain);
-    memcpy(inverse[N + 1], e.jr, sizeof e.jr); /* the step to the minimum */
+    memcpy(inverse[N + 1], e.jr, sizeof e.jr); /* step to the minimum */
     bool solved = solve(&e, 0.0, inverse, N + 2);
     for (size_t a = 0; a < N; a++) {
         double variance = 0.0;
@@ -212,7 +217,7 @@ WIDE_REGISTERS static void statistics(const curve_law *m, curve_solution *s)
                 variance += inverse[a][b] * noise.scatter[b][c] * inverse[a][c];
         s->standard_error[a] = !m->free[a] ? 0.0 : solved ? sqrt(variance) : (double)NAN;
     }
-    /* No step that promises to lower the cost by so much moves the modulus by more. */
+    /* A step with a smaller predicted decrease changes the modulus by less. */
     const double allowed = fmax(by_step(samples, s->cost), by_rounding(samples));
     s->step_allowed = sqrt(allowed * inverse[CURVE_E][CURVE_E]) / p[CURVE_E];
     s->step_left = sqrt(dot(inverse[N + 1], e.jr) * inverse[CURVE_E][CURVE_E]) / p[CURVE_E];
@@ -248,7 +253,7 @@ void curve_law_evaluate(curve_law *m, const double p[N], const curve_wave *wave)
     curve_model_complete(m, p);
 }
 
-/* curve_refine with one of the ways of a wave, or without. */
+/* Variant of curve_refine for one kind of wave, or without a wave. */
 static void refine_one(const wt_contact_table *table, const curve_samples *samples,
                        const curve_kind *kind, const double p[N], wt_indent_workspace *workspace,
                        curve_solution *solution)
@@ -269,7 +274,7 @@ static void refine_one(const wt_contact_table *table, const curve_samples *sampl
     *solution = s;
 }
 
-/* Of one difference, at the latest evaluation. */
+/* Score test of one difference at the latest evaluation. */
 static bool score_one(const curve_law *m, const curve_solution *at, const normal_equations *e,
                       const double *difference, curve_step *to)
 {
@@ -323,12 +328,13 @@ void curve_refine(const wt_contact_table *table, const curve_samples *samples, c
         refine_one(table, samples, &kind, p, workspace, solution);
         return;
     }
-    curve_solution way[2], other; /* with the tip, with the height */
+    curve_solution way[2], other; /* wave as a function of tip position, and of height */
     for (int h = 0; h < 2; h++) {
         kind.wave.by_height = h;
         refine_one(table, samples, &kind, p, workspace, &way[h]);
     }
-    for (int h = 0; h < 2; h++) { /* from where the other came to, for there are several minima */
+    for (int h = 0; h < 2;
+         h++) { /* starts from the other solution, because there are several minima */
         curve_kind from = kind;
         from.wave = way[1 - h].wave;
         from.wave.by_height = h;
@@ -337,9 +343,9 @@ void curve_refine(const wt_contact_table *table, const curve_samples *samples, c
     }
     const double chi2 = way[0].effective_n * log(way[1].cost / way[0].cost);
     const int best = better(&way[1], &way[0]);
-    kind.wave = way[best].wave; /* once more, for the workspace shall be that of the solution */
+    kind.wave = way[best].wave; /* restores the workspace of the solution */
     refine_one(table, samples, &kind, way[best].p, workspace, solution);
-    const double share = 1.0 / (1.0 + exp(0.5 * fabs(chi2))); /* of likelihood: the other's */
+    const double share = 1.0 / (1.0 + exp(0.5 * fabs(chi2))); /* likelihood of the other kind */
     for (size_t a = 0; a < N; a++)
         solution->standard_error[a] =
             hypot(solution->standard_error[a], sqrt(share) * (way[0].p[a] - way[1].p[a]));
@@ -348,7 +354,7 @@ void curve_refine(const wt_contact_table *table, const curve_samples *samples, c
 double curve_weights(const wt_contact_table *table, const curve_samples *samples,
                      const curve_minimum *minimum, wt_indent_workspace *workspace)
 {
-    enum { MOST = 64 }; /* nodes, linear between them: weights need no digits */
+    enum { MOST = 64 }; /* nodes with linear interpolation; weights need no precision */
     const size_t n = samples->n < MOST ? samples->n : MOST;
     const double c = minimum->contact_point;
     const double last = fmax(c, curve_span_of(samples->position, samples->n).high);

@@ -1,26 +1,26 @@
-/* A misfit as an error: what a discrepancy of the contact law does to the parameters of its fit.
+/* Misfit as an error: effect of a discrepancy of the contact law on the parameters of its fit.
  *
- * data = law + discrepancy(depth) + noise (Kennedy and O'Hagan, J. R. Stat. Soc. B 63 (2001) 425):
- * the force of the contact has a smooth part of unknown shape, a Gaussian process of the depth with
- * the covariance s^2 exp(-(x - x')^2 / (2 l^2)), x in units of the largest depth, and nothing off
- * contact. It is carried by Legendre functions. Size and length have likelihoods (restricted: those
- * of the data without what the parameters can imitate; of Student's kind, for the variance of the
- * noise is estimated, too); beforehand no discrepancy at all has a chance of its own, and of sizes
- * up to the largest force each octave has the same. What the parameters would be is averaged over
- * all of these. They stay those of least squares, which other programs have, too; that they would
- * be others is in their errors, as is how they scatter: where the misfit is large its shape is not
- * known well enough to correct for it, and a linear model not good enough to say by how much.
+ * data = law + discrepancy(depth) + noise (Kennedy and O'Hagan, J. R. Stat. Soc. B 63 (2001) 425).
+ * The discrepancy is a smooth force of unknown shape in contact: a Gaussian process of the depth
+ * with the covariance s^2 exp(-(x - x')^2 / (2 l^2)), x in units of the largest depth. Legendre
+ * functions represent it. Size s and length l have restricted likelihoods, those of the data
+ * without the part that the parameters explain. The likelihoods have Student's form, because the
+ * variance of the noise is estimated. The prior gives no discrepancy its own probability, and
+ * equal probabilities to all octaves of the size up to a share of the largest force. The changes
+ * of the parameters are averaged over all cases. The parameters stay those of least squares, as in
+ * other programs. Their errors include the mean changes and their scatter: the shape of a large
+ * misfit is not known well enough for a correction, and a linear model cannot predict its size.
  *
- * A radius of the tip of which no error is stated may be another one, which is the commonest of all
- * misfits: what that changes is one more kind of discrepancy, of known shape, as likely beforehand
- * as one of unknown shape. Where nearly all of it looks like another modulus it is left out.
+ * A tip radius without a stated error may be wrong, which is the most common misfit. Its effect is
+ * one more kind of discrepancy of known shape, with the same prior probability. It is excluded if
+ * it is nearly equivalent to another modulus.
  *
- * Tips that are as likely as the stated one (tip_move of the workspace), and a pull that is seen
- * and that no law has, are further columns, of a standard deviation of 1: a misfit that they
- * explain is not one of the law.
+ * Tips within the stated errors (tip_move of the workspace), and a detected pull that no law
+ * includes, are further columns with a standard deviation of 1. A misfit that they explain is not
+ * one of the law.
  *
- * What a discrepancy shares with the derivatives leaves no residual: a bow of the piezo, a modulus
- * that changes with depth. No residual tells them.
+ * The part of a discrepancy that the derivatives explain leaves no residual: a bow of the piezo,
+ * or a modulus that depends on depth. No residual shows it.
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
@@ -39,46 +39,50 @@
 
 enum {
     N = CURVE_N_PARAMETERS,
-    LEGENDRE = MISFIT_SMOOTH, /* carry lengths from 0.175 on to 1 % of the variance */
+    LEGENDRE = MISFIT_SMOOTH, /* represent lengths from 0.175 on to 1 % of the variance */
     FUNCTIONS = MISFIT_FUNCTIONS,
     M = MISFIT_COLUMNS,
-    LENGTHS = 3,         /* the nodes of three points of a normal prior */
-    KINDS = LENGTHS + 1, /* of a discrepancy: of these lengths, and another radius of the tip */
-    SIZES = 16,          /* most */
+    LENGTHS = 3,         /* nodes of a three-point rule for a normal prior */
+    KINDS = LENGTHS + 1, /* kinds of discrepancy: these lengths, and another radius of the tip */
+    SIZES = 16,          /* largest number */
     CANDIDATES = 1 + KINDS * SIZES,
-    NODES = 64, /* of the depth, for the covariance of the Legendre functions */
+    NODES = 64, /* nodes of the depth for the covariance of the Legendre functions */
 };
-/* ln l is normal about ln 0.5 with a standard deviation of 0.7: nodes at -1, 0 and 1 of them. */
+/* ln l is normal with mean ln 0.5 and standard deviation 0.7. The nodes lie at -1, 0 and 1 standard
+ * deviations. */
 static const double length_median = 0.5, length_sd = 0.7;
-/* Of a discrepancy, of the largest force: beyond it there is no law left to speak of. One that the
- * parameters imitate has no likelihood of its own, and the prior is all that limits it. */
+/* Largest discrepancy over the largest force; beyond it the law is meaningless. Only the prior
+ * limits a discrepancy that the parameters explain. */
 static const double largest_size = 0.3;
-/* And of the rms of the residual. What is worst to see of what is known is the size of a tip: a
- * radius of a pyramid of 20 degrees that is 1 to 15 % off moves the force by 60 times the residual
- * that it leaves; a pull by 3 times. */
+/* Largest discrepancy over the rms of the residual. The worst known case is the size of a tip: a
+ * radius error of 1 to 15 % of a pyramid of 20 degrees changes the force by 60 times its residual.
+ * A pull changes it by 3 times. */
 static const double most_hidden = 60.0;
-/* Of the logarithm of a radius: makers state tips to a factor of two at worst. */
+/* Largest change of the logarithm of a radius; makers state radii within a factor of two. */
 static const double largest_radius = 0.7;
-static const double of_radius = 0.5;   /* of discrepancies, that they are one: even odds */
-static const double size_ratio = 2.5;  /* of two sizes that are tried: likelihoods are wider */
-static const double no_size = 0.01;    /* of a likelihood: the size is none */
-static const double outside = 0.05;    /* of an interval of 95 % */
-static const double no_chance = 1e-4;  /* of an interval: what is less likely is not in it */
-static const double error_step = 0.01; /* of an error: to be said with two digits */
+static const double of_radius =
+    0.5; /* prior probability of a wrong radius among the discrepancies */
+static const double size_ratio = 2.5; /* ratio of trial sizes; the likelihoods are wider */
+static const double no_size = 0.01;   /* threshold of a likelihood below which the size is zero */
+static const double outside = 0.05;   /* probability outside a 95 % interval */
+static const double no_chance = 1e-4; /* probability below which a case is not in the interval */
+static const double error_step =
+    0.01; /* relative tolerance of an error, which is reported with two digits */
 
-/* Of laws, that they hold: with even odds intervals of curves that they describe are 1.2 to 1.5
- * times as wide as needed, with nine of ten small misfits are missed; what is to be seen does not
- * feel it. */
+/* Prior probability that the law is correct. At 0.5 the intervals of correct laws are 1.2 to 1.5
+ * times too wide; at 0.9 small misfits are missed. It hardly affects visible misfits. */
 static const double holds = 0.8;
-static const double to_be_seen = 3.0; /* of a force, in noise of a block: one of 700 by chance */
+static const double to_be_seen =
+    3.0; /* in noise of a block; noise exceeds it in one of 700 cases */
 
-/* Square roots of the covariances of the coefficients, lower triangles, for s = 1. */
+/* Square roots of the covariances of the coefficients for s = 1 (lower triangles), and prior
+ * probabilities. */
 static struct {
     double root[LENGTHS][LEGENDRE][LEGENDRE], chance[LENGTHS];
 } kernels;
 static pthread_once_t kernels_once = PTHREAD_ONCE_INIT;
 
-/* Orthonormal on [0, 1]. */
+/* Computes the Legendre functions that are orthonormal on [0, 1]. */
 static void legendre(double x, double to[LEGENDRE])
 {
     const double y = 2.0 * x - 1.0;
@@ -112,7 +116,7 @@ static void make_kernels(void)
                 for (int d = 0; d <= c; d++)
                     a[c][d] += at[i][c] * along[d];
         }
-        for (int c = 0; c < LEGENDRE; c++) /* of a variance of 1: rounding */
+        for (int c = 0; c < LEGENDRE; c++) /* rounding, relative to a variance of 1 */
             a[c][c] += 1e-12;
         (void)cholesky_factor(&a[0][0], M, LEGENDRE, 0.0);
         for (int c = 0; c < LEGENDRE; c++)
@@ -125,13 +129,13 @@ static void make_kernels(void)
         kernels.chance[l] /= all;
 }
 
-/* ---- what the data say ----------------------------------------------------------------------- */
+/* ---- sums of the data ------------------------------------------------------------------------ */
 
 typedef struct columns {
     double a[N][BLOCKS_WINDOW], b[M][BLOCKS_WINDOW], y[BLOCKS_WINDOW];
 } columns;
 
-/* aa, ay: of the blocks of the baseline, all of them. */
+/* Adds the blocks of the baseline to aa and ay. */
 static void add_baseline(const curve_law *m, const double p[N], const double *e,
                          const residual_blocks *b, double aa[M][M], double ay[N])
 {
@@ -144,7 +148,7 @@ static void add_baseline(const curve_law *m, const double p[N], const double *e,
         z[i] = curve_sum(s->position + from, b->length) * share - p[CURVE_C];
         r[i] = curve_sum(e + from, b->length) * share;
     }
-    double sums[3][3] = {{0.0}}, with[3] = {0.0}; /* of 1, z */
+    double sums[3][3] = {{0.0}}, with[3] = {0.0}; /* of 1 and z */
     for (size_t i = b->order; i < n; i++) {
         double one = 1.0, line = z[i], rest = r[i];
         for (size_t k = 1; k <= b->order; k++) {
@@ -158,7 +162,7 @@ static void add_baseline(const curve_law *m, const double p[N], const double *e,
         with[0] += one * rest;
         with[1] += line * rest;
     }
-    /* the rows are (0, -t, 1, z, 0) */
+    /* The rows are (0, -t, 1, z, 0). */
     const double of_one[N] = {[CURVE_C] = -p[CURVE_T], [CURVE_F0] = 1.0},
                  of_line[N] = {[CURVE_T] = 1.0};
     size_t c = 0;
@@ -177,15 +181,15 @@ static void add_baseline(const curve_law *m, const double p[N], const double *e,
     }
 }
 
-/* A pull that is seen before contact and no law of the fit has: in contact it is there or is not,
- * as far as the residual does not tell. That of a pull-off is no measure of it: rubber lets go with
- * far more than it is touched with. */
+/* Returns a pull before contact that the law of the fit does not include. The residual decides
+ * whether it acts in contact. A pull-off is no measure of it, because it is much stronger than the
+ * snap-in on rubber. */
 static double pull_without_law(const curve_fitting *f)
 {
     return f->kind.adhesive ? 0.0 : f->snap_on;
 }
 
-/* What a move of the tip by its deviation changes of a force, as a share of it: slope and bend. */
+/* Relative change of a force due to a shift of the tip by its deviation: slope and curvature. */
 typedef struct tip_change {
     double slope, bend;
 } tip_change;
@@ -204,8 +208,8 @@ static tip_change change_of_tip(const curve_law *m, const tip_move *move, double
     return (tip_change){0.5 * x * (up - down) / now, x * x * (up - now - (now - down)) / now};
 }
 
-/* Of one block of the history or window: Legendre functions, in units of the largest force, what a
- * moved tip changes, and a pull. */
+/* Fills the columns of each block of the history and window: Legendre functions in units of the
+ * largest force, effects of a shifted tip, and a pull. */
 static void fill_columns(const curve_fitting *f, const curve_law *m, const double p[N],
                          const residual_blocks *b, double force, columns *to, misfit_sums *d)
 {
@@ -226,7 +230,7 @@ static void fill_columns(const curve_fitting *f, const curve_law *m, const doubl
             legendre(b->depth[i], at);
         for (size_t k = 0; k < LEGENDRE; k++)
             raw[k][i] = at[k] * b->touch[i] * force;
-        /* As shares of the force that is there: means over a block, which the law has, too. */
+        /* Shares of the force as block means, as the law has them. */
         const double contact = b->touch[i] > 0.0 ? p[CURVE_E] * b->column[CURVE_E][i] : 0.0;
         const tip_change radius =
             change_of_tip(m, &f->workspace->any_radius, b->depth[i] * deepest);
@@ -257,9 +261,8 @@ static double noise_of_block(const residual_blocks *b)
     return sqrt(fmax(of_baseline, b->innovation));
 }
 
-/* How far from the fitted contact point the tip may touch, whatever the law: force is to be seen
- * from the depth on at which that of the law stands out of the noise of a block, or from where the
- * measured one does. Linear in the contact point, the fit would not know. */
+/* Prior range of the contact point. Force is visible from the depth at which that of the law, or
+ * the measured one, exceeds the noise of a block. The linear model cannot determine this range. */
 static double contact_reach(const curve_law *m, const double p[N], const residual_blocks *b)
 {
     const curve_samples *s = m->samples;
@@ -281,7 +284,8 @@ static double contact_reach(const curve_law *m, const double p[N], const residua
     return fmax(by_law, fabs(visible - by_law));
 }
 
-/* From the triangular form and units of the noise; solved is lost. */
+/* Transforms back from the triangular form and units of the noise. The function destroys `solved`.
+ */
 static void back_to_parameters(double (*aa)[M], const double *scale, double (*solved)[N],
                                size_t n_columns, misfit_sums *to)
 {
@@ -334,7 +338,7 @@ static bool sum_up(const curve_fitting *f, const curve_law *m, const double p[N]
             aa[c][d] *= scale[c] * scale[d];
     if (!cholesky_factor(&aa[0][0], M, q, 0.0))
         return false;
-    /* all in units of the noise, and of A in its triangular form */
+    /* All numbers are in units of the noise, and A is in triangular form. */
     double along_y[N];
     for (size_t c = 0; c < q; c++)
         ay[c] *= scale[c];
@@ -363,10 +367,10 @@ static bool sum_up(const curve_fitting *f, const curve_law *m, const double p[N]
 
 /* ---- sizes and lengths ----------------------------------------------------------------------- */
 
-/* The sums for unit normal numbers behind a discrepancy of size 1 and one of the lengths, turned so
- * that those with each other make a tridiagonal matrix: then a size costs next to nothing. */
+/* Sums for a discrepancy of size 1 and one length, in independent unit normal coefficients. A
+ * rotation makes their matrix tridiagonal, so that each size needs little time. */
 typedef struct length_sums {
-    double with[LEGENDRE], next[LEGENDRE]; /* diagonal, and the element beside it */
+    double with[LEGENDRE], next[LEGENDRE]; /* diagonal, and off-diagonal elements */
     double residual[LEGENDRE], imitated[N][LEGENDRE];
 } length_sums;
 
@@ -379,7 +383,7 @@ static void turn(double (*q)[LEGENDRE], const double x[LEGENDRE], double to[LEGE
             to[i] += q[k][i] * x[k];
 }
 
-/* Of the sums `with` of root' mm root. */
+/* Makes the matrix `with` = root' mm root tridiagonal. */
 static void make_tridiagonal(double (*root)[LEGENDRE], double (*with)[LEGENDRE],
                              const misfit_sums *d, length_sums *to)
 {
@@ -389,11 +393,11 @@ static void make_tridiagonal(double (*root)[LEGENDRE], double (*with)[LEGENDRE],
     gsl_vector_view scales = gsl_vector_view_array(tau, LEGENDRE - 1),
                     diagonal = gsl_vector_view_array(to->with, LEGENDRE),
                     beside = gsl_vector_view_array(to->next, LEGENDRE - 1);
-    (void)gsl_linalg_symmtd_decomp(&a.matrix, &scales.vector); /* sizes are the only errors */
+    (void)gsl_linalg_symmtd_decomp(&a.matrix, &scales.vector); /* the only errors are wrong sizes */
     (void)gsl_linalg_symmtd_unpack(&a.matrix, &scales.vector, &of_q.matrix, &diagonal.vector,
                                    &beside.vector);
     to->next[LEGENDRE - 1] = 0.0;
-    for (size_t k = 0; k < LEGENDRE; k++) /* root q */
+    for (size_t k = 0; k < LEGENDRE; k++) /* root times q */
         turn(q, root[k], turned[k]);
     turn(turned, d->my, to->residual);
     for (size_t c = 0; c < d->n_free; c++)
@@ -417,7 +421,7 @@ static length_sums sums_of_length(const misfit_sums *d, int length)
     return to;
 }
 
-/* The same of another radius: one function. */
+/* Sums for another radius, which has one function. */
 static length_sums sums_of_radius(const misfit_sums *d)
 {
     length_sums to = {.with = {d->mm[MISFIT_RADIUS][MISFIT_RADIUS]},
@@ -427,7 +431,7 @@ static length_sums sums_of_radius(const misfit_sums *d)
     return to;
 }
 
-/* With a discrepancy of size s; returns what it explains of the residual. */
+/* Evaluates a discrepancy of size s. Returns the part of the squared residual that it explains. */
 static double try_size(const misfit_sums *d, const length_sums *l, double s,
                        const misfit_candidate *none, misfit_candidate *c)
 {
@@ -444,7 +448,8 @@ static double try_size(const misfit_sums *d, const length_sums *l, double s,
         }
         if (!(factor[i] > 0.0))
             return 0.0;
-        product *= factor[i]; /* each below 1e12 by the least noise of blocks */
+        product *=
+            factor[i]; /* each factor is below 1e12 because of the smallest noise of the blocks */
     }
     c->log_likelihood = -0.5 * log(product);
     for (size_t i = 0; i < LEGENDRE; i++) {
@@ -464,7 +469,7 @@ static double try_size(const misfit_sums *d, const length_sums *l, double s,
     return explained;
 }
 
-/* Of the residual with what is left unexplained, for the variance of the noise is estimated. */
+/* Log likelihood of the unexplained residual for an estimated variance of the noise. */
 static double student(double unexplained, double freedom)
 {
     return -0.5 * (freedom + LEGENDRE) * log(1.0 + fmax(unexplained, 0.0) / freedom);
@@ -472,8 +477,8 @@ static double student(double unexplained, double freedom)
 
 typedef struct mixture {
     size_t n;
-    misfit_candidate part[CANDIDATES]; /* the first one is that there is no discrepancy */
-    double tip[N];                     /* of all variances, that of the stated errors of the tip */
+    misfit_candidate part[CANDIDATES]; /* the first candidate is no discrepancy */
+    double tip[N]; /* part of the variances due to the stated errors of the tip */
 } mixture;
 
 static bool weigh_sizes(misfit_sums *d, double largest, double freedom, mixture *to)
@@ -496,7 +501,7 @@ static bool weigh_sizes(misfit_sums *d, double largest, double freedom, mixture 
             misfit_candidate *c = &to->part[to->n];
             explained[to->n] =
                 try_size(d, &of[l], s * (l < LENGTHS ? largest : largest_radius), none, c);
-            most = fmax(most, explained[to->n]); /* that of the largest size */
+            most = fmax(most, explained[to->n]); /* value of the largest size */
             matters = matters || c->log_likelihood < -no_size || explained[to->n] > no_size;
             c->chance = l == LENGTHS ? of_radius
                                      : (d->any_radius ? 1.0 - of_radius : 1.0) * kernels.chance[l];
@@ -516,10 +521,10 @@ static bool weigh_sizes(misfit_sums *d, double largest, double freedom, mixture 
     return true;
 }
 
-/* `less` of the variances is left out. Half of the interval about 0 that holds 95 % of parameter a,
- * in the 1.96 of a normal one. A shift counts as a deviation, for the direction in which a misfit
- * is corrected is surer than how far; to least_shift, for a linear model knows no modulus below 0.
- */
+/* Half of the interval about 0 that holds 95 % of parameter a, in units of 1.96. `less` is excluded
+ * from the variances. A shift counts as a deviation, because the direction of a correction is more
+ * certain than its size. It is limited to least_shift, because a linear model permits a negative
+ * modulus. */
 static double error_of(const mixture *m, size_t a, double less, double standard_error,
                        double least_shift)
 {
@@ -543,9 +548,9 @@ static double error_of(const mixture *m, size_t a, double less, double standard_
     return high;
 }
 
-/* ---- the error ------------------------------------------------------------------------------- */
+/* ---- error ----------------------------------------------------------------------------------- */
 
-/* Residuals of the noise at p, to scratch. */
+/* Evaluates the residuals of the noise at p and stores them in the scratch array. */
 static void evaluate(curve_law *m, const double p[N], const curve_wave *wave)
 {
     wt_indent_workspace *w = m->workspace;

@@ -1,4 +1,5 @@
-/* Moves of the tip within its stated errors, and a pull, beside a misfit.
+/* Effects of the tip within its stated errors, and of a pull, on the parameters of a fit with
+ * misfit.
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
@@ -13,11 +14,11 @@ enum {
     N = CURVE_N_PARAMETERS,
     LEGENDRE = MISFIT_FUNCTIONS,
     M = MISFIT_COLUMNS,
-    BEND_ROUNDS = 4, /* of Newton on a parabola in each move */
-    MOVE_STEPS = 12, /* to the farthest move, each way */
+    BEND_ROUNDS = 4, /* Newton steps on a parabola in each variation */
+    MOVE_STEPS = 12, /* steps to the largest variation in each direction */
 };
-static const double moved_chi2 = 3.84;   /* of a move that is not 0, by its 95 % */
-static const double farthest_move = 3.0; /* of a tip, in its standard errors */
+static const double moved_chi2 = 3.84;   /* chi^2 of a variation at the 95 % level */
+static const double farthest_move = 3.0; /* limit in standard errors of the tip */
 
 /* Adds `share` of column `of` to column `to` of the sums. */
 static void add_column(misfit_sums *d, size_t to, size_t of, double share)
@@ -31,8 +32,8 @@ static void add_column(misfit_sums *d, size_t to, size_t of, double share)
         d->imitated[a][to] += share * d->imitated[a][of];
 }
 
-/* The matrix of the moves, of a deviation of 1 each, in triangular form, and where they would be.
- */
+/* Computes the matrix of the variations with deviations of 1 in triangular form, and the
+ * transformed solution. */
 static bool solve_moves(const misfit_sums *d, double (*t)[M], double *x)
 {
     const size_t n = d->n_moves;
@@ -45,8 +46,8 @@ static bool solve_moves(const misfit_sums *d, double (*t)[M], double *x)
     return true;
 }
 
-/* Forces are not linear in the sizes of a tip: the moves become those about where the data put
- * them, and the residual what it is there. */
+/* Linearises the variations about their fitted values, because forces are not linear in the sizes
+ * of a tip. The residual changes accordingly. */
 static bool bend_moves(misfit_sums *d)
 {
     const misfit_sums straight = *d;
@@ -66,7 +67,7 @@ static bool bend_moves(misfit_sums *d)
             for (size_t k = c + 1; k < n; k++)
                 x[c] -= t[k][c] * x[k];
             x[c] /= t[c][c];
-            /* what three tips say of forces does not reach farther */
+            /* Forces of three tips do not determine larger variations. */
             if (c < d->n_tips)
                 at[c] = fmax(-farthest_move, fmin(farthest_move, x[c]));
         }
@@ -74,7 +75,7 @@ static bool bend_moves(misfit_sums *d)
     return true;
 }
 
-/* Minus 2 ln of the chance that tip i alone is moved by x, but for a constant. */
+/* Minus 2 ln of the probability density of variation x of tip size i alone, up to a constant. */
 static double cost_of_move(const misfit_sums *d, size_t i, double x)
 {
     const size_t c = LEGENDRE + i, q = LEGENDRE + d->n_moves + i;
@@ -83,9 +84,9 @@ static double cost_of_move(const misfit_sums *d, size_t i, double x)
            2.0 * x * bend * d->mm[c][q] + bend * bend * d->mm[q][q];
 }
 
-/* What a move of tip i does to the parameters, in the mean of the squares over all that the
- * residual allows: two tips far from each other may leave as little, as where only one of them is
- * deep in its cap. */
+/* Mean square effect of the variation of tip size i on the parameters, weighted by its probability.
+ * Two very different tips may leave an equally small residual if only one of them indents beyond
+ * its cap. */
 static void spread_of_move(const misfit_sums *d, size_t i, double spread[N])
 {
     const size_t c = LEGENDRE + i, q = LEGENDRE + d->n_moves + i;

@@ -1,4 +1,4 @@
-/* Inside the fit room: what data and law say of a misfit and of moves of the tip, in sums.
+/* Sums that describe a misfit and the effects of variations of the tip.
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
@@ -8,35 +8,36 @@
 #include "indentation/numerics/curve.h"
 
 enum {
-    MISFIT_SMOOTH = 10,            /* functions of the depth, that carry a discrepancy */
-    MISFIT_RADIUS = MISFIT_SMOOTH, /* and what another radius of the tip changes */
+    MISFIT_SMOOTH = 10,            /* functions of the depth that represent a discrepancy */
+    MISFIT_RADIUS = MISFIT_SMOOTH, /* effect of another radius of the tip */
     MISFIT_FUNCTIONS,
-    MISFIT_MOVES = CURVE_TIP_MOVES + 1, /* and a pull */
-    /* and how moves of the tip bend */
+    MISFIT_MOVES = CURVE_TIP_MOVES + 1, /* variations of the tip, and a pull */
+    /* The last columns are the curvatures of the variations. */
     MISFIT_COLUMNS = MISFIT_FUNCTIONS + MISFIT_MOVES + CURVE_TIP_MOVES,
 };
 
-/* Whitened and in units of the noise: the discrepancy's columns without what the parameters can
- * imitate, those of moves of the tip and a pull behind them, and then the bends of the former. */
+/* Whitened sums in units of the noise: columns of the discrepancy without the part that the
+ * parameters explain, columns of the tip variations and of a pull, and curvatures of the tip
+ * variations. */
 typedef struct misfit_sums {
-    size_t n_free, which[CURVE_N_PARAMETERS]; /* the free parameters */
-    size_t n_tips, n_moves;                   /* moves of the tip; with a pull */
-    bool any_radius; /* an unstated one that the residual tells, else its column is 0 */
-    double imitated[CURVE_N_PARAMETERS][MISFIT_COLUMNS]; /* of the parameters, by 1 of a column */
-    double mm[MISFIT_COLUMNS][MISFIT_COLUMNS];           /* sums of the columns with each other */
-    double my[MISFIT_COLUMNS];                           /* and the residual */
+    size_t n_free, which[CURVE_N_PARAMETERS]; /* free parameters */
+    size_t n_tips, n_moves; /* variations of the tip; all variations, with a pull */
+    bool any_radius; /* an unstated radius that the residual determines; else its column is 0 */
+    double imitated[CURVE_N_PARAMETERS]
+                   [MISFIT_COLUMNS];           /* change of the parameters per unit of a column */
+    double mm[MISFIT_COLUMNS][MISFIT_COLUMNS]; /* products of the columns */
+    double my[MISFIT_COLUMNS];                 /* products with the residual */
 } misfit_sums;
 
-/* What the parameters would be, and how sure that is. */
+/* Candidate discrepancy: likelihood, and mean change and variance of the parameters. */
 typedef struct misfit_candidate {
     double log_likelihood, chance, shift[CURVE_N_PARAMETERS], variance[CURVE_N_PARAMETERS];
 } misfit_candidate;
 
-/* Takes the moves of the tip out of the sums, as parameters with a deviation of 1 each; what they
- * alone make of the others is what is without a discrepancy. Where they fit better
- * than the stated tip all of its deviation counts: which of its sizes is off the residual does not
- * say. tip: of the variances, that of the stated errors of the tip. False if there is no solution.
- */
+/* Eliminates the variations of the tip, as parameters with a standard deviation of 1, from the
+ * sums. `none` receives their effect without a discrepancy. If they fit better than the stated tip,
+ * the whole deviation counts, because the residual does not determine which size is wrong. `tip`
+ * receives the part of the variances due to the stated errors. Returns false without a solution. */
 bool misfit_remove_bias(misfit_sums *d, misfit_candidate *none, double tip[CURVE_N_PARAMETERS]);
 
 static inline double misfit_dot(const double *a, const double *b, size_t n)

@@ -1,9 +1,9 @@
-/* Sinusoidal modulation of a held contact: amplitude and phase of height and force by least squares
- * beside what drifts and relaxes, and the complex modulus of them.
+/* Sinusoidal modulation of a held contact: amplitude and phase of height and force by least
+ * squares with slow columns for drift and relaxation, and the complex modulus.
  *
- * The weights are those of Hann: without them the ends of what relaxes, which the slow columns do
- * not follow, are in the sine (an E'' 7 % off in a dwell of 48 periods without noise).
- * Whether it is one the height tells, by what it has at frequencies beside that of the drive.
+ * The weights are those of Hann. Without them the relaxation, which the slow columns do not
+ * follow, biases the sine (E'' by 7 % in a dwell of 48 periods without noise). The power of the
+ * height at neighbouring frequencies determines if a modulation is significant.
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
@@ -19,22 +19,22 @@
 
 static const double complex unit = (double complex)I;
 
-/* Slow columns: a cubic and the logarithm of the time since the beginning. */
+/* Slow columns: a cubic and the logarithm of the time since the start. */
 enum { SLOW = 5, COLUMNS = SLOW + 2 };
-/* Golden sections of two bins: down to 1e-12 of them. */
+/* Golden sections of two bins, down to 1e-12 of them. */
 enum { SECTIONS = 60 };
-/* A sine of fewer periods is not told from what drifts by a cubic and a logarithm, which bend four
- * times; nine samples for each column. */
+/* Smallest number of periods and of samples. A cubic and a logarithm have four slope changes and
+ * imitate a sine of fewer periods. 64 samples are nine for each column. */
 enum { LEAST_PERIODS = 5, LEAST_SAMPLES = 64 };
-/* In whole periods of the segment: beyond what the weights mix with the drive, and so far apart
- * that their noises are independent under the weights: those of Hann reach two periods to each
- * side. Sixteen of them tell the power of the noise to 25 %. */
+/* Frequencies of the noise, in cycles per segment. They lie outside the bandwidth of the weights at
+ * the drive, and their distance makes their noise independent: Hann weights extend over two cycles
+ * to each side. Sixteen of them determine the noise power to 25 %. */
 enum { NEAREST = 3, APART = 2, NEIGHBOURS = 8 /* on each side */ };
-/* Power of the height over that beside it that is no noise, which would be so strong by a chance of
- * exp(-100); what is left is that a drive is ten times its own noise, as nothing else tells E'' to
- * 10 %. */
+/* Smallest significant power of the height over the noise power. Noise exceeds it with a
+ * probability of exp(-100). The drive must exceed its noise tenfold, because E'' is otherwise not
+ * accurate to 10 %. */
 static const double significant = 100;
-static const double pi = 3.14159265358979323846; /* to the digits of a double */
+static const double pi = 3.14159265358979323846; /* double precision */
 
 typedef struct samples {
     const double *time, *of[2]; /* height and force */
@@ -60,7 +60,8 @@ static double hann_weight(const samples *s, size_t i)
     return x * x;
 }
 
-/* Coefficients of height and force at a frequency; false where the columns are not independent. */
+/* Fits the coefficients of height and force at a frequency. Returns false if the columns are not
+ * independent. */
 static bool fit_columns(const samples *s, double omega, double to[2][COLUMNS])
 {
     double normal[COLUMNS][COLUMNS] = {{0}}, row[COLUMNS];
@@ -95,7 +96,7 @@ static double power_at(double omega, void *user)
     return fit_columns(s, omega, c) ? c[0][SLOW] * c[0][SLOW] + c[0][SLOW + 1] * c[0][SLOW + 1] : 0;
 }
 
-/* The largest number up to n of no factors above 7, for the transform. */
+/* Returns the largest length up to n without prime factors above 7, for the transform. */
 static size_t transform_length(size_t n)
 {
     for (;; n--) {
@@ -108,7 +109,7 @@ static size_t transform_length(size_t n)
     }
 }
 
-/* The strongest frequency of the height [rad/s]. */
+/* Returns the strongest frequency of the height [rad/s]. */
 static double strongest_frequency(samples *s, arena *memory)
 {
     const size_t n = transform_length(s->n);
@@ -140,8 +141,8 @@ static double strongest_frequency(samples *s, arena *memory)
     return best > 0 ? root_maximum(power_at, s, low, high, SECTIONS) : 0;
 }
 
-/* Mean power of what is left of the height at frequencies beside the drive, whole periods apart;
- * NaN if there are none. */
+/* Mean power of the height residual at frequencies next to the drive, whole cycles apart. The
+ * result is NaN if there are none. */
 static double noise_of(const samples *s, const double own[COLUMNS], double drive)
 {
     const double bin = 2 * pi / s->duration;
@@ -158,7 +159,7 @@ static double noise_of(const samples *s, const double own[COLUMNS], double drive
             row_of(s, i, drive, row);
             for (size_t a = 0; a < COLUMNS; a++)
                 rest -= own[a] * row[a];
-            /* The mean weight is 1/2. */
+            /* The mean weight is 1/2, so the factor is 4. */
             sum += 4 * hann_weight(s, i) * rest * cexp(-unit * omega * (s->time[i] - s->start)) /
                    (double)s->n;
         }

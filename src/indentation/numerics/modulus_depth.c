@@ -1,17 +1,13 @@
-/* Does the modulus change with depth? The mean residual of the curves of a group says so where one
- * noisy curve does not.
+/* Test of a change of the modulus with depth from the mean residual of the curves of a group,
+ * which has less noise than one curve.
  *
- * The first cosines of the residual over the contact (curve_lack.c) are those of the difference
- * between the force and that of the fit. A modulus E exp(a + b (u - 1)) at the contact radius u of
- * the largest one, with the contact point moved, makes such a difference: the three are fitted to
- * the mean of the curves, weighted by the scatter between them, together, for the contact point of
- * a fit with one modulus hides most of a change. What the cosines leave then follows the F
- * distribution whatever the noise; where it is too much, a square is fitted as well, or a layer on
- * other rubber. Each curve has
- * its share in the parameters, and the scatter of the shares between spots is their error,
- * enlarged by what is not known of the weights. What all curves share does not scatter: a bend that
- * their baselines have in common goes on in contact, nobody knows how, and what it does there if it
- * does is part of the errors; so is what is not known of the memory that stands for loss.
+ * The first cosines of the residual over the contact (lack_of_fit.c) are those of the difference
+ * between the force and that of the fit. A modulus E exp(a + b (u - 1)) at the relative contact
+ * radius u, with a shifted contact point, causes such a difference. The three parameters are
+ * fitted to the mean of the curves, weighted by their scatter. They are fitted together, because
+ * the contact point of a homogeneous fit hides most of a change. The remaining cosines follow the
+ * F distribution for any noise. If they are significant, a quadratic term or a layer on other
+ * rubber is fitted too. depth_pool.c describes the errors.
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
@@ -26,18 +22,20 @@
 #include <string.h>
 
 enum { W = CURVE_WAVES };
-static const double level = 0.01; /* of a change, and of what is left: one group of 100 by chance */
-static const double margin = WT_DEPTH_MARGIN; /* a change that does not matter */
-/* Ends of the interval of a thickness, their ratio: one not known to a factor 2 is not told. */
+static const double level =
+    0.01; /* significance level of a change and of the remaining cosines: one group of 100 */
+static const double margin = WT_DEPTH_MARGIN; /* largest irrelevant change */
+/* Largest ratio of the limits of a thickness; a thickness uncertain by more than a factor of 2 is
+ * not reported. */
 static const double roughest = 4.0;
 
 typedef struct depth_number {
     wt_interval interval;
-    double chance;                 /* of the logarithm being 0 */
-    double bend_share, loss_share; /* of its variance */
+    double chance;                 /* p value of a logarithm of 0 */
+    double bend_share, loss_share; /* shares of its variance */
 } depth_number;
 
-/* A factor, of whose logarithm it is told what depth_value_of takes. */
+/* Computes a factor. The arguments describe its logarithm as in depth_value_of. */
 static depth_number number_of(depth_pool *d, const depth_fit *fit, double at,
                               const double by[DEPTH_PARAMETERS], bool with_level, double losses)
 {
@@ -52,9 +50,9 @@ static depth_number number_of(depth_pool *d, const depth_fit *fit, double at,
         .loss_share = v.loss * v.loss / (error * error)};
 }
 
-/* ---- what is told ---------------------------------------------------------------------------- */
+/* ---- results --------------------------------------------------------------------------------- */
 
-/* ln of the modulus over that of the fit at a share of the depth, and its derivatives. */
+/* Computes ln of the modulus over that of the fit at a share of the depth, and its derivatives. */
 static double at_depth(const depth_mean *m, const depth_fit *fit, double share,
                        double by[DEPTH_PARAMETERS])
 {
@@ -73,7 +71,7 @@ static double at_depth(const depth_mean *m, const depth_fit *fit, double share,
     return value;
 }
 
-/* The modulus at shares of the depth, and the change from the first to the last. */
+/* Sets the modulus at shares of the depth, and its change from the first to the last. */
 static void tell_depths(depth_pool *d, const depth_fit *fit, wt_curve_depth *to)
 {
     double first[DEPTH_PARAMETERS] = {0.0}, by[DEPTH_PARAMETERS], top = 0.0;
@@ -100,7 +98,7 @@ static void tell_depths(depth_pool *d, const depth_fit *fit, wt_curve_depth *to)
     }
 }
 
-/* A layer thinner than the indentation that would look the same, by how the modulus changes. */
+/* Fits a layer thinner than the indentation that would cause the same change. */
 static depth_fit fit_layer(depth_pool *d, double log_change, wt_error *err)
 {
     static const double reaches[] = {0.7, 1.2, 2.0}; /* contact radius over thickness */
@@ -114,7 +112,7 @@ static depth_fit fit_layer(depth_pool *d, double log_change, wt_error *err)
     return best;
 }
 
-/* Its three numbers, where the mean curve tells them. */
+/* Sets the three numbers of the layer if the mean curve determines them. */
 static void read_layer(depth_pool *d, wt_curve_depth *to, wt_error *err)
 {
     const depth_fit fit = fit_layer(d, log(to->change.value), err);
@@ -136,13 +134,13 @@ static void read_layer(depth_pool *d, wt_curve_depth *to, wt_error *err)
         number_of(d, &fit, fit.p[DEPTH_LEVEL] - fit.p[DEPTH_RATIO], of_ground, true, 1.0).interval;
 }
 
-/* Too little to matter, whichever way. */
+/* True if the change is irrelevant in either direction. */
 static bool is_small(const wt_curve_depth *d)
 {
     return d->change.low > 1.0 / (1.0 + margin) && d->change.high < 1.0 + margin;
 }
 
-/* What the change says: shown, of no matter, or neither. */
+/* Sets the verdict on the change: significant, irrelevant, or inconclusive. */
 static void judge(const depth_fit *fit, wt_curve_depth *to)
 {
     to->misfit_chance = fit->chance;
@@ -171,7 +169,7 @@ static wt_status make(depth_pool *d, wt_curve_depth *to, wt_error *err)
     if (to->verdict == WT_DEPTH_CHANGES) {
         const depth_fit bent = depth_fit_law(d, DEPTH_BENT, fit.p, &failure);
         const double chance = to->chance;
-        if (fit.law == DEPTH_LINE && bent.good) /* that it is a line nobody says */
+        if (fit.law == DEPTH_LINE && bent.good) /* the change need not be linear */
             tell_depths(d, &bent, to);
         to->chance = chance;
         if (is_small(to) && to->change.low < 1.0 && to->change.high > 1.0)

@@ -1,5 +1,5 @@
-/* Before the fit of a force curve: missing and repeated samples, the direction of the piezo, a
- * limit of the force, a saturated detector, a sample too stiff for the lever.
+/* Preparation of a force curve before the fit: missing and repeated samples, direction of the
+ * piezo, limit of the force, saturated detector, and samples too stiff for the cantilever.
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
@@ -15,26 +15,30 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Tests of plausibility; each is named in the reason that it gives. */
-static const double missing_share = 0.1; /* of the samples: with more the file is damaged */
-static const double travel_share = 0.5;  /* of the range of the height that must be net travel */
-/* Least advance of the tip per bending of the lever: 1 % of sensitivity is half of it. */
+/* Thresholds of plausibility tests; the reason of a verdict states them. */
+static const double missing_share =
+    0.1; /* share of missing samples; with more the file is damaged */
+static const double travel_share = 0.5; /* net travel over the range of the height */
+/* Smallest advance of the tip over the deflection of the cantilever; 1 % of sensitivity is half of
+ * it. */
 static const double rigid_share = 0.02;
-static const double plateau_ratio = 5.0; /* force gained before a flat top against in it */
-static const size_t plateau_samples = 5; /* fewer are a turning point */
-/* A spike beyond its neighbours, in noise: next to the 6 of a pull, which must not be one. */
+static const double plateau_ratio =
+    5.0; /* force gained before a plateau over the band of the plateau */
+static const size_t plateau_samples = 5; /* fewer samples are a turning point */
+/* Smallest spike over its neighbours in noise. It exceeds the 6 of a pull, which must not count as
+ * a spike. */
 static const double spike_noise = 8.0;
-static const double spike_step = 3.0;  /* of one below, and in the step between its two sides */
-static const double end_step = 3.0;    /* of the last sample, in the step before it */
-static const double spike_share = 0.2; /* of the samples: with more it is no spike */
+static const double spike_step = 3.0;  /* for a downward spike, in steps between its two sides */
+static const double end_step = 3.0;    /* for the last sample, in steps before it */
+static const double spike_share = 0.2; /* largest share of spikes; with more the data are invalid */
 enum {
     SPIKE_SIDE = 7, /* neighbours on each side */
-    CLASSES = 512,  /* of sizes, to find a median */
+    CLASSES = 512,  /* size classes for a median */
 };
 
 wt_status curve_reserve(wt_indent_workspace *w, size_t n, wt_error *err)
 {
-    enum { N_ARRAYS = 25 }; /* those below */
+    enum { N_ARRAYS = 25 }; /* number of the arrays below */
     if (n <= w->capacity)
         return WT_OK;
     size_t capacity = n + n / 4;
@@ -87,7 +91,7 @@ curve_span curve_span_of(const double *x, size_t n)
     wide low = x[0] - (wide){0.0}, high = low, low2 = low, high2 = low, now;
     double rest[2 * WIDE];
     size_t i = 0;
-    for (; i + 2 * WIDE <= n; i += 2 * WIDE) { /* two of each, for one would wait for itself */
+    for (; i + 2 * WIDE <= n; i += 2 * WIDE) { /* two of each avoid the latency */
         simd_load(&now, x + i);
         wide_lower(&low, &now);
         wide_raise(&high, &now);
@@ -111,10 +115,10 @@ curve_span curve_span_of(const double *x, size_t n)
     return span;
 }
 
-/* 32 classes to each power of two of what is below `largest`. */
+/* 32 classes for each power of two below `largest`. */
 static size_t class_of(double x, double largest)
 {
-    enum { LEADING = 52 - 5 }; /* of the 52 bits of a fraction the first 5: 32 classes */
+    enum { LEADING = 52 - 5 }; /* the first 5 of the 52 bits of the fraction: 32 classes */
     uint64_t bits, most;
     memcpy(&bits, &x, sizeof bits);
     memcpy(&most, &largest, sizeof most);
@@ -122,7 +126,7 @@ static size_t class_of(double x, double largest)
     return below < CLASSES ? (size_t)below : CLASSES - 1;
 }
 
-/* All are counted by size, and only those of the size of the k-th are compared. */
+/* Counts all values by size class. Only those of the class of the k-th are compared. */
 double curve_select(double *x, size_t n, size_t k, double largest)
 {
     size_t count[CLASSES] = {0}, class = CLASSES - 1, kept = 0;
@@ -138,8 +142,8 @@ double curve_select(double *x, size_t n, size_t k, double largest)
     return gsl_stats_select(x, 1, kept, k);
 }
 
-/* Standard deviation of white noise from the median of |successive differences|, and the smallest
- * step that occurs (the resolution of the converter where there is one). */
+/* Standard deviation of white noise from the median of the absolute successive differences.
+ * `resolution` receives the smallest step, which is the resolution of a converter. */
 WIDE_REGISTERS static double difference_noise(const curve_samples *s, double *restrict scratch,
                                               double *resolution)
 {
@@ -154,7 +158,8 @@ WIDE_REGISTERS static double difference_noise(const curve_samples *s, double *re
     return curve_select(scratch, n, n / 2, all.high) / (0.6744897501960817 * M_SQRT2);
 }
 
-/* Force that the travel of the samples from `first` on had gained just before it. */
+/* True if the force has a plateau at its top. `first` receives its first sample. The test compares
+ * the force gained over an equal travel before it. */
 static bool flat_top(const curve_samples *s, double noise, double resolution, size_t *first)
 {
     const curve_span all = curve_span_of(s->force, s->n);
@@ -172,8 +177,8 @@ static bool flat_top(const curve_samples *s, double noise, double resolution, si
     return travel > 0.0 && s->force[i] - s->force[j] > plateau_ratio * band;
 }
 
-/* Slope of the position against the deflection in the upper half of the force; NaN if the force
- * does not rise enough. Of a rigid sample it is 1. */
+/* Slope of the position against the deflection in the upper half of the force. It is 1 for a rigid
+ * sample. The result is NaN if the force does not rise enough. */
 static double advance_per_bending(const curve_samples *s, double noise)
 {
     size_t n_start = s->n / 10;
@@ -197,10 +202,10 @@ static double advance_per_bending(const curve_samples *s, double noise)
     return (szf - sz * sf / n) / variance * s->spring_constant;
 }
 
-/* Are all numbers, and none the same as the one before? */
+/* True if all samples are finite and none repeats the previous one. */
 WIDE_REGISTERS static bool all_good(const double *height, const double *force, size_t n)
 {
-    wide sum = {0.0}; /* of zeros, or nan */
+    wide sum = {0.0}; /* of zeros, or NaN */
     wide_bits same = {0};
     size_t i = 1;
     for (; i + WIDE <= n; i += WIDE) {
@@ -220,7 +225,7 @@ WIDE_REGISTERS static bool all_good(const double *height, const double *force, s
     return good;
 }
 
-/* Copies the good samples; the direction is not yet known. */
+/* Copies the valid samples. The direction is not yet known. */
 static size_t clean(const double *height, const double *force, size_t n, curve_input *input)
 {
     size_t kept = 0;
@@ -246,7 +251,7 @@ static size_t clean(const double *height, const double *force, size_t n, curve_i
 static double median_of(const double *x, size_t n)
 {
     double sorted[SPIKE_SIDE];
-    for (size_t i = 0; i < n; i++) { /* by insertion: they are few */
+    for (size_t i = 0; i < n; i++) { /* insertion sort of a few values */
         size_t j = i;
         for (; j > 0 && sorted[j - 1] > x[i]; j--)
             sorted[j] = sorted[j - 1];
@@ -263,9 +268,9 @@ static bool above_most(const double side[SPIKE_SIDE], double x)
     return 2 * n > SPIKE_SIDE;
 }
 
-/* Does the force go on from sample i as a contact does at its end? Most of what follows is not
- * below it then, and the last step grows by less than a factor 3 (the second one of a force that
- * goes with the square of the depth). */
+/* True if the force continues from sample i like a contact at its end. Most of the following
+ * samples are not below it, and the last step grows by less than a factor of 3 (the second step of
+ * a quadratic force). */
 static bool goes_on(const curve_samples *s, size_t i, size_t kept, double far)
 {
     const double x = s->force[i], step = s->force[kept - 1] - s->force[kept - 2];
@@ -276,9 +281,9 @@ static bool goes_on(const curve_samples *s, size_t i, size_t kept, double far)
                         : x - s->force[kept - 1] < far + end_step * fabs(step);
 }
 
-/* Is sample i, of which `kept` before it are left, far outside what lies before and behind it? A
- * step has one side to agree with, a snap-on a step or a neighbour beside it. At an end there is
- * one side only, and how that goes on. */
+/* True if sample i lies far outside the samples before and after it. Earlier spikes are removed
+ * already. A step agrees with one side, and a snap-in has a step or a neighbour. At an end only one
+ * side and its trend exist. */
 static bool is_spike(const curve_samples *s, size_t i, size_t kept, double far)
 {
     const double x = s->force[i], *right = s->force + i + 1;
@@ -293,14 +298,14 @@ static bool is_spike(const curve_samples *s, size_t i, size_t kept, double far)
     }
     const double beside = fmin(s->force[kept - 1], s->force[i + 1]) - x;
     if (!(beside > far) && !(above_most(left, x - 0.5 * far) && above_most(right, x - 0.5 * far)))
-        return false; /* medians cost more */
+        return false; /* this test avoids the slower medians */
     const double before = median_of(left, SPIKE_SIDE), behind = median_of(right, SPIKE_SIDE);
     const double above = x - fmax(before, behind), below = fmin(before, behind) - x;
     return above > far || (beside > far && below > fmax(far, spike_step * fabs(before - behind)));
 }
 
-/* The first sample from i on, which is not the first of all, that is far from the one before, or
- * near the end. */
+/* Returns the first sample from i > 0 on that differs much from the previous one or is near the
+ * end. */
 WIDE_REGISTERS static size_t quiet_until(const curve_samples *s, size_t i, double far)
 {
     const double *force = s->force;
@@ -317,11 +322,11 @@ WIDE_REGISTERS static size_t quiet_until(const curve_samples *s, size_t i, doubl
     return i;
 }
 
-/* Returns how many spikes it leaves out. */
+/* Removes spikes and returns their number. */
 static size_t leave_out_spikes(curve_samples *s, double far)
 {
     size_t kept = 0;
-    bool after_spike = true; /* or at an end */
+    bool after_spike = true; /* also true at an end */
     for (size_t i = 0; i < s->n; i++) {
         if (kept == i && !after_spike)
             i = kept = quiet_until(s, i, 0.5 * far);
@@ -340,8 +345,8 @@ static size_t leave_out_spikes(curve_samples *s, double far)
     return spikes;
 }
 
-/* Samples up to where the force passes the limit above its start: halfway between the first
- * above and the last below. */
+/* Number of samples below the limit of the force above its start. It is halfway between the first
+ * sample above and the last below. */
 static size_t limit_force(const curve_samples *s, const wt_indent_options *o)
 {
     const double start = mean(s->force, s->n / 10), max = curve_span_of(s->force, s->n).high;
@@ -373,7 +378,7 @@ si_text curve_si(double value, const char *unit)
     return text;
 }
 
-/* The direction of the piezo, and origins that keep the digits of sums. */
+/* Orients the positions and subtracts the means, which preserves digits in sums. */
 WIDE_REGISTERS static wt_curve_verdict turn_and_centre(curve_input *input, char reason[160])
 {
     curve_samples *s = &input->samples;
@@ -398,11 +403,11 @@ WIDE_REGISTERS static wt_curve_verdict turn_and_centre(curve_input *input, char 
     return WT_CURVE_ACCEPTED;
 }
 
-/* A tip that hardly goes in, or backwards. */
+/* Rejects a tip that hardly advances or moves backwards. */
 static wt_curve_verdict advance_verdict(const curve_input *input, char reason[160])
 {
     const double advance = advance_per_bending(&input->samples, input->step_noise) - 1.0;
-    if (advance > -1.0 && advance < -rigid_share) { /* below -1: a force of the wrong sign */
+    if (advance > -1.0 && advance < -rigid_share) { /* below -1 the force has the wrong sign */
         curve_set_reason(
             reason,
             "the lever bends %.3g times as far as the piezo moves: deflection sensitivity, "
@@ -442,7 +447,8 @@ wt_curve_verdict curve_prepare(const double *height, const double *force, size_t
     double resolution = 0.0;
     input->step_noise = difference_noise(s, w->scratch, &resolution);
     const double far = spike_noise * fmax(input->step_noise, resolution);
-    if (far > 0.0) /* once: again, it would wear down a contact that is noisier than the baseline */
+    if (far > 0.0) /* one pass only; further passes would remove samples of a contact noisier than
+                      the baseline */
         input->n_spikes = leave_out_spikes(s, far);
     if ((double)input->n_spikes > spike_share * (double)n) {
         curve_set_reason(reason, "%zu of %zu samples are spikes, %g %% allowed", input->n_spikes, n,

@@ -1,11 +1,11 @@
 /* Dwell on a rubber: one relaxation modulus through approach and dwell, by the hereditary integral
- * of Lee and Radok over the heights as they were measured, with the lever in balance.
+ * of Lee and Radok over the measured heights, in equilibrium with the cantilever.
  *
- * Of the spectrum a dwell of two decades tells little more than its height, its slope and whether
- * it bends: H = rise exp(slope x + bend x^2/2 + bumps), x = ln(tau/t) about the middle of the
- * dwell, and a modulus that does not relax. What slope, bend and bumps may be of a rubber is said
- * beforehand, and so is the drift of the force, which a constant rate of approach does not tell
- * from a tilt; the error by that is shared by curves of one kind.
+ * A dwell of two decades determines little more of the spectrum than its height, slope and
+ * curvature: H = rise exp(slope x + bend x^2/2 + bumps), x = ln(tau/t) about the middle of the
+ * dwell, and an equilibrium modulus. Slope, bend and bumps have priors for rubber. The drift of
+ * the force has a prior too, because a constant rate of approach does not distinguish it from a
+ * tilt. Curves of one kind share the error due to the priors.
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
@@ -21,39 +21,38 @@
 #include <gsl/gsl_linalg.h>
 #include <math.h>
 
-/* The parameters; bumps lie as far apart as they are wide, a seventh of one and a half times what
- * the dwell tells of ln tau; a cosine and a sine of two ripples. */
+/* Parameters. The bumps cover one and a half times the range of ln tau of the dwell; their distance
+ * equals their width. Two ripples have a cosine and a sine each. */
 enum { POINT, OFFSET, TILT, DRIFT, LEVEL, RISE, SLOPE, BEND, BUMP, BUMPS = 8 };
 enum { N_PARAMETERS = BUMP + BUMPS, RIPPLES = 4 };
-/* Steps of the force within one of the means of the approach, over which the depth is linear. */
+/* Steps of the force within each mean of the approach, with a linear depth. */
 enum { SUBSTEPS = 4 };
-/* Terms of the series: those of four a decade ripple by 1e-7 (dma/numerics/master_fit.c), and 64
- * are sixteen decades, more than a dwell has with both ends. */
+/* Terms of the series. Four per decade have a ripple of 1e-7 (dma/numerics/master_fit.c), and 64
+ * cover sixteen decades, more than a dwell with its margins. */
 enum { MOST_TERMS = 64, TERMS_PER_DECADE = 4 };
-/* A bound of time for what does not settle. */
+/* Limit of the iterations. */
 enum { MAX_STEPS = 60 };
-/* Frequencies that are told: as many as there are terms, for they are no more independent. */
+/* Reported frequencies per decade. They equal the terms, because more would not be independent. */
 enum { PER_DECADE = 4 };
-/* Standard deviations that are believed of the spectrum, H in the logarithm: of its slope, which is
- * -1/2 in Rouse's law and above -1 and below 1 in what a modulus shows (dma/numerics/master_fit.c);
- * of its bend over an e-fold of time and of bumps, 20 % of H. Beliefs: a dwell tells slope and
- * level against them, and bend and bumps are what its intervals hold beyond; twice as wide, they
- * are wider by about as much where the dwell tells neither. */
+/* Standard deviations of the priors of ln H: slope, which is -1/2 in Rouse's law and between -1 and
+ * 1 for a visible relaxation (dma/numerics/master_fit.c); curvature per squared e-fold of time;
+ * bumps, 20 % of H. A dwell determines slope and level; curvature and bumps widen the intervals.
+ * Doubled values widen them accordingly where the dwell does not determine them. */
 static const double usual_slope = 0.5, usual_bend = 0.15, usual_bump = 0.2;
-/* How far the series goes beyond what was measured: a term that is slower by 30 relaxes by 3 %. */
+/* Range of the series beyond the measured times; a term slower by 30 relaxes by 3 %. */
 static const double beyond = 30;
-/* Of ripples on the spectrum that are looked for, in ln tau: about the width of one relaxation
- * time, 1.14 decades, as single ones make them. */
+/* Periods of the tested ripples of the spectrum in ln tau. They are close to the width of one
+ * relaxation time, 1.14 decades. */
 static const double period[RIPPLES / 2] = {M_LN10, 1.5 * M_LN10};
-/* Of differences for derivatives: about the root of what rounding leaves, 1e-10 of it. */
+/* Step of the difference quotients, near the root of the rounding error of 1e-10. */
 static const double derivative_step = 1e-5;
-/* Relative fall of the sum of squares at which a fit ends: 1e-4 of a standard error. */
+/* Relative decrease of the sum of squares at convergence: 1e-4 of a standard error. */
 static const double converged = 1e-8;
-/* Of the indentation at the beginning of the dwell what is left at its end, less than which is no
- * dwell at constant height or force: Ting's law for a contact that shrinks is not in the fit. 5 %
- * of indentation are 8 to 10 % of a force. */
+/* Smallest ratio of the final to the initial indentation. Below it the dwell is not at constant
+ * height or force, and the fit lacks Ting's law for a shrinking contact. 5 % of indentation are 8
+ * to 10 % of force. */
 static const double fell = 0.95;
-/* The customary level at which a law is said not to describe what was measured. */
+/* Customary significance level of the misfit. */
 static const double least_chance = 0.01;
 
 typedef struct dwell_task {
@@ -62,18 +61,20 @@ typedef struct dwell_task {
     dwell_nodes nodes;
     hereditary law;
     size_t n_terms;
-    double time[MOST_TERMS], modulus[MOST_TERMS], width; /* of a term in ln tau */
+    double time[MOST_TERMS], modulus[MOST_TERMS], width; /* width of a term in ln tau */
     double middle;                                       /* time of x = 0 */
-    double bump[BUMPS], bump_width;                      /* places, in x */
-    double ripple[RIPPLES];    /* of cosine and sine of each period; 0 but where they are tried */
-    double unit[N_PARAMETERS]; /* of the parameters, so that all are of the order of 1 */
-    double sd[N_PARAMETERS];   /* known beforehand, in these; 0: nothing is */
+    double bump[BUMPS], bump_width;                      /* positions and width, in x */
+    double
+        ripple[RIPPLES]; /* coefficients of cosine and sine of each period; 0 except in the test */
+    double unit[N_PARAMETERS]; /* units of the parameters, which make all of the order of 1 */
+    double
+        sd[N_PARAMETERS]; /* standard deviations of the priors in these units; 0 without a prior */
     double *residual, *shifted, *depth, *pressed; /* [n] */
     double *jacobian;                             /* [N_PARAMETERS][n] */
     double *rippled;                              /* [RIPPLES][n] derivatives by the ripples */
 } dwell_task;
 
-/* Terms from well below the first time of the dwell to well above the last. */
+/* Sets the relaxation times from well below the first to well above the last time of the dwell. */
 static void make_terms(dwell_task *t)
 {
     const dwell_nodes *n = &t->nodes;
@@ -95,8 +96,9 @@ static void make_terms(dwell_task *t)
         t->time[i] = exp(low + t->width * (double)i);
 }
 
-/* LEVEL is the logarithm of the relaxation modulus at the middle of the dwell, which the spectrum
- * hardly moves, RISE the spectrum there, of that modulus. Returns what of it does not relax. */
+/* Computes the moduli of the terms and returns the equilibrium modulus. LEVEL is the logarithm of
+ * the relaxation modulus at the middle of the dwell, which hardly depends on the spectrum. RISE is
+ * the spectrum there over that modulus. */
 static double make_moduli(dwell_task *t, const double *p)
 {
     const double level = t->history->modulus * exp(p[LEVEL]), rise = p[RISE] * level * t->width;
@@ -118,7 +120,7 @@ static double make_moduli(dwell_task *t, const double *p)
     return rest;
 }
 
-/* Storage and loss modulus at an angular frequency. */
+/* Computes storage and loss modulus at an angular frequency. */
 static void moduli_at(dwell_task *t, const double *p, double omega, double to[2])
 {
     to[0] = make_moduli(t, p);
@@ -127,7 +129,8 @@ static void moduli_at(dwell_task *t, const double *p, double omega, double to[2]
         prony_add(t->modulus[i], t->time[i], omega, &to[0], &to[1]);
 }
 
-/* What a mean over a time has more than the middle of it, where the force bends. */
+/* Adds the difference between the mean over a time interval and the value at its centre, due to the
+ * curvature of the force. */
 static void bend_means(const dwell_nodes *n, const double *pressed, double *force)
 {
     const size_t part[] = {n->first_pressed, n->first_held - 1, n->first_held, n->first_free};
@@ -143,7 +146,7 @@ static void bend_means(const dwell_nodes *n, const double *pressed, double *forc
         }
 }
 
-/* Forces of the nodes; and the indentation, unless NULL. */
+/* Computes the forces of the nodes, and the indentations unless depth is NULL. */
 static void predict_forces(dwell_task *t, const double *p, double *force, double *depth)
 {
     const dwell_nodes *n = &t->nodes;
@@ -191,7 +194,7 @@ static void predict_forces(dwell_task *t, const double *p, double *force, double
     bend_means(n, t->pressed, force);
 }
 
-/* Divided by the factor of the covariance. */
+/* Divides by the Cholesky factor of the covariance. */
 static void whiten_residual(const dwell_nodes *n, double *x)
 {
     for (size_t i = 0; i < n->n; i++) {
@@ -201,7 +204,7 @@ static void whiten_residual(const dwell_nodes *n, double *x)
     }
 }
 
-/* Whitened residuals; the sum of squares with what is known beforehand. */
+/* Computes the whitened residuals and returns the sum of squares with that of the priors. */
 static double cost_of(dwell_task *t, const double *p, double *residual)
 {
     double sum = 0;
@@ -216,7 +219,7 @@ static double cost_of(dwell_task *t, const double *p, double *residual)
     return sum;
 }
 
-/* J'J with what is known beforehand, and J'r. */
+/* Computes J'J and J'r with the priors. */
 static void dwell_equations(dwell_task *t, const double *p, double jj[N_PARAMETERS][N_PARAMETERS],
                             double jr[N_PARAMETERS])
 {
@@ -237,8 +240,8 @@ static void dwell_equations(dwell_task *t, const double *p, double jj[N_PARAMETE
     }
 }
 
-/* Levenberg and Marquardt in the first n parameters; the sum of squares, NaN where nothing came of
- * it. */
+/* Levenberg-Marquardt fit of the first n parameters. Returns the sum of squares, or NaN on failure.
+ */
 static double fit_parameters(dwell_task *t, size_t n, double p[N_PARAMETERS],
                              double jj[N_PARAMETERS][N_PARAMETERS])
 {
@@ -277,11 +280,11 @@ static double fit_parameters(dwell_task *t, size_t n, double p[N_PARAMETERS],
     return cost;
 }
 
-/* ---- what is told ---------------------------------------------------------------------------- */
+/* ---- results --------------------------------------------------------------------------------- */
 
-/* Chance that noise, and what is assumed of the spectrum, leave as much of its ripples: single
- * relaxation times are seen by them long before all of the misfit shows that something is off. NaN
- * where what is fitted leaves nothing of a ripple, or noise decides: then it was not tested. */
+/* p value of the ripples of the spectrum, given noise and priors. They reveal single relaxation
+ * times long before the whole misfit is significant. The result is NaN without a test: the fit
+ * leaves nothing of a ripple, or rounding decides. */
 static double ripple_chance(dwell_task *t, const double *p, const gsl_matrix *covariance)
 {
     const size_t n = t->nodes.n;
@@ -315,7 +318,8 @@ static double ripple_chance(dwell_task *t, const double *p, const gsl_matrix *co
     return gsl_cdf_chisq_Q(sum, RIPPLES);
 }
 
-/* g' C g, and of it what curves share by what was known beforehand; `scale`: of the noise. */
+/* Standard error from g' C g, and the part that curves share because of the priors. `scale`
+ * multiplies the part of the noise. */
 static void errors_of(const dwell_task *t, const gsl_matrix *covariance, const double *gradient,
                       double scale, double *error, double *common)
 {
@@ -331,12 +335,12 @@ static void errors_of(const dwell_task *t, const gsl_matrix *covariance, const d
     *error = isnan(scale) ? scale : sqrt(fmax(0, all - shared) * scale + shared);
 }
 
-/* The frequencies of a grid that all curves have in common, between one over the times from contact
- * to the ends of the dwell. */
+/* Sets the moduli at the frequencies of a grid common to all curves, between the inverse times from
+ * contact to the start and end of the dwell. */
 static void tell_moduli(dwell_task *t, const double *p, const gsl_matrix *covariance, double scale,
                         wt_dwell *to)
 {
-    /* No error is known of what the model does not describe. */
+    /* No error is known if the model does not describe the data. */
     const double known = to->misfit_chance >= least_chance ? 1 : (double)NAN;
     const double low = ceil(-log10(to->load_time + to->duration) * PER_DECADE),
                  high = floor(-log10(to->load_time) * PER_DECADE);
@@ -362,7 +366,7 @@ static void tell_moduli(dwell_task *t, const double *p, const gsl_matrix *covari
     }
 }
 
-/* Contact and baseline, and what of them curves share in the indentation. */
+/* Sets contact point and baseline, and the shared error of the indentation. */
 static void tell_place(const dwell_task *t, const double *p, const gsl_matrix *covariance,
                        wt_dwell *to)
 {
@@ -414,7 +418,7 @@ static void tell_points(dwell_task *t, const double *p, wt_dwell *to)
         to->why_not = "deeper than the contact law of the tip holds";
 }
 
-/* Time from where the means cross the contact point to the dwell. */
+/* Time from the contact point, interpolated between the means, to the dwell. */
 static double load_time(const dwell_task *t, const double *p)
 {
     const dwell_nodes *n = &t->nodes;
@@ -428,8 +432,8 @@ static double load_time(const dwell_task *t, const double *p)
     return n->from[n->first_held] - n->time[i - 1] - part * (n->time[i] - n->time[i - 1]);
 }
 
-/* Of the smaller of two. One test alone can say that the law does not describe the dwell; that it
- * does needs both, for the misfit as a whole is blind to what the ripples see. */
+/* p value of the smaller of two p values. One test alone can reject the law. Acceptance needs both,
+ * because the whole misfit does not show the ripples. */
 static double chance_of_two(double misfit, double ripples)
 {
     if (isnan(ripples))
@@ -465,7 +469,7 @@ static void tell_relaxation(dwell_task *t, const double *p, double cost,
     to->found = to->n > 0;
 }
 
-/* Of an elastic sample, which is where the search begins. */
+/* Sets the start of the search, an elastic sample. */
 static void begin_elastic(dwell_task *t, double p[N_PARAMETERS])
 {
     const wt_dwell_history *h = t->history;
@@ -482,7 +486,7 @@ static void begin_elastic(dwell_task *t, double p[N_PARAMETERS])
     }
     t->sd[SLOPE] = usual_slope;
     t->sd[BEND] = usual_bend;
-    /* The tilt may all be drift, or none of it. */
+    /* The tilt may be entirely due to drift, or not at all. */
     t->sd[DRIFT] = hypot(h->baseline_tilt.value, h->baseline_tilt.standard_error) * fabs(rate) /
                    t->unit[DRIFT];
     if (!(t->sd[DRIFT] > 0))

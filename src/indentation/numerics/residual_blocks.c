@@ -1,4 +1,4 @@
-/* The residual of a fit in blocks, and its noise.
+/* Block means of the residual of a fit, and their noise.
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
@@ -9,16 +9,18 @@
 
 enum {
     N = CURVE_N_PARAMETERS,
-    POWERS = 4, /* a cubic: drift is no noise */
-    SLOW = 8,   /* cosines of the contact: what a misfit makes is none either */
+    POWERS = 4, /* a cubic for drift, which is no noise */
+    SLOW = 8,   /* cosines of the contact for a misfit, which is no noise */
     MOST = BLOCKS_BEFORE + BLOCKS_WINDOW,
 };
-static const double before_contact = 0.2; /* of the contact: a snap-on hides there */
-/* Of the force: a residual that rounding in files and tables makes. */
+static const double before_contact =
+    0.2; /* share of the contact before it that belongs to the window, for a snap-in */
+/* Smallest residual over the force, due to rounding in files and tables. */
 static const double rounding_share = 2e-5;
-static const double same = 1e-9; /* of a column: it lies in those before it, but for rounding */
+static const double same =
+    1e-9; /* relative remainder of a column that depends linearly on earlier ones */
 
-/* Sample j, of block i of the history and window. */
+/* Adds sample j to block i of the history and window. */
 static void add_columns(const curve_law *m, const double p[N], size_t j, size_t i,
                         residual_blocks *b)
 {
@@ -38,7 +40,7 @@ static void add_columns(const curve_law *m, const double p[N], size_t j, size_t 
     }
 }
 
-/* Sums of what touches become means, of the largest. */
+/* Converts sums of the depths to means, relative to the largest. */
 static void scale_depths(residual_blocks *b)
 {
     double most = 0.0;
@@ -123,14 +125,14 @@ WIDE_REGISTERS double residual_project_out(double *r, double *const *columns, si
 
 /* ---- noise ----------------------------------------------------------------------------------- */
 
-/* The noise in one or two runs of blocks. */
+/* Noise in one or two runs of blocks. */
 typedef struct runs {
     double x[MOST];
-    size_t n, second; /* blocks; where the second run begins */
-    double taken;     /* parameters that were taken out */
+    size_t n, second; /* blocks; start of the second run */
+    double taken;     /* parameters that were eliminated */
 } runs;
 
-/* Less a polynomial of `terms` terms. */
+/* Subtracts a polynomial of `terms` terms. */
 static void take_out_powers(double *x, size_t n, size_t terms)
 {
     double power[POWERS][BLOCKS_BEFORE];
@@ -145,7 +147,7 @@ static void take_out_powers(double *x, size_t n, size_t terms)
     residual_project_out(x, columns, terms, terms, n, &ignored);
 }
 
-/* The window less what the parameters and slow waves can be. */
+/* Subtracts the columns of the parameters and slow cosines from the window. */
 static void take_out_slow(const residual_blocks *b, double *x)
 {
     double store[BLOCKS_COLUMNS + SLOW][BLOCKS_WINDOW], *columns[BLOCKS_COLUMNS + SLOW];
@@ -160,7 +162,7 @@ static void take_out_slow(const residual_blocks *b, double *x)
     residual_project_out(x, columns, b->n_columns + SLOW, b->n_columns + SLOW, b->n, &ignored);
 }
 
-/* By Burg, its order by the corrected criterion of Akaike. */
+/* Fits an autoregression by Burg's method, with the order by the corrected Akaike criterion. */
 WIDE_REGISTERS static void autoregress(const runs *of, residual_blocks *b)
 {
     const size_t n = of->n, start[2] = {0, of->second}, stop[2] = {of->second, n};
@@ -170,7 +172,7 @@ WIDE_REGISTERS static void autoregress(const runs *of, residual_blocks *b)
     const double all = (double)n - of->taken + POWERS;
     double variance = curve_dot(x, x, n) / all, best = (double)INFINITY;
     b->innovation = 0.0;
-    b->order = 0; /* of a baseline without noise, too */
+    b->order = 0; /* also for a baseline without noise */
     for (size_t order = 0; order <= BLOCKS_MAX_ORDER && variance > 0.0; order++) {
         const double p = (double)order + 1.0;
         if (!(all - p - 3.0 > 0.0))
@@ -212,7 +214,7 @@ bool residual_blocks_find_noise(const curve_law *m, const double p[N], residual_
     memcpy(of.x, b->r, b->n_before * sizeof *of.x);
     if (!is_short) {
         take_out_powers(of.x, of.n, POWERS);
-    } else { /* what is slow in contact may be misfit, what is fast is noise */
+    } else { /* slow parts in contact may be misfit, fast ones are noise */
         of.n = b->n_before + b->n;
         of.taken = (double)(b->n_columns + SLOW + 1);
         memcpy(of.x + b->n_before, b->r + b->n_before, b->n * sizeof *of.x);

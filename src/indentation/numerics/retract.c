@@ -1,4 +1,4 @@
-/* What the way out of one force curve says: the pull at its end, and the work that is lost.
+/* Analysis of the retract of one force curve: pull-off force and lost work.
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
@@ -8,9 +8,10 @@
 #include <math.h>
 #include <string.h>
 
-/* Of the retract: in it half of a pull-off is over, which is a jump but for the samples in it. */
+/* Duration of half a pull-off over the retract. A pull-off is a jump except for a few samples. */
 static const double let_go = 0.02;
-/* Rubber loses of what the lever gives back, too; twice what it took is no loss but a drift. */
+/* Limit of the loss. The sample may also lose work of the cantilever. Twice the work indicates a
+ * drift. */
 static const double most_loss = 2.0;
 enum { LEVER_ROUNDS = 50 };
 
@@ -29,7 +30,7 @@ static double within(double x, double from, double to)
     return x < from ? from : x > to ? to : x;
 }
 
-/* Without branches, which noise would take at random. */
+/* Median of three without branches, which noise would make unpredictable. */
 static double middle_of(double a, double b, double c)
 {
     const double low = a < b ? a : b, high = a < b ? b : a;
@@ -37,9 +38,9 @@ static double middle_of(double a, double b, double c)
     return least > low ? least : low;
 }
 
-/* The largest pull of n forces above the baseline, smoothed over `width` samples, the last `far` of
- * which are free of the sample, if it stands out of them, of which `noise` is the scatter, and ends
- * at once in `ends`; else 0. */
+/* Returns the largest pull of n smoothed forces above the baseline if it is significant and ends
+ * abruptly in `ends`; else 0. `width` is the width of the smoothing. The forces at the far end are
+ * free of the sample and have the standard deviation `noise`. */
 WIDE_REGISTERS static double sudden_pull(const double *smooth, const double *ends, size_t n,
                                          size_t width, size_t far, double noise)
 {
@@ -57,7 +58,7 @@ WIDE_REGISTERS static double sudden_pull(const double *smooth, const double *end
                                                                                            : 0.0;
 }
 
-/* Of the last n of x, which has room for them behind them. */
+/* Robust standard deviation of n values. The last argument is a scratch array [n]. */
 static double scatter_of(const double *x, size_t n, double *room)
 {
     for (size_t i = 0; i < n; i++)
@@ -65,8 +66,8 @@ static double scatter_of(const double *x, size_t n, double *room)
     return median(room, n) / 0.6744897501960817;
 }
 
-/* By medians of three, and if there is none by means over ever more samples up to as many as a
- * pull-off may take: a weak one is not seen on a sample. */
+/* Finds the pull-off with medians of three. If there is none, means over more and more samples are
+ * used, up to the length of a pull-off, because single samples do not show a weak one. */
 static double find_pull_off(const double *above, size_t n, size_t far, double *smooth, double *room)
 {
     for (size_t i = 1; i + 1 < n; i++)
@@ -89,7 +90,8 @@ static double find_pull_off(const double *above, size_t n, size_t far, double *s
     return pull;
 }
 
-/* Work against the lever and the sample between two positions of the base: the loop is the loss. */
+/* Work of the base between two positions. The difference between approach and retract is the loss.
+ */
 static double work_along(const double *position, const double *force, size_t n, double from,
                          double to)
 {
@@ -108,8 +110,8 @@ static double work_along(const double *position, const double *force, size_t n, 
     return fabs(sum);
 }
 
-/* What the lever holds of it at a position, by the fit: of a soft one it is nearly all, and noise
- * of one force would make loss. */
+/* Work stored in the cantilever at a position, from the fit. For a soft cantilever it is nearly all
+ * the work, and the noise of a single force would appear as loss. */
 static double lever_work(const curve_fitting *f, double top)
 {
     const double *p = f->solution.p, k = f->input.samples.spring_constant,
@@ -125,7 +127,8 @@ static double lever_work(const curve_fitting *f, double top)
     return 0.5 * force * force / k;
 }
 
-/* Positions of the retract and forces above the baseline; returns how many are numbers. */
+/* Computes positions of the retract and forces above the baseline. Returns the number of finite
+ * samples. */
 WIDE_REGISTERS static size_t measure_retract(const curve_fitting *f, const double *height,
                                              const double *force, size_t n)
 {
@@ -147,8 +150,8 @@ WIDE_REGISTERS static size_t measure_retract(const curve_fitting *f, const doubl
     return kept;
 }
 
-/* Takes the wave of the way in out of n forces above the baseline, of which the last `far` are free
- * of the sample, if it is there, too. */
+/* Subtracts the wave of the approach from n forces above the baseline. The subtraction only applies
+ * if it reduces the variance at the far end, which is free of the sample. */
 static void take_out_wave(const curve_fitting *f, const double *position, double *above, size_t n,
                           size_t far)
 {
@@ -169,8 +172,8 @@ static void take_out_wave(const curve_fitting *f, const double *position, double
         memcpy(above, part, n * sizeof *above);
 }
 
-/* In samples of the way out from its end on: the first that is in contact, behind the edge of the
- * pull-off, by the largest sum of departures from half of it. */
+/* Returns the first sample in contact of the reversed retract, after the edge of the pull-off. It
+ * maximises the sum of departures from half the pull-off. */
 static size_t edge_of(const curve_samples *s, double pull)
 {
     const double low = curve_span_of(s->force, s->n).low;
@@ -188,8 +191,8 @@ static size_t edge_of(const curve_samples *s, double pull)
     return edge;
 }
 
-/* For a fit: the way out as if it went in, without the samples of a lever on its way from the
- * sample, which stand out of the noise. */
+/* Stores the reversed retract for a fit, without the samples during the jump of the cantilever,
+ * which exceed the noise. */
 static void keep_way_out(curve_fitting *f, size_t n)
 {
     wt_indent_workspace *w = f->workspace;
@@ -232,13 +235,14 @@ void curve_read_retract(curve_fitting *f, const double *height, const double *fo
         return;
     if (curve_has_wave(&f->solution.wave))
         take_out_wave(f, position, above, kept, far);
-    /* The far end is its own baseline: drag and drift part it from that of the approach. */
+    /* The far end has its own baseline, because of drag and drift. */
     memcpy(scratch, above + kept - far, far * sizeof *scratch);
     const double level = median(scratch, far);
     for (size_t i = 0; i < kept; i++)
         above[i] -= level;
     f->pull_off = find_pull_off(above, kept, far, scratch, w->weight);
-    /* A way out may begin below the top of the way in: what both have is compared. */
+    /* The comparison covers the common range, because the retract may begin below the top of the
+     * approach. */
     const double top =
         fmin(curve_span_of(position, kept).high, curve_span_of(s->position, f->input.n_all).high);
     const double back = work_along(position, above, kept, c, top);
@@ -246,7 +250,7 @@ void curve_read_retract(curve_fitting *f, const double *height, const double *fo
         scratch[i] = s->force[i] - curve_baseline(&f->solution, s->position[i]);
     const double in = work_along(s->position, scratch, f->input.n_all, c, top);
     const double share = (in - back) / (in - lever_work(f, top));
-    /* Else the sample took too little of the work to say. */
+    /* Otherwise the sample received too little work for a result. */
     if (share > 1.0 - most_loss && share < most_loss)
         f->loss = share;
     if (!curve_has_wave(&f->solution.wave))

@@ -1,4 +1,4 @@
-/* A contact law fitted to the way out of one force curve.
+/* Fit of a contact law to the retract of one force curve.
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
@@ -10,7 +10,7 @@
 
 #include <math.h>
 
-/* Adhesion of the pull-off, as the parameter of a law; NaN: that law has none. */
+/* Parameter of a law for the pull-off force; NaN if the law does not apply. */
 static double adhesion_of_pull_off(const curve_fitting *f, const curve_kind *kind, double reduced)
 {
     if (kind->constant_pull)
@@ -42,7 +42,7 @@ bool curve_fit_way_out(const curve_fitting *f, const curve_kind *kind, const cur
     return out->effective_n > 0.0;
 }
 
-/* The better one of the laws; false if none fits. */
+/* Fits the laws and returns the best. Returns false if none fits. */
 static bool fit_better_law(const curve_fitting *f, curve_solution *best, curve_kind *kind)
 {
     const bool adhesive = f->way_out.jump > 0;

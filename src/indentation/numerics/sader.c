@@ -1,6 +1,7 @@
-/* Spring constant of a lever by its resonance and quality factor in a fluid, without a deflection.
+/* Spring constant of a cantilever from resonance and quality factor in a fluid, without a
+ * deflection.
  *
- * Rectangular levers: Sader, Chon and Mulvaney, Rev. Sci. Instrum. 70 (1999) 3967, with the
+ * Rectangular cantilevers: Sader, Chon and Mulvaney, Rev. Sci. Instrum. 70 (1999) 3967, with the
  * hydrodynamic function of Sader, J. Appl. Phys. 84 (1998) 64, eqs. 20 and 21.
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
@@ -10,16 +11,16 @@
 #include <complex.h>
 #include <math.h>
 
-/* To the digits of a double. */
+/* Value in double precision. */
 static const double pi = 3.14159265358979323846;
-/* Of the paper's eq. 1: the first mode of a rectangular lever. */
+/* Factor of eq. 1 of the paper for the first mode of a rectangular cantilever. */
 static const double first_mode = 0.1906;
 
 /* ---- the hydrodynamic function --------------------------------------------------------------- */
 
-/* exp(z) K_n(z), n = 0 and 1, of |arg z| < pi/2: the integral of exp(-z (cosh t - 1)) cosh(n t).
- * The trapezoidal rule of such an integrand has an error that falls exponentially with 1/step; the
- * tail ends where the exponent is below that of the smallest double. */
+/* Computes exp(z) K_n(z), n = 0 and 1, for abs(arg z) < pi/2 as the integral of exp(-z (cosh t -
+ * 1)) cosh(n t). The error of the trapezoidal rule falls exponentially with 1/step. The tail ends
+ * where the exponent is below that of the smallest double. */
 static void bessel_k(double complex z, double complex k[2])
 {
     const double step = 1.0 / 64, smallest = -745; /* ln of the smallest double */
@@ -41,8 +42,8 @@ static double polynomial(const double *c, int n, double x)
     return sum;
 }
 
-/* Of a circular cylinder, and what a flat blade is of that (the paper's fit, good to 0.1 % from
- * Re = 1e-6 to 1e4). */
+/* Hydrodynamic function of a circular cylinder times a correction for a flat blade. The correction
+ * is the fit of the paper, accurate to 0.1 % from Re = 1e-6 to 1e4. */
 void wt_hydrodynamic_function(double reynolds, double *real, double *imaginary)
 {
     /* Eqs. 21a and 21b of the paper. */
@@ -71,13 +72,13 @@ void wt_hydrodynamic_function(double reynolds, double *real, double *imaginary)
 wt_fluid wt_medium_properties(wt_medium medium, double temperature)
 {
     const double t = temperature - WT_ZERO_CELSIUS, unknown = (double)NAN;
-    if (medium == WT_MEDIUM_AIR) /* dry, at 1013.25 hPa; viscosity by Sutherland's law */
+    if (medium == WT_MEDIUM_AIR) /* dry air at 1013.25 hPa; viscosity by Sutherland's law */
         return (wt_fluid){101325 * 28.9647e-3 / (8.314462618 * temperature),
                           1.716e-5 * pow(temperature / 273.15, 1.5) * (273.15 + 110.4) /
                               (temperature + 110.4)};
     if (!(t >= 0 && t <= 100))
         return (wt_fluid){unknown, unknown};
-    /* density: Tanaka et al., Metrologia 38 (2001) 301; viscosity: IAPWS, liquid water at 0.1 MPa
+    /* Density: Tanaka et al., Metrologia 38 (2001) 301. Viscosity: IAPWS, liquid water at 0.1 MPa.
      */
     const double x = temperature / 300, off = t - 3.983035;
     return (wt_fluid){999.97495 * (1 - off * off * (t + 301.797) / (522528.9 * (t + 69.34881))),
@@ -101,7 +102,8 @@ static double spring_constant(double length, double width, double resonance, dou
 wt_estimate wt_sader_spring_constant(wt_estimate length, wt_estimate width, wt_estimate resonance,
                                      wt_estimate quality, wt_fluid fluid)
 {
-    const double step = 1e-4; /* of a difference quotient: its error goes with the square */
+    const double step =
+        1e-4; /* of a difference quotient, whose error is of the order of its square */
     const double l = length.value, b = width.value, f = resonance.value, q = quality.value;
     const double k = spring_constant(l, b, f, q, fluid);
     const double by_width = log(spring_constant(l, b * (1 + step), f, q, fluid) /

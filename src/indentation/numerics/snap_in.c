@@ -1,4 +1,4 @@
-/* A snap-on of the approach: the pull right before the force rises.
+/* Snap-in of the approach: a pull just before the force rises.
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
@@ -8,15 +8,15 @@
 #include <math.h>
 #include <string.h>
 
-/* Of the indentation: how far from the contact point of a fit without adhesion a snap-on may lie;
- * beyond it is an event of the baseline. */
+/* Largest distance of a snap-in from the contact point of a fit without adhesion, over the
+ * indentation. A more distant pull is an event of the baseline. */
 static const double gap_tolerance = 0.5;
-/* Of the largest force: a smaller pull draws no baseline along so far that it does not stand out,
- * and what a line that is continued to twice its length misses is a bend of the baseline. */
+/* Smallest pull over the largest force that may displace the baseline so much that the pull is
+ * hidden. For a smaller pull the extrapolation error of the line exceeds it. */
 static const double large_pull = 0.25;
 
-/* Their mean is below the baseline by the scatter of one sample where a pull goes on: by chance at
- * one in 400 places of white noise. */
+/* Samples of the tail of a pull. Their mean is below the baseline by the standard deviation of one
+ * sample; white noise does so at one of 400 positions. */
 enum { TAIL_SAMPLES = 8 };
 
 size_t curve_tail_start(const double *above, size_t at, double noise)
@@ -31,7 +31,8 @@ size_t curve_tail_start(const double *above, size_t at, double noise)
     return at;
 }
 
-/* That stands out of everything before it, above the baseline of p. */
+/* Finds a pull relative to the baseline of p. Returns true if it exceeds everything before it
+ * significantly. */
 WIDE_REGISTERS static bool stands_out(const curve_fitting *f, const double p[CURVE_N_PARAMETERS],
                                       curve_snap *found)
 {
@@ -65,7 +66,7 @@ WIDE_REGISTERS static bool stands_out(const curve_fitting *f, const double p[CUR
            s->n - (end - start) >= CURVE_MIN_SAMPLES;
 }
 
-/* The baseline of p becomes the line through the first n samples; returns its standard error at the
+/* Sets the baseline of p to the line through the first n samples. Returns its standard error at the
  * contact point. */
 static double set_baseline(const curve_fitting *f, size_t n, double p[CURVE_N_PARAMETERS])
 {
@@ -84,8 +85,9 @@ static double set_baseline(const curve_fitting *f, size_t n, double p[CURVE_N_PA
     return error;
 }
 
-/* A pull as large as the force draws the baseline of a fit without it along: the line through the
- * far half of what is before the lowest force is free of it, which is where the tip touches. */
+/* Finds a pull as large as the force, which displaces the baseline of a fit without it. The
+ * reference is a line through the far half of the samples before the lowest force, at which contact
+ * begins. */
 static bool stands_out_of_far(const curve_fitting *f, double p[CURVE_N_PARAMETERS],
                               curve_snap *found)
 {
@@ -126,7 +128,7 @@ void curve_leave_out(curve_fitting *f, size_t start, size_t end)
     const size_t behind = f->input.n_all - f->n_snap - end;
     memmove(s->position + start, s->position + end, behind * sizeof *s->position);
     memmove(s->force + start, s->force + end, behind * sizeof *s->force);
-    if (s->force != w->force) /* less a wave */
+    if (s->force != w->force) /* the forces exclude a wave */
         memmove(w->force + start, w->force + end, behind * sizeof *w->force);
     s->n -= end - start;
     f->n_snap += end - start;

@@ -1,8 +1,9 @@
-/* Thermal noise of a lever: a simple harmonic oscillator on a white floor, by maximum likelihood.
+/* Thermal noise of a cantilever: maximum likelihood fit of a simple harmonic oscillator with a
+ * white floor.
  *
- * An averaged periodogram is its mean times a gamma variable, so that the likelihood is Whittle's:
- * the sum of ln S + p/S, whatever the number of averages is. That number is found from the scatter
- * about the fit, and what neighbours share (a window shares bins) from their correlation.
+ * An averaged periodogram is its mean times a gamma variable. The likelihood is therefore
+ * Whittle's, the sum of ln S + p/S, for any number of averages. The scatter about the fit
+ * determines that number, and the correlation of neighbouring bins the effect of the window.
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
@@ -16,36 +17,37 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Parameters, as logarithms: floor, mean square of the deflection, resonance, quality. */
+/* Logarithmic parameters: floor, mean square of the deflection, resonance, quality. */
 enum { FLOOR, SQUARE, RESONANCE, QUALITY, P };
-/* A bound of time; bins that neighbours share noise over, which is two under the weights of Hann;
- * points at least, six for each parameter; blocks by which a slow departure is seen, five for each;
- * bins of a mean that looks for the peak. */
+/* Limit of the iterations. Correlated neighbouring bins, two for a Hann window. Smallest number of
+ * points, six per parameter. Blocks for a slow departure, five per parameter. Bins of the mean in
+ * the search for the peak. */
 enum { STEPS = 200, LAGS = 3, LEAST_POINTS = 24, BLOCKS = 20, PEAK_SMOOTH = 3 };
-/* Qualities to start with, from a lever in water that hardly swings to one in vacuum; the range:
- * widths of the peak to either side (an oscillator is 1/6400 of its top there, so that the floor is
- * seen), within these shares of the resonance: noise that rises towards low frequencies is below,
- * and the second mode of a lever, 6.27 times as high (Butt and Jaschke 1995), above. */
+/* Start values of the quality, from an overdamped cantilever in water to one in vacuum. Range of
+ * the fit in peak widths to either side, where the oscillator has 1/6400 of its top and the floor
+ * is visible. Limits of the range over the resonance, between low-frequency noise and the second
+ * mode at 6.27 (Butt and Jaschke 1995). */
 static const double least_quality = 0.7, most_quality = 1e6, quality_step = 1.5;
 static const double range_widths = 40, range_low = 0.25, range_high = 3;
-/* Intervals of 95 %; residuals are clipped at so many standard deviations, one normal one in 370;
- * standard deviation of a normal distribution over its median distance from the median. */
+/* Probability for 95 % intervals. Clipping of residuals in standard deviations, which one normal
+ * value in 370 exceeds. Standard deviation of a normal distribution over its median absolute
+ * deviation. */
 static const double level = 0.975, clipped = 3, mad_to_deviation = 1.4826;
-static const double pi = 3.14159265358979323846; /* to the digits of a double */
+static const double pi = 3.14159265358979323846; /* double precision */
 
 typedef struct noise {
     const double *f, *p; /* [n] within the range */
     size_t n;
 } noise;
 
-/* Spectrum at a frequency and what it changes by with each parameter, of itself. */
+/* Returns the spectrum at a frequency; g receives its logarithmic derivatives by the parameters. */
 static double oscillator_spectrum(const double theta[P], double f, double g[P])
 {
     const double white = exp(theta[FLOOR]), f0 = exp(theta[RESONANCE]), q = exp(theta[QUALITY]);
     const double x = f / f0, x2 = x * x, d = (1 - x2) * (1 - x2) + x2 / (q * q);
     const double peak = 2 * exp(theta[SQUARE]) / (pi * f0 * q) / d, s = white + peak;
     if (g != NULL) {
-        /* ln peak = ln square - ln f0 - ln q - ln d; x goes as 1/f0 */
+        /* ln peak = ln square - ln f0 - ln q - ln d; x is proportional to 1/f0. */
         const double d_x = -4 * x2 * (1 - x2) + 2 * x2 / (q * q); /* d d / d ln x */
         const double d_q = -2 * x2 / (q * q);
         g[FLOOR] = white / s;
@@ -56,7 +58,7 @@ static double oscillator_spectrum(const double theta[P], double f, double g[P])
     return s;
 }
 
-/* Half of the deviance, for one average. */
+/* Half of the deviance for one average. */
 static double half_deviance(const noise *v, const double theta[P])
 {
     double sum = 0;
@@ -67,7 +69,7 @@ static double half_deviance(const noise *v, const double theta[P])
     return sum;
 }
 
-/* Solves a x = b for a positive definite a; false if it is not. */
+/* Solves a x = b for a positive definite a. Returns false if a is not. */
 static bool solve_scoring(double a[P][P], const double b[P], double x[P])
 {
     double l[P][P];
@@ -95,7 +97,7 @@ static void fisher_information(const noise *v, const double theta[P], double fis
     }
 }
 
-/* Scoring with damping; true when no step is left. */
+/* Damped Fisher scoring. Returns true at convergence. */
 static bool raise_likelihood(const noise *v, double theta[P])
 {
     double best = half_deviance(v, theta), damping = 1e-3;
@@ -129,7 +131,7 @@ static bool raise_likelihood(const noise *v, double theta[P])
 
 /* ---- errors ---------------------------------------------------------------------------------- */
 
-/* Variance of the residuals and their correlation with the next ones. */
+/* Computes the variance of the residuals and their correlation with the next ones. */
 static double scatter_of(const double *r, size_t n, double correlation[LAGS + 1])
 {
     double squares = 0;
@@ -139,13 +141,14 @@ static double scatter_of(const double *r, size_t n, double correlation[LAGS + 1]
         double sum = 0;
         for (size_t i = 0; i + lag < n; i++)
             sum += r[i] * r[i + lag];
-        /* what chance gives in so many samples is none */
+        /* an insignificant correlation counts as 0 */
         correlation[lag] = lag == 0 || sum / squares > 2 / sqrt((double)n) ? sum / squares : 0;
     }
     return squares / (double)(n - P);
 }
 
-/* Covariance of the parameters, with what neighbours share; false if it is none. */
+/* Computes the covariance of the parameters with the correlation of neighbours. Returns false if
+ * the matrix is singular. */
 static bool parameter_covariance(const noise *v, const double theta[P], const double *gradient,
                                  double variance, const double correlation[LAGS + 1],
                                  double cov[P][P])
@@ -183,8 +186,8 @@ static wt_interval log_normal_interval(double log_value, double variance)
     return (wt_interval){value, value * error, value * exp(-half), value * exp(half)};
 }
 
-/* Chance that blocks of residuals are off to one side as much by scatter alone. What departs would
- * hide in the scatter that it is held against: that is of the middle of the residuals. */
+/* p value of slow departures: block sums of the residuals against their scatter. A departure
+ * increases the scatter, so clipped residuals determine it. */
 static double slow_chance(const double *r, size_t n, double *room)
 {
     double shared = 1, squares = 0, correlation[LAGS + 1];
@@ -225,10 +228,9 @@ static bool tell_errors(const noise *v, const double theta[P], wt_thermal *t, do
     return isfinite(t->mean_square.standard_error) && isfinite(t->quality.standard_error);
 }
 
-/* ---- where the peak is ----------------------------------------------------------------------- */
+/* ---- position of the peak -------------------------------------------------------------------- */
 
-/* Largest of p f, which noise that rises towards low frequencies does not carry, over a few bins.
- */
+/* Returns the maximum of p f, averaged over a few bins. Low-frequency noise hardly affects it. */
 static size_t find_peak(const double *f, const double *p, size_t n)
 {
     size_t peak = PEAK_SMOOTH / 2;
@@ -245,7 +247,7 @@ static size_t find_peak(const double *f, const double *p, size_t n)
     return peak;
 }
 
-/* The tenth part that is lowest ends here. */
+/* Returns the 10 % quantile. */
 static double low_level(const double *p, size_t n, double *room)
 {
     for (size_t i = 0; i < n; i++)
@@ -254,7 +256,7 @@ static double low_level(const double *p, size_t n, double *room)
     return room[n / 10];
 }
 
-/* Start with the quality that suits the spectrum about the peak best. */
+/* Selects the start value of the quality with the best likelihood near the peak. */
 static void start_parameters(const noise *v, double f0, double ground, double theta[P])
 {
     double best = (double)INFINITY, area = 0;

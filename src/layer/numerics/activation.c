@@ -1,9 +1,9 @@
-/* The activated closure: Omega = P A exp(-max(0, eps - V_a e) / kB T) in contact, beside
- * A exp(-eps / kB T) everywhere, which is taken off: what is left has an integral down to any
- * depth.
+/* Activated closure: Omega = P A exp(-max(0, eps - V_a e) / kB T) in contact, in addition to A
+ * exp(-eps / kB T) everywhere. The latter is subtracted, so that the remainder has a finite
+ * integral to any depth.
  *
- * Its integral is kept in panels of depth over which two Gauss-Legendre rules agree, from the
- * surface to where Omega is linear in e; from there on it is the integral of e.
+ * The integral is stored on subintervals of depth over which two Gauss-Legendre rules agree, from
+ * the surface to where Omega is linear in e; below, it is the integral of e.
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
@@ -17,30 +17,32 @@
 #include <math.h>
 #include <stdlib.h>
 
-/* Rules whose difference is the error: that of the lower one. */
+/* Numbers of nodes of the two rules, whose difference is the error of the lower one. */
 enum { LOW_NODES = 12, HIGH_NODES = 16 };
-/* A panel whose two rules differ by more is halved, until it is this part of its depth: where the
- * barrier is gone Omega has an edge, which a panel so short may hold. */
+/* Tolerance of the difference of the two rules; larger subintervals are halved down to the second
+ * share of their depth. Omega has a kink where the barrier vanishes, which a subinterval that short
+ * may contain. */
 static const double panel_goal = 1e-13;
 static const double least_panel = 1e-14;
-/* ln(V_a e / kB T) below which expm1(x) is x to the last digit. */
+/* Value of ln(V_a e / kB T) below which expm1(x) equals x in double precision. */
 static const double log_linear = -37;
-/* exp(-x) is nothing beside 1. */
+/* Above this x, exp(-x) is negligible against 1. */
 static const double large = 40;
-/* More panels than any profile needs: some hundred, and fifty at each edge. */
+/* Upper limit of the number of subintervals: a profile needs some hundred, and fifty at each kink.
+ */
 enum { MOST_PANELS = 20000 };
 
 struct activation {
-    wt_energy_source dwell; /* whose density is e */
+    wt_energy_source dwell; /* source whose density is e */
     double log_rate;        /* ln(P Omega_inf) */
     double barrier;         /* eps / kB T */
     double log_volume;      /* ln(V_a / kB T) */
-    double bare;            /* down to here the barrier is gone, if e falls */
+    double bare;            /* depth above which the barrier is 0, if e falls */
     const gauss_rule *low, *high;
-    size_t n, room;   /* panels */
+    size_t n, room;   /* number of subintervals, and capacity */
     double *edge;     /* [n + 1] */
-    double *log_part; /* [n] integral over a panel */
-    double *log_tail; /* [n + 1] from an edge on */
+    double *log_part; /* [n] ln of the integral over a subinterval */
+    double *log_tail; /* [n + 1] ln of the integral below an edge */
 };
 
 /* ---- without load ---------------------------------------------------------------------------- */
@@ -63,7 +65,7 @@ double wt_activation_least_barrier(double temperature, wt_attempt_frequency atte
     return BOLTZMANN * temperature * log(attempt_rate(attempt, temperature) / rate);
 }
 
-/* T ln(A(T) / rate) = eps / kB: the left side rises as soon as A > rate. */
+/* Condition T ln(A(T) / rate) = eps / kB. The left side rises for A > rate. */
 typedef struct shelf {
     double barrier, rate;
     wt_attempt_frequency attempt;
@@ -94,7 +96,7 @@ static double log_help(const activation *a, double depth)
     return a->log_volume + energy_log_density(&a->dwell, depth);
 }
 
-/* ln(exp(x) - 1) of ln x; no more than the barrier helps. */
+/* ln(exp(x) - 1) as a function of ln x; x is limited to the barrier. */
 static double log_gained(const activation *a, double log_x)
 {
     if (log_x < log_linear)
@@ -108,7 +110,7 @@ double activation_log_density(const activation *a, double depth)
     return a->log_rate + log_gained(a, log_help(a, depth));
 }
 
-/* ln of the integral over a stretch, by one rule. */
+/* ln of the integral between two depths, by one rule. */
 static double stretch_integral(const activation *a, const gauss_rule *rule, double low, double high)
 {
     double value[HIGH_NODES], most = -HUGE_VAL, sum = 0;
@@ -122,7 +124,7 @@ static double stretch_integral(const activation *a, const gauss_rule *rule, doub
     return log(half * sum) + most;
 }
 
-/* Where V_a e = eps. */
+/* Zero at the depth where V_a e = eps. */
 static double bare_function(double depth, void *user)
 {
     const activation *a = user;
@@ -141,7 +143,7 @@ static wt_status find_bare(activation *a, wt_error *err)
     return root_find(bare_function, a, 0, high, 0, &a->bare, err);
 }
 
-/* ---- panels ---------------------------------------------------------------------------------- */
+/* ---- subintervals ---------------------------------------------------------------------------- */
 
 static bool panels_grow(activation *a)
 {
@@ -158,7 +160,8 @@ static bool panels_grow(activation *a)
     return true;
 }
 
-/* The next panel, as long as the rules let it be; the length that may be tried next. */
+/* Adds the next subinterval, as long as the rules agree; *length returns the trial length of the
+ * following one. */
 static void panel_add(activation *a, double *length)
 {
     const double from = a->edge[a->n];
@@ -177,7 +180,7 @@ static void panel_add(activation *a, double *length)
     *length *= 2;
 }
 
-/* ln of the integral of what is linear in e, below the last panel. */
+/* ln of the integral below the last subinterval, where Omega is linear in e. */
 static double linear_tail(const activation *a, double depth)
 {
     return a->log_rate + a->log_volume + energy_log_tail(&a->dwell, depth);
@@ -208,7 +211,7 @@ static wt_status panels_make(activation *a, wt_error *err)
     return WT_OK;
 }
 
-/* The last edge at or above a depth. */
+/* Returns the last edge at or above a depth. */
 static size_t panel_of(const activation *a, double depth)
 {
     size_t low = 0, high = a->n;
@@ -236,7 +239,7 @@ double activation_log_gain(const activation *a, double depth, double length)
 {
     const double end = depth + length, last = a->edge[a->n];
     const size_t first = panel_of(a, depth), to = panel_of(a, end);
-    if (!(end > depth)) /* too short for its end to be another number */
+    if (!(end > depth)) /* the length is below the resolution of the depth */
         return length > 0 ? activation_log_density(a, depth) + log(length) : -HUGE_VAL;
     if (first == a->n)
         return a->log_rate + a->log_volume + energy_log_gain(&a->dwell, depth, length);
@@ -253,7 +256,7 @@ double activation_log_gain(const activation *a, double depth, double length)
 
 /* ---- with bounds ----------------------------------------------------------------------------- */
 
-/* exp(-scale) times d Omega / dz and the largest |d Omega/dz| and |d^2 Omega/dz^2| from a depth on.
+/* exp(-scale) times d Omega / dz, and the largest |d Omega/dz| and |d^2 Omega/dz^2| below a depth.
  */
 typedef struct rate_slopes {
     double slope, most_slope, most_bend;
@@ -264,7 +267,7 @@ static rate_slopes slopes_at(const activation *a, double depth, double reach, do
     double q_min = 0, q_max;
     (void)energy_range(&a->dwell, &q_min, &q_max);
     const energy_course c = energy_course_at(&a->dwell, q_min, depth, 0, reach);
-    const double volume = exp(a->log_volume + c.log_scale); /* of the numbers of the course */
+    const double volume = exp(a->log_volume + c.log_scale); /* factor of the scaled expansion */
     const double x = volume * c.value;
     const double highest =
         volume * (c.value + reach * (fmax(0, c.slope) + 0.5 * reach * c.curvature));
@@ -312,7 +315,8 @@ void activation_free(activation *a)
     free(a);
 }
 
-/* The energy of each wave in contact for as long as it takes to pass. */
+/* Copies the source as energy per wave: its power times the time that the wave needs to pass in
+ * contact. */
 static wt_status copy_dwell(const wt_energy_source *source, double contact_velocity,
                             wt_energy_source *dwell, wt_error *err)
 {

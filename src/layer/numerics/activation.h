@@ -1,4 +1,4 @@
-/* Internal to the kernel room: bonds that stress helps over a barrier, as a rate over the depth.
+/* Stress-activated bond breaking as a rate against depth. Internal to layer.
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
@@ -9,16 +9,18 @@
 
 typedef struct activation activation;
 
-/* Of a source at a velocity; *out is NULL without power. */
+/* Creates the rate for a source at a velocity; *out is NULL without power. The caller frees it. */
 wt_status activation_new(const wt_energy_source *source, const wt_activation *parameters,
                          double velocity, activation **out, wt_error *err) WT_NODISCARD;
 void activation_free(activation *a);
 
-/* ln of Omega - Omega_inf at a depth, of its integral from there on, and over a length. */
+/* ln of Omega - Omega_inf at a depth, of its integral below a depth, and of its integral over a
+ * length. */
 double activation_log_density(const activation *a, double depth);
 double activation_log_tail(const activation *a, double depth);
 double activation_log_gain(const activation *a, double depth, double length);
-/* The same with slope and bound as energy_course_at gives them. */
+/* Variant that also returns the slope and a bound of the second derivative, as energy_course_at
+ * does. */
 energy_course activation_course(const activation *a, double depth, double length, double reach);
 /* Relative numerical error of the integrals. */
 double activation_error(const activation *a);

@@ -1,4 +1,5 @@
-/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Joint estimate of two correlated constants from several cases.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "layer/numerics/correlated_pair.h"
 
 #include "core/base/arena.h"
@@ -10,11 +11,11 @@
 #include <gsl/gsl_linalg.h>
 #include <math.h>
 
-enum { ENERGY, WEAR, BOTH }; /* the numbers of a pair, and how many there are */
-/* Of the part in common: all but the digits of a covariance, and where it is none any more, which
- * is beyond what is known of it. */
+enum { ENERGY, WEAR, BOTH }; /* the constants of a pair, and their number */
+/* Largest share of common errors that keeps the covariance matrix regular in double precision, and
+ * the smallest share tried. */
 static const double whole = 1 - 1e-6, least_part = 1.0 / 64;
-/* Of the product of the variances: below, the two numbers are one. */
+/* Relative limit of the determinant: below it the two constants are fully correlated. */
 static const double least_determinant = 1e-9;
 
 constant_axes constant_axes_of(pair_covariance c)
@@ -27,7 +28,7 @@ constant_axes constant_axes_of(pair_covariance c)
                        .loose_error = sqrt(middle + apart),
                        .tight_error = sqrt(fmax(middle - apart, 0))};
     if (isnan(angle))
-        a.tight_error = (double)NAN; /* fmax leaves NaN out */
+        a.tight_error = (double)NAN; /* fmax ignores NaN */
     else if (fabs(cos(angle)) >= fabs(sin(angle)))
         clocale_print(a.loose, sizeof a.loose, "U_c k^%.2f", tan(angle));
     else
@@ -46,15 +47,15 @@ static pair_covariance inverse(pair_covariance c)
     return (pair_covariance){c.wear / d, c.energy / d, -c.both / d};
 }
 
-/* ---- in common ------------------------------------------------------------------------------- */
+/* ---- common errors --------------------------------------------------------------------------- */
 
 typedef struct pair_work {
     const constant_pair *of;
     const bool *common;
     size_t n;
-    double *root;       /* [n][2][2] lower triangles whose squares are the inputs */
+    double *root;       /* [n][2][2] lower Cholesky factors of the covariances of the inputs */
     double *covariance; /* [2n][2n] */
-    double *columns;    /* [3][2n]: 1 for each number of a pair, and the values */
+    double *columns;    /* [3][2n] design columns of both constants, and the values */
 } pair_work;
 
 static void find_root(pair_covariance c, double root[4])
@@ -65,7 +66,7 @@ static void find_root(pair_covariance c, double root[4])
     root[3] = sqrt(fmax(c.wear - root[2] * root[2], 0));
 }
 
-/* Of numbers `a` of pair i and `b` of pair k. */
+/* Covariance of constant `a` of pair i with constant `b` of pair k. */
 static double covariance_of(const pair_work *w, double part, size_t i, size_t k, size_t a, size_t b)
 {
     const pair_covariance *c = &w->of[i].whole;
@@ -85,7 +86,7 @@ static double dot(const double *x, const double *y, size_t n)
     return sum;
 }
 
-/* By generalised least squares; false: the covariances are none. */
+/* Computes chi-squared by generalised least squares. False if the covariance matrix is singular. */
 static bool find_chi_squared(pair_work *w, double part, double *to)
 {
     const size_t all = BOTH * w->n;
@@ -116,9 +117,9 @@ static bool find_chi_squared(pair_work *w, double part, double *to)
     return true;
 }
 
-/* ---- the pair behind all --------------------------------------------------------------------- */
+/* ---- the common pair ------------------------------------------------------------------------- */
 
-/* The rows of the weight of pair i: `sum` is the inverse of the sum of the weights. */
+/* Weight matrix of pair i by rows; `sum` is the inverse of the sum of the weights. */
 static void weight_of(const pair_work *w, pair_covariance sum, size_t i, double weight[4])
 {
     const pair_covariance own = inverse(w->of[i].whole);

@@ -1,5 +1,6 @@
-/* Two constants that are known together, as logarithms: critical energy U_c and specific wear rate
- * k of a layer. Internal. SPDX-License-Identifier: GPL-3.0-or-later */
+/* Two correlated constants as logarithms: critical energy U_c and specific wear rate k of a layer.
+ * Internal to layer.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #ifndef WT_LAYER_NUMERICS_CORRELATED_PAIR_H
 #define WT_LAYER_NUMERICS_CORRELATED_PAIR_H
 
@@ -12,11 +13,11 @@ typedef struct pair_covariance {
     double energy, wear, both; /* variances of ln U_c and ln k, and their covariance */
 } pair_covariance;
 
-/* A covariance by its main axes; NaN and "": not known. */
+/* Principal axes of a covariance; NaN and "" if unknown. */
 typedef struct constant_axes {
     double correlation;
-    char loose[32];                  /* the combination that is known least: "U_c k^-0.42" */
-    double loose_error, tight_error; /* standard deviations along it and across it */
+    char loose[32];                  /* combination with the largest uncertainty: "U_c k^-0.42" */
+    double loose_error, tight_error; /* standard deviations along and across that combination */
 } constant_axes;
 constant_axes constant_axes_of(pair_covariance c);
 
@@ -24,13 +25,13 @@ constant_axes constant_axes_of(pair_covariance c);
 typedef struct constant_pair {
     double energy, wear;
     pair_covariance whole;
-    pair_covariance inputs; /* the part of it that other cases may have in common */
+    pair_covariance inputs; /* part of the covariance that cases may share */
 } constant_pair;
 
-/* One pair behind all: the weighted one, its covariance, and chi-squared of 2 (n - 1) degrees of
- * freedom with its p. Chi-squared is the less and the covariance the larger of those with nothing
- * in common and with all that `common` says: [n n], true where i and k share what `inputs` is of.
- */
+/* Common pair of all cases: the weighted mean, its covariance, and chi-squared with 2 (n - 1)
+ * degrees of freedom and its p value. Two assumptions are compared: independent cases, and shared
+ * errors according to `common`, an [n n] array that is true if i and k share the errors of
+ * `inputs`. Chi-squared is the smaller result and the covariance the larger. */
 typedef struct shared_pair {
     double energy, wear;
     pair_covariance covariance;

@@ -74,16 +74,17 @@ static double asymmetry(double m)
     return m > 1 ? -(1 - 1 / (m * m)) / (1 + 1 / (m * m)) : (1 - m * m) / (1 + m * m);
 }
 
-/* The incompressible density of one wavenumber has its extrema at q z = 1 and 1 - r; they fall
- * together for m = 1, and only then does it fall all the way. */
+/* True if the density falls with depth. The incompressible density of one wavenumber has its
+ * extrema at q z = 1 and 1 - r. They coincide for m = 1, and only then does the density fall
+ * monotonically. */
 bool energy_falls(const wt_energy_source *source)
 {
     return source->profile == WT_PROFILE_PERSSON || source->local_friction == 1;
 }
 
-/* The density over q exp(-2 x) and its derivatives, quadratics in x: g = q exp(-2 x) P(x), g' = q^2
- * exp(-2 x) D(x), g'' = q^3 exp(-2 x) B(x), with s = 1 - r. A quadratic c[0] + c[1] t + c[2] t^2 in
- * the way t from x on. */
+/* Polynomials of the density and its derivatives in x, with s = 1 - r: g = q exp(-2 x) P(x), g' =
+ * q^2 exp(-2 x) D(x), g'' = q^3 exp(-2 x) B(x). A quadratic c[0] + c[1] t + c[2] t^2 in the
+ * distance t from x. */
 typedef struct quadratic {
     double c[3];
 } quadratic;
@@ -105,23 +106,23 @@ WIDE_PART quadratic bend_from(double s, double x)
         {8 * (2 * x * x - 2 * (2 + s) * x + 1 + 3 * s), 8 * (4 * x - 2 * (2 + s)), 16}};
 }
 
-/* Some wavenumbers of a source at a depth, as many as the first cache holds. */
+/* Wavenumbers of a source at a depth; a batch fits into the first-level cache. */
 enum { BATCH = 64 };
 typedef struct batch {
     size_t n;
     const double *q;
     double r, depth, length;
-    double power[BATCH]; /* as it is left at the depth, over exp(-2 q_min depth) */
+    double power[BATCH]; /* power that remains at the depth, over exp(-2 q_min depth) */
     double gone[BATCH];  /* exp(-2 q length) - 1 */
 } batch;
 
-/* Begins at a wavenumber. */
+/* Fills a batch, beginning with a wavenumber. */
 static void batch_fill(const wt_energy_source *source, size_t from, double q_min, batch *b)
 {
     double x[BATCH];
     b->n = source->n - from < BATCH ? source->n - from : BATCH;
     b->q = source->wavenumber + from;
-    for (size_t i = 0; i < b->n; i++) /* without power it may be below q_min */
+    for (size_t i = 0; i < b->n; i++) /* wavenumbers without power may be below q_min */
         x[i] = b->q[i] > q_min ? -2 * (b->q[i] - q_min) * b->depth : 0;
     exponential(x, b->n, b->power);
     for (size_t i = 0; i < b->n; i++) {
@@ -132,7 +133,7 @@ static void batch_fill(const wt_energy_source *source, size_t from, double q_min
         exponential_less_one(x, b->n, b->gone);
 }
 
-/* What wavenumbers of power exp(2 q z) give at a depth z. */
+/* Evaluates a function of depth z for each wavenumber, for the power exp(2 q z). */
 typedef void shape_fn(const wt_energy_source *source, const batch *b, double *value);
 
 /* g(z; q) exp(2 q z) */
@@ -166,13 +167,13 @@ WIDE_PART double largest_of(quadratic of, double width)
            fabs(of.c[2]) * lesser(width * width, inverse_square);
 }
 
-/* Ways so short that their ends cancel, by series in y = -2 l: of l^(k+1) y^j / (j! (k+1+j)) the
- * first that is left out, j = 7, is below 1e-16. */
+/* Length below which the closed form cancels. The series in y = -2 l has the terms l^(k+1) y^j /
+ * (j! (k+1+j)); the first neglected one, j = 7, is below 1e-16. */
 static const double short_way = 0.01;
-/* At the end of a longer one nothing is left, exp(-800): its square must be a number. */
+/* Largest length. exp(-800) is 0 at its end, and its square must not overflow. */
 static const double longest_way = 400;
 
-/* int_0^l t^k exp(-2 t) dt; gone: exp(-2 l) - 1. */
+/* int_0^l t^k exp(-2 t) dt; the second argument is exp(-2 l) - 1. */
 WIDE_PART quadratic moments(double l, double gone)
 {
     const double y = -2 * l, way = lesser(l, longest_way), left = 1 + gone;
@@ -218,7 +219,7 @@ static void gain_shape(const wt_energy_source *source, const batch *b, double *v
     }
 }
 
-/* Over exp(-2 q_min depth). */
+/* Sum over the wavenumbers, divided by exp(-2 q_min depth). */
 static double sum_of(const wt_energy_source *source, shape_fn *of, double depth, double length,
                      double q_min)
 {
@@ -233,8 +234,8 @@ static double sum_of(const wt_energy_source *source, shape_fn *of, double depth,
     return sum;
 }
 
-/* Below it the powers are taken relative to the last that is left: far above where a double loses
- * digits, 1e-308. */
+/* Below this sum the powers are scaled by the slowest decay. It is far above 1e-308, where doubles
+ * lose digits. */
 static const double least_sum = 1e-200;
 
 static double log_sum(const wt_energy_source *source, shape_fn *of, double depth, double length)
@@ -246,7 +247,7 @@ static double log_sum(const wt_energy_source *source, shape_fn *of, double depth
     return log(sum_of(source, of, depth, length, q_min)) - 2 * q_min * depth;
 }
 
-/* The sum of those with power: without it a wavenumber may be any. */
+/* Sum of the values with power; values without power may be arbitrary. */
 WIDE_REGISTERS
 static double total_of(const double *value, const double *power, size_t n)
 {
@@ -260,7 +261,7 @@ static double total_of(const double *value, const double *power, size_t n)
     return (sum[0] + sum[1]) + (sum[2] + sum[3]);
 }
 
-/* Tail and density of both profiles, of a batch. */
+/* Tail and density of both profiles for a batch. */
 WIDE_REGISTERS
 static void terms_of_both(const batch *b, double value[ENERGY_BOTH][BATCH])
 {
@@ -311,12 +312,12 @@ double energy_falling(const wt_energy_source *source)
     return !energy_falls(source) && energy_range(source, &q_min, &q_max) ? last / q_min : 0;
 }
 
-/* What the wavenumbers of a batch add to a course of the incompressible profile. */
+/* Contributions of the wavenumbers of a batch to an expansion of the incompressible profile. */
 typedef struct course_terms {
     double value[BATCH], slope[BATCH], curvature[BATCH];
 } course_terms;
 
-/* Of the density itself. */
+/* Contributions to the density. */
 WIDE_REGISTERS
 static void density_terms(const batch *b, double reach, course_terms *t)
 {
@@ -329,7 +330,7 @@ static void density_terms(const batch *b, double reach, course_terms *t)
     }
 }
 
-/* Of its integral over a length. */
+/* Contributions to the integral of the density over a length. */
 WIDE_REGISTERS
 static void gain_terms(const batch *b, double reach, course_terms *t)
 {

@@ -1,5 +1,5 @@
-/* Internal to the kernel room: logarithms of an energy source over the depth. Scaled so that
- * nothing underflows, however deep.
+/* Logarithms of an energy source against depth, scaled so that no value underflows. Internal to
+ * layer.
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
@@ -17,25 +17,25 @@ static inline double log_add(double a, double b)
     return isinf(high) ? high : high + log1p(exp(fmin(a, b) - high));
 }
 
-/* WT_E_RANGE naming what is wrong with a source. */
+/* Returns WT_E_RANGE with the invalid value of a source. */
 wt_status energy_check(const wt_energy_source *source, wt_error *err) WT_NODISCARD;
 /* ln of w(z), of int_z^inf w, and of int_z^(z+length) w; -infinity for a source without power. */
 double energy_log_density(const wt_energy_source *source, double depth);
 double energy_log_tail(const wt_energy_source *source, double depth);
 double energy_log_gain(const wt_energy_source *source, double depth, double length);
-/* The first two under both profiles, at the cost of one. */
+/* Computes the first two for both profiles at the cost of one. */
 enum { ENERGY_BOTH = 4 };
 void energy_log_both(const wt_energy_source *source, double depth, double logarithm[ENERGY_BOTH]);
-/* Smallest and largest wavenumber with power; false if there is none. */
+/* Returns the smallest and the largest wavenumber with power; false if there is none. */
 bool energy_range(const wt_energy_source *source, double *q_min, double *q_max);
-/* w falls from the surface on, for any set of wavenumbers. */
+/* True if w falls with depth for any set of wavenumbers. */
 bool energy_falls(const wt_energy_source *source);
-/* A depth below which w falls, whatever the powers. */
+/* Depth below which w falls for any powers [m]. */
 double energy_falling(const wt_energy_source *source);
 
 /* int_z^(z+length) w, or w itself for length 0, at a depth, with its slope there and a bound of its
- * second derivative from there to `reach` deeper; all to be multiplied by exp(log_scale). q_min:
- * the smallest wavenumber with power. */
+ * second derivative over the next `reach`. All are multiplied by exp(log_scale). q_min is the
+ * smallest wavenumber with power. */
 typedef struct energy_course {
     double log_scale;
     double value, slope, curvature;

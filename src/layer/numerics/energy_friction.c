@@ -1,4 +1,4 @@
-/* The energy source of sliding: the power that each wavenumber of the roughness dissipates.
+/* Energy source of sliding: the power that each wavenumber of the roughness dissipates.
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
@@ -7,14 +7,14 @@
 
 #include <math.h>
 
-/* Depths at which two sources are compared, from 0.1 / q1 to where nothing is left that a number
- * could hold: exp(-2 q z) is 0 for q z = 710 as soon as it is multiplied with anything. */
+/* Depths of the comparison of two sources, from 0.1 / q1 to the limit of double precision: exp(-2 q
+ * z) underflows in products near q z = 710. */
 enum { DEPTHS = 32 };
 static const double last_depth = 710;
-/* Cells, each a quarter of the one before, towards q0 with which the waves there, which alone count
- * at the last depth, are resolved. */
+/* Number of cells towards q0, each a quarter of the previous one. They resolve the longest waves,
+ * which dominate at the last depth. */
 static const size_t least_level = 6;
-/* Sources of panels halved so many times are compared at most. */
+/* Largest number of comparisons, each with one more halving of the subintervals. */
 enum { MOST_HALVES = 4 };
 
 /* Largest relative difference of w and of int w, for both profiles. */
@@ -30,7 +30,7 @@ static double compare_sources(const wt_energy_source *a, const wt_energy_source 
         energy_log_both(a, depth, of_a);
         energy_log_both(b, depth, of_b);
         for (size_t k = 0; k < ENERGY_BOTH; k++)
-            worst = fmax(worst, fabs(of_a[k] - of_b[k])); /* NaN: both without power */
+            worst = fmax(worst, fabs(of_a[k] - of_b[k])); /* NaN if both have no power */
     }
     return worst;
 }

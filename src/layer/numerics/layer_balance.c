@@ -1,5 +1,5 @@
-/* The balance of formation and wear: where it is, how stable, how fast reached, and what happens to
- * a layer that has none.
+/* Balance of formation and wear: thickness, stability and relaxation, and the removal of a layer
+ * without a balance.
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
@@ -20,7 +20,8 @@ static wt_estimate seconds(double value, double error)
     return (wt_estimate){.value = value, .numerical_error = error, .unit = "s"};
 }
 
-/* With damage transport nothing regrows where R <= 1: the old layer is worn off from the top. */
+/* Removal time of the initial layer. With damage transport no new layer forms for R <= 1: the old
+ * layer is worn from the top. */
 static wt_estimate removal_of_old_layer(const layer_rates *rates, double start)
 {
     if (start == 0)
@@ -29,7 +30,7 @@ static wt_estimate removal_of_old_layer(const layer_rates *rates, double start)
     return seconds(time, (4 * DBL_EPSILON + rates->wear_error) * time);
 }
 
-/* 1/(kappa Qw) at the balance; its error is how far that of the thickness and of kappa moves it. */
+/* 1/(kappa Qw) at the balance; its error follows from those of the thickness and of kappa. */
 static wt_estimate relaxation_of(const layer_rates *rates, wt_estimate thickness)
 {
     const double rate = rates->wear > 0 ? rates->wear * layer_decay(rates, thickness.value) : 0;
@@ -45,7 +46,7 @@ static wt_estimate relaxation_of(const layer_rates *rates, wt_estimate thickness
     return seconds(time, moved + time * (2 * rates->error + rates->wear_error + 64 * DBL_EPSILON));
 }
 
-/* Rubber of every depth is modified in time, however fast it is worn. */
+/* Sets the balance with ageing, which modifies rubber at every depth at any wear rate. */
 static void age_everywhere(wt_layer_balance *b, bool without_errors)
 {
     b->formation_rate_zero = b->ratio = b->critical_specific_wear_rate = HUGE_VAL;
@@ -81,7 +82,7 @@ wt_status wt_layer_balance_compute(const wt_energy_source *source,
     b.wear_rate = r.wear;
     b.ratio = r.formation == 0 ? 0 : exp(r.log_ratio);
     b.ratio_error = r.error + r.wear_error;
-    wt_layer_parameters unit = *parameters; /* what the power makes of a k of 1 */
+    wt_layer_parameters unit = *parameters; /* parameters with k = 1, for the severity factor */
     unit.specific_wear_rate = 1;
     b.critical_specific_wear_rate =
         r.formation == 0
@@ -124,7 +125,7 @@ wt_status wt_layer_time(const wt_energy_source *source, const wt_layer_parameter
         status = layer_damage_time(&r, true, thickness, time, err);
     else if (start < thickness.value)
         status = layer_march_time(&r, start, thickness, time, err);
-    /* never, or the old layer has not become as thin by then */
+    /* never reached, or the old layer is still thicker at that time */
     if (isinf(time->value) || start - r.wear * time->value >= thickness.value)
         *time = seconds((double)NAN, (double)NAN);
     layer_rates_clear(&r);

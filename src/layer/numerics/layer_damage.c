@@ -1,12 +1,12 @@
-/* Damage transport, D_t = Qw D_z + Omega: exact at constant load for any profile, because the
- * damage at depth z is what the material gathered on its way up from z + Qw t: D(z, t) = [int_z^(z
- * + Qw t) w dz] / (U_c k sigma0 v),  or w(z) t / U_c without wear. The layer reaches to the deepest
- * z with D = Lambda. A profile that peaks below the surface first makes a buried band, and several
- * waves make several.
+/* Damage transport, D_t = Qw D_z + Omega. The solution is exact at constant load for any profile.
+ * The damage at depth z is the integral along the path of the material from z + Qw t: D(z, t) =
+ * [int_z^(z + Qw t) w dz] / (U_c k sigma0 v), or w(z) t / U_c without wear. The layer reaches to
+ * the deepest z with D = Lambda. A profile with its maximum below the surface first forms a buried
+ * band, and several waves can form several bands.
  *
- * Where D rises and falls is known from bounds: each wave has a bounded second derivative on any
- * stretch of depth, so that a stretch is left only when D cannot reach the level in it or only
- * rises or only falls there. No band is so thin that it is stepped over.
+ * The search uses bounds: each wave has a bounded second derivative on any depth interval. An
+ * interval is left only if D cannot reach the level in it, or if D is monotonic there. No band is
+ * missed, however thin.
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
@@ -17,8 +17,8 @@
 #include <float.h>
 #include <math.h>
 
-/* Stretches are halved down to this part of their depth; what a maximum gains inside is its square,
- * below rounding. */
+/* Smallest depth interval relative to the depth. A maximum inside exceeds the ends by the square of
+ * it, which is below rounding. */
 static const double least_stretch = 1e-9;
 
 damage damage_of(const layer_rates *rates, bool with_wear)
@@ -32,7 +32,7 @@ void damage_set_time(damage *d, double time)
     d->way = d->worn ? d->rates->wear * time : 0;
 }
 
-/* ln of D / Lambda over the integral or density of the energy. */
+/* ln of the factor from the integral or density of the energy to D / Lambda. */
 static double damage_scale(const damage *d)
 {
     const layer_rates *r = d->rates;
@@ -40,13 +40,13 @@ static double damage_scale(const damage *d)
     return share - r->threshold;
 }
 
-/* Where the damage of an earlier load is now that so much more was worn off. */
+/* Present depth coordinate of the damage of an earlier load, after the wear since then. */
 static double now_at(const damage *d, size_t i, double depth)
 {
     return depth + d->past[i].worn + d->way;
 }
 
-/* ln(D / Lambda) of the loads alone. */
+/* ln(D / Lambda) due to the loads, without ageing. */
 double damage_of_loads(double depth, const damage *d)
 {
     double sum = -HUGE_VAL;
@@ -63,8 +63,8 @@ double damage_of_loads(double depth, const damage *d)
     return sum;
 }
 
-/* The logarithm that the loads must bring, where some damage is there without them; where that is
- * enough, the least there is. */
+/* Returns the level that the loads must reach, given the damage without load. If that damage
+ * suffices, the smallest number is used. */
 static double damage_wanted(const damage *d)
 {
     const double unloaded = d->rates->background * d->time + d->past_background;
@@ -86,7 +86,7 @@ double damage_error(const layer_rates *rates)
     return rates->error + rates->wear_error + 16 * DBL_EPSILON * (1 + fabs(rates->threshold));
 }
 
-/* Adds a course with the logarithm of its weight. */
+/* Adds an expansion with the logarithm of its weight. */
 static void course_plus(energy_course *sum, energy_course c, double log_weight)
 {
     c.log_scale += log_weight;
@@ -99,7 +99,7 @@ static void course_plus(energy_course *sum, energy_course c, double log_weight)
                            left * sum->curvature + right * c.curvature};
 }
 
-/* D / Lambda with slope and bound, to be multiplied by exp(log_scale). */
+/* D / Lambda with slope and bound of the second derivative; multiply all by exp(log_scale). */
 energy_course damage_course(const damage *d, double depth, double reach)
 {
     energy_course sum;
@@ -123,9 +123,10 @@ damage_load damage_load_of(const damage *d)
     return (damage_load){.rates = d->rates, .way = d->way, .log_scale = damage_scale(d)};
 }
 
-/* Goes up from the lower end of `range`, where D is below the level. With `best` NULL to the first
- * stretch at whose lower end D is below and at whose upper end it is not; false if there is none.
- * Else all the way, for the depth *best where D is highest, to which the level is set. */
+/* Searches upwards from the lower end of `range`, where D is below the level. With `best` NULL it
+ * stops at the first interval where D is below the level at the lower end and not below at the
+ * upper; false if there is none. Otherwise it searches the whole range for the depth *best of the
+ * largest D, and sets the level to it. */
 bool damage_climb(damage *d, stretch range, stretch *crossing, double *best)
 {
     const double floor = 1e-12 / d->q_max;
@@ -153,13 +154,13 @@ bool damage_climb(damage *d, stretch range, stretch *crossing, double *best)
             return true;
         }
         high = low;
-        length *= halved ? 1 : 2; /* twice as long was too long here just now */
+        length *= halved ? 1 : 2; /* twice this length was just rejected */
         halved = false;
     }
     return false;
 }
 
-/* The depth at or below `from` where D is highest; its level becomes that of d. */
+/* Returns the depth at or below `from` with the largest D, and sets the level to it. */
 static double damage_peak(damage *d, double from)
 {
     const double end = fmax(from, energy_falling(d->rates->source));
@@ -170,8 +171,8 @@ static double damage_peak(damage *d, double from)
     return depth;
 }
 
-/* Deepest place in a range where D is at the level; NaN if there is none. D is below the level at
- * its lower end. */
+/* Finds the deepest position in a range at which D equals the level; NaN if there is none. D must
+ * be below the level at the lower end. */
 static wt_status damage_edge(damage *d, stretch range, double level, double *edge, wt_error *err)
 {
     stretch s;
@@ -179,13 +180,13 @@ static wt_status damage_edge(damage *d, stretch range, double level, double *edg
     d->level = level;
     if (!damage_climb(d, range, &s, NULL))
         return WT_OK;
-    const bool deeper = damage_at(s.high, d) >= 0; /* by the rounding of where the stretch ends */
+    const bool deeper = damage_at(s.high, d) >= 0; /* rounding of the interval limit */
     *edge = deeper ? s.high : s.low;
     return !deeper && damage_at(s.low, d) > 0 ? root_find(damage_at, d, s.low, s.high, 0, edge, err)
                                               : WT_OK;
 }
 
-/* As damage_climb goes to where D rises above the level, to where it falls below it. */
+/* Searches as damage_climb does, but for the depth where D falls below the level. */
 static bool damage_leave(damage *d, double from, stretch *crossing)
 {
     const double floor = 1e-12 / d->q_max;
@@ -209,7 +210,7 @@ static bool damage_leave(damage *d, double from, stretch *crossing)
             return true;
         }
         high = low;
-        length *= halved ? 1 : 2; /* twice as long was too long here just now */
+        length *= halved ? 1 : 2; /* twice this length was just rejected */
         halved = false;
     }
     return false;
@@ -236,8 +237,8 @@ wt_status damage_band(damage *d, double from, stretch *band, double *above, wt_e
     return status;
 }
 
-/* How far the edge moves, to other bands too, when D moves by its error. `most`: as deep as it may
- * be. */
+/* Displacement of the edge, including to other bands, due to the error of D. `most` is its largest
+ * possible depth. */
 static wt_status edge_error(damage *d, double edge, double most, double error, double *reach,
                             wt_error *err)
 {
@@ -247,7 +248,7 @@ static wt_status edge_error(damage *d, double edge, double most, double error, d
     return status;
 }
 
-/* Of a profile that falls all the way: one edge, which only goes deeper. */
+/* Thickness for a profile that falls with depth: a single edge that only moves deeper. */
 static wt_status falling_depth(damage *d, double error, double earlier, wt_estimate *thickness,
                                wt_error *err)
 {
@@ -256,7 +257,7 @@ static wt_status falling_depth(damage *d, double error, double earlier, wt_estim
         thickness->numerical_error = (double)NAN;
     if (none && d->rates->without_errors)
         return WT_OK;
-    if (none) /* perhaps there is a layer all the same */
+    if (none) /* a layer may exist within the error */
         d->level = -error;
     if (none && damage_at(0, d) < 0)
         return WT_OK;
@@ -267,7 +268,7 @@ static wt_status falling_depth(damage *d, double error, double earlier, wt_estim
         s.high += step;
         step *= 2;
     } while (damage_at(s.high, d) >= 0);
-    if (damage_at(s.low, d) > 0) { /* but for rounding it is there */
+    if (damage_at(s.low, d) > 0) { /* otherwise the edge is there up to rounding */
         const wt_status status = root_find(damage_at, d, s.low, s.high, 0, &edge, err);
         if (status != WT_OK)
             return status;
@@ -297,7 +298,7 @@ wt_status layer_damage_depth(const layer_rates *rates, double time, double earli
         return WT_OK;
     const double error = damage_error(rates);
     damage_set_time(&d, time);
-    if (rates->background * time >= 1) { /* modified without a load, however deep */
+    if (rates->background * time >= 1) { /* modified without load at any depth */
         thickness->value = HUGE_VAL;
         return WT_OK;
     }
@@ -311,14 +312,14 @@ wt_status layer_damage_depth(const layer_rates *rates, double time, double earli
     wt_status status = damage_edge(&d, (stretch){0, end}, -error, &most, err);
     if (status != WT_OK || isnan(most))
         return status;
-    /* a step deeper, for at the edge itself D may be on either side of its level */
+    /* slightly deeper, because D at the edge may be on either side of its level */
     const stretch range = {0, most * (1 + 4 * DBL_EPSILON) + DBL_MIN};
     status = damage_edge(&d, range, 0, &edge, err);
     if (status != WT_OK)
         return status;
     thickness->value = isnan(edge) ? 0 : edge;
     thickness->numerical_error = rates->without_errors ? (double)NAN : most;
-    if (isnan(edge) || rates->without_errors) /* perhaps there is a layer all the same */
+    if (isnan(edge) || rates->without_errors) /* a layer may exist within the error */
         return status;
     return edge_error(&d, edge, most, error, &thickness->numerical_error, err);
 }
@@ -337,7 +338,7 @@ static double passage_at(double log_time, void *user)
     return damage_at(p->depth, p->d);
 }
 
-/* ln of the time at which a depth is at the level; infinite if never. */
+/* ln of the time at which a depth reaches the level; infinite if never. */
 static wt_status damage_log_time(damage *d, double depth, double level, double *log_time,
                                  wt_error *err)
 {
@@ -350,10 +351,10 @@ static wt_status damage_log_time(damage *d, double depth, double level, double *
         return WT_OK;
     }
     passage p = {d, depth};
-    /* from a way of the shortest wave to one at whose end the longest has died out */
+    /* from a worn depth of the shortest wave to one at which the longest wave has decayed */
     const double step = log(4);
     double end = log(1e3 / r->q_min / r->wear);
-    if (r->background > 0) /* or to when age alone is enough */
+    if (r->background > 0) /* or the time at which ageing suffices */
         end = fmax(end, level - log(r->background) + step);
     double low = -log(r->q_max * r->wear);
     *log_time = (double)INFINITY;
@@ -367,12 +368,13 @@ static wt_status damage_log_time(damage *d, double depth, double level, double *
     return root_find(passage_at, &p, high - step, high, 0, log_time, err);
 }
 
-/* The same of any depth at or below `from`: the time of one place, then of the place where D is
- * highest then, until that is the same place. */
+/* ln of the first time at which any depth at or below `from` reaches the level. It alternates
+ * between the time of one position and the position of the largest D at that time until both agree.
+ */
 static wt_status damage_first(damage *d, double from, double level, double *log_time, wt_error *err)
 {
     wt_status status = damage_log_time(d, from, level, log_time, err);
-    if (status == WT_OK && isinf(*log_time)) /* w(0) may be 0, but not where it falls */
+    if (status == WT_OK && isinf(*log_time)) /* w(0) can be 0, but not in the falling range */
         status =
             damage_log_time(d, fmax(from, energy_falling(d->rates->source)), level, log_time, err);
     const double longest = log(DBL_MAX);

@@ -1,4 +1,4 @@
-/* Internal to the kernel room: damage against depth, of one load or of several in turn.
+/* Damage against depth, for one load or for several successive loads. Internal to layer.
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
@@ -7,51 +7,52 @@
 
 #include "layer/numerics/layer_kernel.h"
 
-/* An earlier load: what it did is where the rubber was then. */
+/* An earlier load. Its damage has moved with the rubber since then. */
 typedef struct damage_load {
     const layer_rates *rates;
-    double way;       /* worn off while it lasted */
-    double worn;      /* and since, up to the load of now */
-    double log_scale; /* ln of D / Lambda over its integral or density */
+    double way;       /* depth worn off during the load [m] */
+    double worn;      /* depth worn off since then, up to the present load [m] */
+    double log_scale; /* ln of the factor from its integral or density to D / Lambda */
 } damage_load;
 
-/* The load of now and those before it. */
+/* The present load and the earlier ones. */
 typedef struct damage {
     const layer_rates *rates;
     bool worn;
     double time;
-    double way;              /* up to the surface until `time` */
-    double level;            /* ln(D / Lambda) that is wanted */
+    double way;              /* depth worn off during the present load until `time` [m] */
+    double level;            /* required ln(D / Lambda) */
     const damage_load *past; /* [n_past] borrowed */
     size_t n_past;
-    double past_background; /* D / Lambda without load until now began */
-    double q_max;           /* of all loads */
+    double past_background; /* D / Lambda without load until the start of the present load */
+    double q_max;           /* largest wavenumber of all loads */
 } damage;
 
 damage damage_of(const layer_rates *rates, bool with_wear);
 void damage_set_time(damage *d, double time);
-/* What it is for the loads that follow. */
+/* Converts the present load to an earlier one, for the loads that follow. */
 damage_load damage_load_of(const damage *d);
-/* ln(D / Lambda) above the level; `user` is a damage. */
+/* ln(D / Lambda) minus the level; `user` is a damage. */
 double damage_at(double depth, void *user);
-/* ln(D / Lambda) of the loads alone. */
+/* ln(D / Lambda) due to the loads, without ageing. */
 double damage_of_loads(double depth, const damage *d);
-/* Relative error of D: of the energy and of the logarithms. */
+/* Relative error of D, from the energy and from the logarithms. */
 double damage_error(const layer_rates *rates);
-/* D / Lambda at a depth, with its slope and a bound of its second derivative from there to `reach`
- * deeper; all to be multiplied by exp(log_scale). */
+/* D / Lambda at a depth, with its slope and a bound of its second derivative over the next `reach`.
+ * All are multiplied by exp(log_scale). */
 energy_course damage_course(const damage *d, double depth, double reach);
 
-/* A stretch of depth. */
+/* Depth interval [m]. */
 typedef struct stretch {
     double low, high;
 } stretch;
-/* Goes up from the lower end of `range`, where D is below the level. With `best` NULL to the first
- * stretch at whose lower end D is below and at whose upper end it is not; false if there is none.
- * Else all the way, for the depth *best where D is highest, to which the level is set. */
+/* Searches upwards from the lower end of `range`, where D is below the level. With `best` NULL it
+ * stops at the first interval where D is below the level at the lower end and not below at the
+ * upper; false if there is none. Otherwise it searches the whole range for the depth *best of the
+ * largest D, and sets the level to it. */
 bool damage_climb(damage *d, stretch range, stretch *crossing, double *best);
-/* The deepest band above `from`, where D is below the level; WT_E_NOT_FOUND if there is none.
- * above: where D is below the level again, 0 if the band goes up to the surface. */
+/* Finds the deepest band above `from`, where D is below the level; WT_E_NOT_FOUND if there is none.
+ * *above is the depth at which D is below the level again, 0 if the band reaches the surface. */
 wt_status damage_band(damage *d, double from, stretch *band, double *above,
                       wt_error *err) WT_NODISCARD;
 

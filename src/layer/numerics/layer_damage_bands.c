@@ -1,6 +1,5 @@
-/* Damage through loads that follow one another: each gave the rubber that is now at a depth the
- * integral of its rate over the way that this rubber went up while it lasted. What is modified are
- * the bands where the sum is enough.
+/* Damage through successive loads. Each load adds the integral of its rate along the path of the
+ * rubber during the load. The modified bands are the depths at which the sum reaches the threshold.
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
@@ -13,7 +12,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-/* Step, as a part of the depth, of the slope that turns an error of the damage into one of an edge.
+/* Step relative to the depth for the slope that converts an error of the damage to that of an edge.
  */
 static const double slope_step = 1e-6;
 
@@ -69,7 +68,7 @@ wt_status layer_loads_make(const wt_layer_stage *stages, size_t n, layer_loads *
         status = wt_fail(err, WT_E_MEMORY, "out of memory for the loads of a layer");
     for (size_t i = 0; status == WT_OK && i < n; i++) {
         wt_layer_parameters p = stages[i].parameters;
-        p.incubation = true; /* as damage is transported */
+        p.incubation = true; /* damage is transported */
         status = stage_check(stages, i, err);
         if (status == WT_OK)
             status = layer_rates_make(stages[i].source, &p, &loads->rates[i], err);
@@ -94,7 +93,7 @@ damage layer_loads_at(layer_loads *loads, double time, double *worn)
     d.q_max = loads->q_max;
     d.past = loads->past;
     *worn = d.way;
-    double since = 0; /* worn off up to the load of now */
+    double since = 0; /* depth worn off up to the present load [m] */
     for (size_t i = now; i-- > 0;) {
         const layer_rates *r = &loads->rates[i];
         damage before = damage_of(r, true);
@@ -112,7 +111,7 @@ damage layer_loads_at(layer_loads *loads, double time, double *worn)
 
 /* ---- bands ----------------------------------------------------------------------------------- */
 
-/* An edge with the error that one of the damage makes there. */
+/* Edge with its error, from the error of the damage. */
 static wt_estimate edge_of(damage *d, double edge, double error)
 {
     wt_estimate e = {.value = edge, .unit = "m"};
@@ -130,7 +129,7 @@ static void section_add(wt_layer_section *s, wt_layer_band band)
     s->n++;
 }
 
-/* A place below all bands. */
+/* Returns a depth below all bands. */
 static double below_bands(const layer_loads *loads, damage *d)
 {
     double end = fmax(loads->falling, 1 / loads->q_min);
@@ -170,7 +169,7 @@ static wt_status record_group_bands(const layer_loads *loads, damage *d, wt_laye
     return WT_OK;
 }
 
-/* Old layer from the surface down to a depth, and the bands that it hides. */
+/* Adds the old layer from the surface to a depth, and removes the bands that it covers. */
 static void add_old_layer(wt_layer_section *s, double depth)
 {
     wt_layer_band old = {{.unit = "m"},
@@ -185,7 +184,8 @@ static void add_old_layer(wt_layer_section *s, double depth)
     section_add(s, old);
 }
 
-/* Where the damage falls with depth, one value says whether there is a band. */
+/* Section for damage that falls with depth, where the value at the surface decides if there is a
+ * band. */
 static wt_status falling(const layer_loads *loads, damage *d, bool edges, wt_layer_section *section,
                          wt_error *err)
 {

@@ -1,4 +1,4 @@
-/* Internal to the kernel room: the loads of a history, made ready.
+/* Prepared loads of a history. Internal to layer.
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
@@ -10,23 +10,23 @@
 typedef struct layer_loads {
     size_t n;
     layer_rates *rates;           /* [n] */
-    damage_load *past;            /* [n] of the load of now */
+    damage_load *past;            /* [n] earlier loads relative to the present one */
     double *begin;                /* [n] time at which a load begins [s] */
-    double start;                 /* old layer at time 0 */
-    bool falls;                   /* the damage falls with depth, whatever the time */
-    double q_min, q_max, falling; /* of all; falling: below it the damage falls */
-    double error;                 /* relative, of the damage */
+    double start;                 /* thickness of the old layer at time 0 [m] */
+    bool falls;                   /* true if the damage falls with depth at any time */
+    double q_min, q_max, falling; /* range over all loads; depth below which the damage falls [m] */
+    double error;                 /* relative error of the damage */
 } layer_loads;
 
 wt_status layer_loads_make(const wt_layer_stage *stages, size_t n, layer_loads *loads,
                            wt_error *err) WT_NODISCARD;
 void layer_loads_clear(layer_loads *loads);
-/* The damage at a time, and what is worn off until then. */
+/* Returns the damage at a time, and the depth worn off until then. */
 damage layer_loads_at(layer_loads *loads, double time, double *worn);
 wt_status layer_section_at(layer_loads *loads, double time, wt_layer_section *section,
                            wt_error *err) WT_NODISCARD;
-/* The same bands, but of a damage that falls with depth without their lower edge, which costs most.
- */
+/* Variant that omits the lower edge of damage that falls with depth, which is the most expensive
+ * part. */
 wt_status layer_bands_at(layer_loads *loads, double time, wt_layer_section *section,
                          wt_error *err) WT_NODISCARD;
 

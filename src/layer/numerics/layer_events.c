@@ -1,5 +1,5 @@
-/* When the modified bands of loads in turn begin, reach the surface, merge and are worn off: the
- * number of bands is followed over close times, and where it changes the time is found by halves.
+/* Times at which the modified bands of successive loads begin, reach the surface, merge or are worn
+ * off. The number of bands is followed over close times; each change is located by bisection.
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
@@ -11,28 +11,28 @@
 #include <math.h>
 #include <stdint.h>
 
-/* Two times are a factor of 1.009 apart, closer than events that do not undo each other; of loads
- * in turn, each of which is looked at from its beginning on, of 1.037; where the first event alone
- * is wanted, which nothing undoes at once, of 1.15. */
+/* Times per decade. Successive times differ by a factor of 1.009, less than the distance of events
+ * that cancel each other. For successive loads, each of which is followed from its start, it is
+ * 1.037. For the first event alone, which nothing cancels immediately, it is 1.15. */
 static const double times_per_decade = 256, times_in_turn = 64, times_of_first = 16;
-/* To so much of the time that first event is found: it is asked for by replicates. */
+/* Relative tolerance of the time of the first event, which replicates use. */
 static const double first_close = 1e-7;
-/* So long before and after an event the bands are wide enough to be more than rounding. */
+/* Relative time before and after an event at which the bands are wider than rounding. */
 static const double settled = 1e-9;
-/* Of a load that follows another one the first time is this part of how long it lasts, of what came
- * before it and of how long it alone would take to modify anything. */
+/* First time of a load that follows another one, relative to the smallest of its duration, the time
+ * before it and its own incubation time. */
 static const double first_part = 1e-4;
-/* Events are over when so many times the longest wave has been worn off, */
+/* The search ends when this multiple of the longest wave has been worn off, */
 static const double longest_waves = 20;
-/* or, without wear, so many times the time of the first. */
+/* or, without wear, at this multiple of the time of the first event. */
 static const double last_without_wear = 1e6;
 
 typedef struct event_search {
     layer_loads *loads;
     wt_layer_event *events;
-    size_t most, n, enough;     /* after how many events to stop */
-    double per_decade, closest; /* times; relative width to which an event is found */
-    wt_layer_section before;    /* at the last time looked at */
+    size_t most, n, enough;     /* stop after this number of events */
+    double per_decade, closest; /* times per decade; relative tolerance of an event */
+    wt_layer_section before;    /* section at the last time */
 } event_search;
 
 static bool touches(const wt_layer_section *s)
@@ -50,7 +50,7 @@ static double slope_at(double depth, void *user)
     return damage_course(user, depth, 0).slope;
 }
 
-/* Where the damage is stationary between two depths. */
+/* Depth between two limits at which the damage is stationary. */
 static double stationary(event_search *s, double time, double low, double high)
 {
     double worn, depth = 0.5 * (low + high);
@@ -61,7 +61,8 @@ static double stationary(event_search *s, double time, double low, double high)
     return depth;
 }
 
-/* The band of `more` that is not in `fewer`, both from the deepest on. */
+/* Returns the index of the band of `more` that `fewer` does not contain; both begin with the
+ * deepest. */
 static size_t new_band(const wt_layer_section *fewer, const wt_layer_section *more)
 {
     for (size_t i = 0; i < fewer->n; i++)
@@ -71,7 +72,7 @@ static size_t new_band(const wt_layer_section *fewer, const wt_layer_section *mo
     return fewer->n;
 }
 
-/* What happened at a time between two sections. */
+/* Adds the event that distinguishes two sections at a time. */
 static void event_add(event_search *s, double time, const wt_layer_section *b,
                       const wt_layer_section *after)
 {
@@ -94,7 +95,7 @@ static void event_add(event_search *s, double time, const wt_layer_section *b,
     s->n++;
 }
 
-/* The event between the time before and a later one, to the last digits. */
+/* Locates the event between the previous time and a later one to the tolerance. */
 static wt_status event_find(event_search *s, double later, wt_error *err)
 {
     double low = s->before.time, high = later;
@@ -118,7 +119,7 @@ static wt_status event_find(event_search *s, double later, wt_error *err)
     return status;
 }
 
-/* All changes up to a time. */
+/* Adds all events up to a time. */
 static wt_status events_until(event_search *s, double time, wt_error *err)
 {
     wt_layer_section end;
@@ -129,7 +130,7 @@ static wt_status events_until(event_search *s, double time, wt_error *err)
     return status;
 }
 
-/* From `first` after the beginning of a load to `last` after it. */
+/* Searches from `first` to `last` after the start of a load. */
 static wt_status events_between(event_search *s, double begin, double first, double last,
                                 wt_error *err)
 {
@@ -145,7 +146,7 @@ static wt_status events_between(event_search *s, double begin, double first, dou
     return status;
 }
 
-/* Those of one load; `first` is when it alone would modify something, NaN: never. */
+/* Searches one load; `first` is its own incubation time, NaN if infinite. */
 static wt_status events_of_load(event_search *s, size_t i, double first, wt_error *err)
 {
     const layer_loads *loads = s->loads;
@@ -176,7 +177,7 @@ static wt_status find_events(const wt_layer_stage *stages, size_t n_stages, size
                                                    : times_per_decade,
                       .closest = first_alone ? first_close : 2 * DBL_EPSILON};
     wt_status status = layer_loads_make(stages, n_stages, &loads, err);
-    loads.start = 0; /* of bare rubber */
+    loads.start = 0; /* the events are those of bare rubber */
     for (size_t i = 0; status == WT_OK && i < n_stages && s.n < enough; i++) {
         wt_estimate first = {.value = (double)NAN};
         status = layer_damage_time(&loads.rates[i], true, (wt_estimate){.unit = "m"}, &first, err);

@@ -1,4 +1,4 @@
-/* A single exponential energy profile, in closed form.
+/* Thickness against time for a single exponential energy profile, in closed form.
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
@@ -8,7 +8,7 @@
 
 /* d delta/dt = Qf0 exp(-kappa delta) - Qw, clamped at 0. With s = kappa Qw t, phi = (1-exp(-s))/s:
  *   delta = d0 + log1p(a) / kappa,  a = kappa t phi (Qf0 exp(-kappa d0) - Qw)
- * and, where a comes close to -1, the same as the logarithm of a sum of two positive terms. */
+ * Near a = -1 the same result is the logarithm of a sum of two positive terms. */
 double wt_layer_exponential(double start_thickness, double kappa, double formation_rate_zero,
                             double wear_rate, double time)
 {

@@ -1,6 +1,6 @@
-/* A layer that acts back on the energy that makes it: formation under a layer of thickness d
- * against wear. A map from thickness to balance need not settle, so that all crossings are looked
- * for on a grid and bracketed.
+/* Layer with feedback on the energy that forms it: formation under a layer of thickness d against
+ * wear. The iteration from thickness to balance need not converge; all roots are therefore
+ * bracketed on a grid.
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
@@ -11,25 +11,26 @@
 #include <math.h>
 #include <stdlib.h>
 
-/* Step of a slope, as a part of the thickness: its fourth power is below what the energy is good
- * to. */
+/* Step of the difference quotient relative to the thickness: its fourth power is below the accuracy
+ * of the energy. */
 static const double slope_step = 3e-3;
-/* An extremum of ln(Qf / Qw) that stands out by less is one of rounding. */
+/* Smallest height of an extremum of ln(Qf / Qw) above rounding. */
 static const double least_fold = 1e-7;
-/* Golden sections that leave 1e-8 of a bracket, where an extremum is flat to 1e-16. */
+/* Number of golden-section steps: they reduce a bracket to 1e-8, where an extremum is flat to
+ * 1e-16. */
 enum { SECTIONS = 40 };
 
-/* What is so much thinner than the first thickness of the grid is none. */
+/* Thickness relative to the first of the grid that counts as 0. */
 static const double below_grid = 1e-9;
 
 typedef struct loop_search {
     wt_layer_energy_fn energy;
     void *user;
-    wt_status status; /* the first that failed */
+    wt_status status; /* first failure */
     wt_error *err;
 } loop_search;
 
-/* What the layer of a thickness makes of itself. */
+/* Formation and wear under a layer of given thickness. */
 typedef struct loop_point {
     double log_ratio; /* ln(Qf / Qw) */
     double formation, wear, decay, wear_factor, q_max;
@@ -93,7 +94,7 @@ static void add_root(loop_search *s, double thickness, wt_layer_loop *loop)
         return;
     wt_layer_root *r = &loop->root[loop->n_roots++];
     const loop_point p = point_at(s, thickness);
-    /* d (Qf - Qw) / dd where both are the same */
+    /* d (Qf - Qw) / dd at equal rates */
     r->thickness = thickness;
     r->eigenvalue = p.wear * slope_at(s, thickness);
     r->map_slope = 1 + r->eigenvalue / (p.wear * p.decay);
@@ -110,9 +111,10 @@ static void add_fold(loop_search *s, double low, double high, bool maximum, wt_l
         (wt_layer_fold){exp(place), p.wear_factor * exp(p.log_ratio), maximum};
 }
 
-/* A balance below the grid, where of the bare surface and a layer of the first thickness one is
- * modified and the other worn: so near to 0 that it is 0 where the energy jumps there, as that of
- * shearing does. It is stable if the bare surface is modified, else a threshold. */
+/* Adds a balance below the grid. There, either the bare surface or the layer of the first thickness
+ * is modified, and the other is worn. The thickness is 0 if the energy is discontinuous at 0, as
+ * for shearing. The balance is stable if the bare surface is modified; otherwise it is a threshold.
+ */
 static void add_thinnest(loop_search *s, double log_low, bool grows, wt_layer_loop *loop)
 {
     const double least = log_low + log(below_grid);
@@ -129,7 +131,7 @@ static void add_thinnest(loop_search *s, double log_low, bool grows, wt_layer_lo
         loop->root[loop->n_roots++] = (wt_layer_root){0, grows, (double)NAN, (double)NAN};
 }
 
-/* Crossings and extrema of values on a grid of ln d. */
+/* Finds the roots and extrema of values on a grid of ln d. */
 static void search_grid(loop_search *s, const double *x, const double *value, size_t n,
                         wt_layer_loop *loop)
 {
@@ -181,8 +183,9 @@ wt_status wt_layer_loop_find(wt_layer_energy_fn energy, void *user, double low, 
 
 /* ---- in time --------------------------------------------------------------------------------- */
 
-/* The march wears at the rate of the bare surface: what the layer changes of it counts as
- * formation, which up to the first balance is the larger of the two. */
+/* Formation under the layer for the time integration, which uses the wear rate of the bare surface.
+ * A change of the wear rate by the layer is counted as formation, which exceeds wear up to the
+ * first balance. */
 typedef struct own_search {
     loop_search *search;
     double wear;
@@ -209,7 +212,7 @@ static wt_status march_own(loop_search *s, layer_rates *rates, const double *tim
     return status == WT_OK ? s->status : status;
 }
 
-/* The lowest root that a growing layer comes to; 0: none grows. */
+/* Returns the lowest stable root above a bare surface; 0 if no layer grows. */
 static double growing_to(const wt_layer_loop *loop)
 {
     for (size_t i = 0; loop->ratio > 1 && i < loop->n_roots; i++)

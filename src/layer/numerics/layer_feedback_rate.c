@@ -1,6 +1,6 @@
-/* ln Qf(d) under a layer of thickness d by Chebyshev series over panels of the thickness: the first
- * as long as the shortest wave, below which the layer is nothing to any wave, each further one as
- * long as all before it.
+/* ln Qf(d) under a layer of thickness d as Chebyshev series on subintervals of the thickness. The
+ * first is as long as the shortest wave, below which the layer affects no wave. Each further one is
+ * as long as all before it.
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
@@ -9,8 +9,7 @@
 #include <gsl/gsl_chebyshev.h>
 #include <math.h>
 
-/* Of a function that is smooth over a doubling: the last coefficients are then those of rounding.
- */
+/* Order for a function that is smooth over a factor of two: the last coefficients are rounding. */
 enum { ORDER = 24 };
 
 void feedback_rate_clear(feedback_rate *own)

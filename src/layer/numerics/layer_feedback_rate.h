@@ -1,5 +1,5 @@
-/* Internal to the kernel room: the rate of formation under a layer that acts back on it, between
- * the bare surface and a balance.
+/* Rate of formation under a layer with feedback, between the bare surface and a balance. Internal
+ * to layer.
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
@@ -13,17 +13,19 @@ typedef struct own_panel {
     struct gsl_cheb_series_struct *value, *slope; /* of ln Qf */
 } own_panel;
 
-/* Each is as long as all before it: no layer is 2^64 times as thick as the shortest wave. */
+/* Each subinterval is as long as all before it: a layer is never 2^64 times as thick as the
+ * shortest wave. */
 enum { OWN_PANELS = 64 };
 typedef struct feedback_rate {
-    double target; /* where the motion ends [m] */
+    double target; /* final thickness [m] */
     size_t n;
     own_panel panel[OWN_PANELS];
 } feedback_rate;
 
-/* ln Qf at a thickness under itself. */
+/* ln Qf under a layer of this thickness. */
 typedef double (*own_fn)(double thickness, void *user);
-/* Panels from 0 to the target, of which the first is as long as `first`. */
+/* Creates subintervals from 0 to the target; the first has the length `first`. The caller clears
+ * the rate, also on failure. */
 wt_status feedback_rate_make(own_fn f, void *user, double first, double target, feedback_rate *own,
                              wt_error *err) WT_NODISCARD;
 void feedback_rate_clear(feedback_rate *own);

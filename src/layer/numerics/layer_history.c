@@ -1,4 +1,5 @@
-/* Thickness against time at constant load: which of the three ways, and in what order.
+/* Thickness against time at constant load: choice between closed form, damage transport and rate
+ * balance, in order of time.
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
@@ -10,7 +11,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-/* Damage transport: the old layer is carried up and worn off, new damage grows below. */
+/* Damage transport: the old layer moves up and is worn off; new damage accumulates below. */
 static wt_status history_damage(const layer_rates *rates, double start, const layer_instant *at,
                                 size_t n, wt_error *err)
 {
@@ -34,7 +35,7 @@ static wt_status history_damage(const layer_rates *rates, double start, const la
     return WT_OK;
 }
 
-/* All power at one wavenumber under an exponential profile: kappa, or 0 if not so. */
+/* Returns kappa if all power is at one wavenumber under an exponential profile, else 0. */
 static double single_kappa(const layer_rates *rates)
 {
     const bool single = rates->source->profile == WT_PROFILE_PERSSON && rates->activated == NULL &&
@@ -42,7 +43,7 @@ static double single_kappa(const layer_rates *rates)
     return single ? 2 * rates->q_min : 0;
 }
 
-/* The closed form; its error is how far rounding and the error of Qf(0) move it. */
+/* Closed form. Its error follows from rounding and from the error of Qf(0). */
 static void history_exponential(const layer_rates *rates, double kappa, double start,
                                 const double *time, size_t n, wt_layer_point *points)
 {

@@ -1,8 +1,9 @@
-/* Critical energy and specific wear rate from what is seen of a layer: its thickness at balance
- * with a wear rate, or with the time that it took to get near it.
+/* Critical energy and specific wear rate from observations of a layer: its thickness at balance
+ * with a wear rate, or with the time to approach that thickness.
  *
- * Thickness alone fixes U_c k: Qf(d) = Qw. Both rates scale with the clock, so what a running-in
- * tells is how much was worn meanwhile, l = Qw t, and that is a length of the profile alone.
+ * The thickness alone determines U_c k: Qf(d) = Qw. Both rates scale with time, so that a
+ * running-in time determines the depth worn off meanwhile, l = Qw t, which depends on the profile
+ * only.
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
@@ -36,29 +37,30 @@ wt_status wt_layer_identify_wear(const wt_energy_source *source, const wt_layer_
     return WT_OK;
 }
 
-/* ---- what is worn until the thickness is near the balance ------------------------------------ */
+/* ---- depth worn off during running-in -------------------------------------------------------- */
 
 typedef struct growth {
     const wt_energy_source *source;
-    double from;      /* share of the thickness [m] */
+    double from;      /* thickness reached: the share of the balance thickness [m] */
     double log_there; /* ln J at the balance */
 } growth;
 
-/* d l / d delta: of the rate balance, d delta/dt = Qw (J(delta)/J(balance) - 1). */
+/* d l / d delta for the rate balance, d delta/dt = Qw (J(delta)/J(balance) - 1). */
 static double worn_while(double depth, void *user)
 {
     const growth *g = user;
     return 1 / expm1(energy_log_tail(g->source, depth) - g->log_there);
 }
 
-/* ln of what a place gains on its way over the balance's need; 0 where the layer ends there. */
+/* ln of the damage that a position gains along its path, over that at the balance; 0 at the edge of
+ * the layer. */
 static double surplus_at(double length, void *user)
 {
     const growth *g = user;
     return energy_log_gain(g->source, g->from, length) - g->log_there;
 }
 
-/* Smooth away from the balance: far fewer than these stretches are ever needed. */
+/* The integrand is smooth away from the balance: far fewer intervals are needed. */
 enum { STRETCHES = 200 };
 static const double integral_tolerance = 1e-12;
 

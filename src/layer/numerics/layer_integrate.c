@@ -1,7 +1,7 @@
-/* Rate balance d delta/dt = Qf(delta) - Qw for any profile. The equation does not contain the time,
- * so it is integrated over the thickness, t = int d delta / (Qf - Qw), by Gauss-Legendre panels
- * that shrink in proportion to the distance from the balance: no step is ever too fast for it, from
- * nanoseconds to years. Two rules per panel give the error.
+/* Rate balance d delta/dt = Qf(delta) - Qw for any profile. The equation is autonomous, so that it
+ * is integrated over the thickness: t = int d delta / (Qf - Qw). Gauss-Legendre subintervals shrink
+ * in proportion to the distance from the balance, which resolves all time scales from nanoseconds
+ * to years. Two rules on each subinterval give the error.
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
@@ -12,24 +12,25 @@
 #include <float.h>
 #include <math.h>
 
-/* Rules whose difference is the error: that of the lower one. */
+/* Numbers of nodes of the two rules, whose difference is the error of the lower one. */
 enum { LOW_NODES = 12, HIGH_NODES = 16 };
 
-/* Panel length as a part of the way to the balance, where the time has a logarithm, and in units of
- * the local decay length, over which formation is smooth: more panels or fewer, and the same error,
- * for those that do not reach it are halved. */
+/* Length of a subinterval as a share of the distance to the balance, where the time has a
+ * logarithm. The second limit is in units of the local decay length, over which formation is
+ * smooth. The shares affect the cost only: inaccurate subintervals are halved. */
 static const double way_part = 0.7;
 static const double decay_part = 2;
-/* A panel whose two rules differ by more is halved: a hundred panels are then good to 1e-10. */
+/* Tolerance of the difference of the two rules; a hundred subintervals then have an error of 1e-10.
+ */
 static const double panel_goal = 1e-12;
-/* Formation is left out where it is a smaller part of wear. */
+/* Formation is neglected below this share of wear. */
 static const double log_negligible = -41.5; /* 1e-18 */
 
 typedef struct march {
     const layer_rates *rates;
     const gauss_rule *low, *high;
-    double target;    /* where the motion ends: the balance, or 0 */
-    double direction; /* +1 growing, -1 being worn */
+    double target;    /* final thickness [m]: the balance, or 0 */
+    double direction; /* +1 for growth, -1 for wear */
     double thickness, time;
     double time_error;
     double sensitivity; /* int Qf / (Qf - Qw)^2: minus d time / d ln Qf */
@@ -40,7 +41,7 @@ static double net_rate(const layer_rates *rates, double thickness)
     return layer_formation(rates, thickness) - rates->wear;
 }
 
-/* Time from `from` over `length` in the direction of the march. */
+/* Time from `from` over `length` in the direction of the integration. */
 static double panel_time(const march *m, const gauss_rule *rule, double from, double length,
                          double *sensitivity)
 {
@@ -57,7 +58,7 @@ static double panel_time(const march *m, const gauss_rule *rule, double from, do
     return sum;
 }
 
-/* Length of the next panel; 0 when the target is reached to rounding. */
+/* Length of the next subinterval; 0 if the target is reached up to rounding. */
 static double panel_length(const march *m)
 {
     const double kappa = layer_decay(m->rates, m->thickness);
@@ -70,10 +71,10 @@ static double panel_length(const march *m)
         if (length <= noise)
             return 0;
         length *= way_part;
-    } else if (slope > 0) { /* the balance is virtual, above the surface */
+    } else if (slope > 0) { /* the balance is virtual, at a negative thickness */
         length = fmin(length, way_part * log1p(kappa * rate / slope) / kappa);
     }
-    if (kappa == 0) /* the surface of a profile that begins with 0 */
+    if (kappa == 0) /* surface of a profile that begins at 0 */
         return m->rates->q_min > 0 ? fmin(length, 1 / m->rates->q_min) : length;
     return fmin(length, decay_part / kappa);
 }
@@ -85,8 +86,8 @@ static double rounding_error(const layer_rates *rates, double thickness)
     return 16 * DBL_EPSILON * (1 + fabs(rates->log_power) + 2 * depth);
 }
 
-/* Takes the time of one panel, shortened until its two rules agree, down to the noise of Qf - Qw.
- */
+/* Integrates one subinterval and shortens it until its two rules agree within the noise of Qf - Qw.
+ * Returns the time. */
 static double panel_take(const march *m, double *length, double *error, double *sensitivity)
 {
     double time = 0, ignored;
@@ -97,8 +98,8 @@ static double panel_take(const march *m, double *length, double *error, double *
             rounding_error(m->rates, end) * formation / fabs(formation - m->rates->wear);
         time = panel_time(m, m->high, m->thickness, *length, sensitivity);
         *error = fabs(time - panel_time(m, m->low, m->thickness, *length, &ignored));
-        /* times below the smallest normal number have no digits to agree in, and where formation
-         * underflows there are none */
+        /* times below the smallest normal number have no digits left, and neither has a formation
+         * that underflows */
         if (!(*error > (panel_goal + 4 * noise) * time + DBL_MIN))
             break;
         *length *= 0.5;
@@ -106,8 +107,8 @@ static double panel_take(const march *m, double *length, double *error, double *
     return time;
 }
 
-/* Thickness at a time inside the panel that starts here and takes `took`: Newton's method from a
- * straight line, kept inside. */
+/* Thickness at a time inside the subinterval that starts here, by Newton's method with a bracket.
+ * The start value is linear. */
 static double panel_find(const march *m, double length, double took, double time)
 {
     double low = 0, high = length;
@@ -125,7 +126,7 @@ static double panel_find(const march *m, double length, double took, double time
             next = 0.5 * (low + high);
         const double change = fabs(next - way);
         way = next;
-        /* the noise of the quadrature moves it by some ulps of the whole thickness */
+        /* the noise of the quadrature is some ulps of the whole thickness */
         if (change <= 4 * DBL_EPSILON * way || change <= 16 * DBL_EPSILON * m->thickness)
             break;
     }
@@ -137,7 +138,7 @@ static wt_estimate estimate_at(const march *m, double thickness, double time, do
 {
     const double rate = fabs(net_rate(m->rates, thickness));
     const double relative = rounding_error(m->rates, thickness);
-    /* to the wear a time is no more sensitive than this and itself */
+    /* the sensitivity of the time to the wear is at most the sum of this and the time */
     const double of_wear = m->rates->wear_error * (sensitivity + time);
     const double error = rate * (time_error + relative * time +
                                  (m->rates->error + relative) * sensitivity + of_wear) +
@@ -145,8 +146,8 @@ static wt_estimate estimate_at(const march *m, double thickness, double time, do
     return (wt_estimate){.value = fmax(thickness, 0), .numerical_error = error, .unit = "m"};
 }
 
-/* Far above the balance only wear counts: down to where formation begins to be felt, the thickness
- * is linear in time. */
+/* Length over which only wear matters. Far above the balance the thickness is linear in time, down
+ * to where formation is significant. */
 static wt_status skip_pure_wear(march *m, double *length, wt_error *err)
 {
     *length = 0;
@@ -162,7 +163,7 @@ static wt_status skip_pure_wear(march *m, double *length, wt_error *err)
     return WT_OK;
 }
 
-/* *linear: how far wear alone counts. */
+/* Starts an integration. *linear is the length over which only wear matters. */
 static wt_status march_begin(march *m, const layer_rates *rates, double start, wt_estimate *target,
                              double *linear, wt_error *err)
 {
@@ -194,7 +195,7 @@ wt_status layer_march(const layer_rates *rates, double start, const layer_instan
         return status;
 
     size_t i = 0;
-    if (net_rate(rates, start) == 0) { /* nothing happens, or the balance itself */
+    if (net_rate(rates, start) == 0) { /* no motion: no rates, or start at the balance */
         for (; i < n; i++)
             at[i].point->thickness = (wt_estimate){
                 .value = start, .numerical_error = target.numerical_error, .unit = "m"};
@@ -228,7 +229,7 @@ wt_status layer_march(const layer_rates *rates, double start, const layer_instan
         if (!isfinite(m.time))
             break;
     }
-    for (; i < n; i++) { /* arrived */
+    for (; i < n; i++) { /* the target is reached */
         at[i].point->thickness = (wt_estimate){.value = m.target, .unit = "m"};
         at[i].point->thickness.numerical_error =
             target.numerical_error + fabs(m.thickness - m.target);
@@ -236,7 +237,7 @@ wt_status layer_march(const layer_rates *rates, double start, const layer_instan
     return status;
 }
 
-/* Time from `start` to `goal`, which is on the way of the march. */
+/* Time from `start` to `goal`, which must lie on the path of the integration. */
 static double march_to(march *m, double goal, double linear)
 {
     const double first = fmin(linear, m->thickness - goal);

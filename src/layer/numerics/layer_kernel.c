@@ -1,5 +1,5 @@
 /* Rates of formation, Qf(d) = int_d^inf Omega dz / Lambda, and of wear, Qw = k sigma0 v, and the
- * thickness at which one is a given multiple of the other. Omega is w / U_c, or that of an
+ * thickness at which one is a given multiple of the other. Omega is w / U_c, or the rate of an
  * activated closure.
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
@@ -47,7 +47,7 @@ static const wt_param rows[] = {
 };
 PARAM_TABLE(wt_layer_params, wt_layer_parameters, rows, wt_layer_defaults, NO_PARTS)
 
-/* What the chosen closure cannot do without. */
+/* Checks the parameters that the closure requires. */
 static wt_status closure_check(const wt_layer_parameters *p, wt_error *err)
 {
     const bool activated = p->closure == WT_CLOSURE_ACTIVATED;
@@ -70,7 +70,7 @@ void layer_rates_clear(layer_rates *rates)
     rates->activated = NULL;
 }
 
-/* What the closure makes of the energy. */
+/* Sets the rates of the closure. */
 static wt_status rates_close(layer_rates *r, const wt_layer_parameters *p, wt_error *err)
 {
     r->error = r->source->numerical_error;
@@ -102,7 +102,8 @@ double layer_wear_rate(const wt_layer_parameters *p, double power)
                : p->specific_wear_rate;
 }
 
-/* What of the relative error of the power is in the wear: m x / (1 + x), x = (power / E_c)^m. */
+/* Factor from the relative error of the power to that of the wear: m x / (1 + x), x = (power /
+ * E_c)^m. */
 static double wear_follows(const wt_layer_parameters *p, double power)
 {
     if (!(p->severity_power > 0) || !(power > 0))
@@ -120,7 +121,7 @@ wt_status layer_rates_make(const wt_energy_source *source, const wt_layer_parame
     if (status == WT_OK) {
         wt_layer_parameters checked = *parameters;
         if (checked.closure == WT_CLOSURE_ACTIVATED)
-            checked.critical_energy = 1; /* which it has not */
+            checked.critical_energy = 1; /* the activated closure has no critical energy */
         status = param_check(wt_layer_params(), &checked, err);
     }
     if (status == WT_OK)
@@ -136,7 +137,7 @@ wt_status layer_rates_make(const wt_energy_source *source, const wt_layer_parame
     status = rates_close(&r, p, err);
     r.wear = p->duty * layer_wear_rate(p, r.power) * p->pressure * p->velocity;
     r.wear_error = wear_follows(p, r.power) * source->numerical_error;
-    /* of a wave the density goes with q, and its bends with the cube */
+    /* the density of a wave is proportional to q, and its second derivative to q^3 */
     const double bends = r.power * r.q_max * r.q_max * r.q_max;
     if (status == WT_OK && (!isfinite(r.formation) || !isfinite(r.wear) || !isfinite(bends))) {
         status = wt_fail(err, WT_E_RANGE, "formation or wear of a layer is faster than any number");
@@ -186,7 +187,8 @@ double layer_formation(const layer_rates *rates, double thickness)
     if (rates->formation == 0)
         return 0;
     const double fall = rates_log_tail(rates, thickness) - rates->log_power;
-    const double lowest = -700; /* e^x of it is a number; of a fast formation there is more */
+    const double lowest = -700; /* e^x does not underflow above this; a faster formation uses
+                                   logarithms */
     return fall > lowest ? rates->formation * exp(fall) : exp(log(rates->formation) + fall);
 }
 
@@ -203,7 +205,7 @@ double layer_decay(const layer_rates *rates, double thickness)
 
 typedef struct balance_root {
     const layer_rates *rates;
-    double level; /* ln(Qf / Qf(0)) wanted */
+    double level; /* required ln(Qf / Qf(0)) */
 } balance_root;
 
 static double balance_function(double depth, void *user)
@@ -212,7 +214,7 @@ static double balance_function(double depth, void *user)
     return rates_log_tail(b->rates, depth) - b->rates->log_power - b->level;
 }
 
-/* How far the root moves when the logarithm of Qf moves by `error`. */
+/* Displacement of the root due to this error of ln Qf. */
 static double root_error(balance_root *b, double root, double error)
 {
     const double kappa = layer_decay(b->rates, root);
@@ -228,7 +230,7 @@ wt_status layer_fixed_point(const layer_rates *rates, double log_scale, wt_estim
     const double error = 8 * DBL_EPSILON * (1 + fabs(excess) + fabs(rates->log_power)) +
                          rates->error + rates->wear_error;
     const bool none = !(excess > 0);
-    if (none && !rates->without_errors) /* how thick it might be all the same */
+    if (none && !rates->without_errors) /* largest possible thickness within the error */
         excess += error;
     if (rates->without_errors)
         thickness->numerical_error = (double)NAN;

@@ -1,4 +1,4 @@
-/* Internal to the kernel room: formation against wear at constant load.
+/* Formation and wear at constant load. Internal to layer.
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
@@ -7,29 +7,30 @@
 
 #include "layer/numerics/activation.h"
 
-/* Qf(d) = formation exp(log_tail(d) - log_power), Qw = wear; R = Qf(0)/Qw. Density, tail and gain
- * are those of the energy, or of the rate of an activated closure. */
+/* Qf(d) = formation exp(log_tail(d) - log_power), Qw = wear; R = Qf(0)/Qw. Density, tail and
+ * integral belong to the energy, or to the rate of an activated closure. */
 typedef struct layer_rates {
     const wt_energy_source *source;
-    activation *activated;           /* NULL: the energy closure */
-    const struct feedback_rate *own; /* formation under the layer itself; NULL: as on the bulk */
-    double q_min, q_max;             /* of the terms with power; 0 without any */
+    activation *activated;           /* NULL for the energy closure */
+    const struct feedback_rate *own; /* formation with feedback; NULL if as on the bulk */
+    double q_min, q_max;             /* range of the terms with power [rad/m]; 0 without power */
     double formation;                /* Qf(0) [m/s], duty included */
     double wear;                     /* [m/s], duty included */
-    double power;                    /* per area [W/m^2] */
+    double power;                    /* power per area [W/m^2] */
     double log_power;                /* ln of the tail at the surface; 0 without power */
     double log_ratio;                /* ln R; -infinity without power, +infinity without wear */
     double threshold;                /* ln(U_c Lambda), or ln Lambda of an activated closure */
-    double background;               /* unloaded damage over Lambda [1/s]; 0 = none that counts */
-    double error;                    /* relative, of a tail */
-    double wear_error;               /* relative, of the wear where it follows the power; else 0 */
+    double background;               /* damage rate without load over Lambda [1/s]; 0 if none */
+    double error;                    /* relative error of a tail */
+    double wear_error;               /* relative error of the wear if it depends on the power;
+                                        else 0 */
     double duty;
     bool without_errors;
 } layer_rates;
 
 wt_status layer_rates_make(const wt_energy_source *source, const wt_layer_parameters *parameters,
                            layer_rates *rates, wt_error *err) WT_NODISCARD;
-/* k with what the power does to it [m^2/N]. */
+/* Specific wear rate k with the effect of the power [m^2/N]. */
 double layer_wear_rate(const wt_layer_parameters *parameters, double power);
 void layer_rates_clear(layer_rates *rates);
 double rates_log_density(const layer_rates *rates, double depth);
@@ -39,33 +40,34 @@ energy_course rates_course(const layer_rates *rates, double depth, double length
 double layer_formation(const layer_rates *rates, double thickness); /* Qf */
 /* Local decay rate of Qf, w / int w [1/m]. */
 double layer_decay(const layer_rates *rates, double thickness);
-/* Where Qf = scale Qw, 0 if Qf(0) is below, with the numerical error of the place. */
+/* Thickness at which Qf = scale Qw, with its numerical error; 0 if Qf(0) is below. */
 wt_status layer_fixed_point(const layer_rates *rates, double log_scale, wt_estimate *thickness,
                             wt_error *err) WT_NODISCARD;
 
-/* Damage transport: the deepest place where int Omega dt >= Lambda at `time`; 0 before incubation.
- * It is looked for from that of an earlier time on, or from 0. */
+/* Damage transport: the deepest position with int Omega dt >= Lambda at `time`; 0 before
+ * incubation. The search begins at the thickness of an earlier time, or at 0. */
 wt_status layer_damage_depth(const layer_rates *rates, double time, double earlier,
                              wt_estimate *thickness, wt_error *err) WT_NODISCARD;
-/* First time at which any place at this depth or below is modified; NaN if never. */
+/* First time at which any position at this depth or below is modified; NaN if never. */
 wt_status layer_damage_time(const layer_rates *rates, bool with_wear, wt_estimate depth,
                             wt_estimate *time, wt_error *err) WT_NODISCARD;
-/* WT_E_RANGE naming the time that is none. */
+/* Returns WT_E_RANGE with the invalid time. */
 wt_status layer_times_check(const double *time, size_t n, wt_error *err) WT_NODISCARD;
 typedef struct layer_instant {
     double time;
     wt_layer_point *point;
 } layer_instant;
 
-/* Rate balance: the thickness of the points at n rising times, and no more of them. */
+/* Rate balance: sets the thickness, but no other member, of the points at n rising times. */
 wt_status layer_march(const layer_rates *rates, double start, const layer_instant *at, size_t n,
                       wt_error *err) WT_NODISCARD;
-/* The thickness of the points at n times in any order, by damage transport or the rate balance. */
+/* Sets the thickness of the points at n times in any order, by damage transport or by the rate
+ * balance. */
 wt_status layer_history_in_order(const layer_rates *rates, double start, bool transport,
                                  const double *time, size_t n, wt_layer_point *points,
                                  wt_error *err) WT_NODISCARD;
-/* Rate balance: time from one thickness to another on the way to the balance, or to the bare
- * surface; infinite if it is not on the way. */
+/* Rate balance: time from one thickness to another on the path to the balance or to the bare
+ * surface; infinite if it is not on the path. */
 wt_status layer_march_time(const layer_rates *rates, double start, wt_estimate goal,
                            wt_estimate *time, wt_error *err) WT_NODISCARD;
 

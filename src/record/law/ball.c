@@ -1,4 +1,4 @@
-/* Nominal pressure of a ball, and what a place of its track takes of it.
+/* Hertzian contact of a ball: nominal pressure, load and duty of a point of the track.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "weartrack/model.h"
 

@@ -1,4 +1,4 @@
-/* Measured against predicted, smooth over the velocity.
+/* Smooth curve of ln(measured/predicted) over the logarithm of the velocity.
  *
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "record/numerics/agreement.h"
@@ -14,9 +14,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* ---- the curve ------------------------------------------------------------------------------- */
+/* ---- curve ----------------------------------------------------------------------------------- */
 
-/* How many velocities there are, and their ends. */
+/* Counts the distinct velocities and returns their range. */
 static wt_status count_places(const agreement_data *d, size_t *n, double ends[2], wt_error *err)
 {
     double *const sorted = malloc((d->n + 1) * sizeof *sorted);
@@ -37,17 +37,19 @@ static wt_status count_places(const agreement_data *d, size_t *n, double ends[2]
     return WT_OK;
 }
 
-/* Term k of the curve at a place. */
+/* Term k of the curve at a logarithm of the velocity. */
 static double term(const agreement *a, double place, size_t k)
 {
     const double u = (place - a->centre) / a->span;
     return k == 0 ? 1 : k == 1 ? u : u * u;
 }
 
-/* The rows of `weight` for a scatter: (X W X)^-1 X W. False: the places do not tell all terms. */
+/* Computes the rows of `weight` for a scatter: (X W X)^-1 X W. False if the velocities do not
+ * determine all terms. */
 static bool find_weights(const agreement_data *d, agreement *a, double scatter)
 {
-    /* A term of which less than this is its own is told by rounding. */
+    /* A term is undetermined by rounding if less than this part of it is independent of the
+     * others. */
     const double least = 1e-12;
     const size_t p = a->terms;
     double normal[AGREEMENT_TERMS * AGREEMENT_TERMS] = {0};
@@ -83,7 +85,7 @@ static void find_smooth(const agreement_data *d, agreement *a)
     }
 }
 
-/* Variance at step i of what the prediction adds to value - smooth; `row` [n] is scratch. */
+/* Variance of the residual at step i due to the prediction. `row`: [n] scratch. */
 static double residual_of_common(const agreement_data *d, const agreement *a, size_t i, double *row)
 {
     double sum = 0;
@@ -96,8 +98,8 @@ static double residual_of_common(const agreement_data *d, const agreement *a, si
     return fmax(sum, 0);
 }
 
-/* Squares that are left over those expected, less 1; below 0: there is scatter enough. `shape` is
- * the variance that the prediction leaves of the residual of each step. */
+/* Weighted residual squares over their expectation, less 1. A value below 0 needs no further
+ * scatter. `shape`: variance of each residual due to the prediction. */
 static double surplus(const agreement_data *d, agreement *a, double scatter, const double *shape)
 {
     double sum = 0, expected = (double)(d->n - a->terms);
@@ -112,7 +114,7 @@ static double surplus(const agreement_data *d, agreement *a, double scatter, con
     return sum / expected - 1;
 }
 
-/* Halvings of an interval that begins at the squares themselves: 1e-12 of them. */
+/* Bisections of an interval that starts at the sum of squares, to 1e-12 of it. */
 enum { HALVINGS = 40 };
 
 static void find_scatter(const agreement_data *d, agreement *a, const double *shape)
@@ -133,7 +135,7 @@ static void find_scatter(const agreement_data *d, agreement *a, const double *sh
     a->scatter = 0.5 * (low + high);
 }
 
-/* Errors of the curve at all steps. `row`: [n] scratch. */
+/* Standard errors of the curve at all steps. `row`: [n] scratch. */
 static void find_errors(const agreement_data *d, agreement *a, double *row)
 {
     for (size_t i = 0; i < d->n; i++) {
@@ -191,7 +193,7 @@ wt_status agreement_fit(const agreement_data *data, size_t most_terms, agreement
         shape[i] = residual_of_common(data, a, i, row);
     if (status == WT_OK) {
         find_scatter(data, a, shape);
-        (void)surplus(data, a, a->scatter, shape); /* the weights of that scatter */
+        (void)surplus(data, a, a->scatter, shape); /* weights for this scatter */
         find_errors(data, a, row);
     }
     free(shape);
@@ -231,7 +233,7 @@ double agreement_df(double variance, double scatter, double df)
                                  : (double)INFINITY;
 }
 
-/* Of an interval that holds at all steps at once. */
+/* Quantile of an interval that holds at all steps simultaneously. */
 static double simultaneous(const agreement *a, double df)
 {
     const double terms = (double)a->terms, each = 0.05 / (2 * (double)a->n);
@@ -274,7 +276,7 @@ void agreement_assess(agreement *a, double margin)
 
 /* ---- likelihood ------------------------------------------------------------------------------ */
 
-/* The covariance of all; NULL without memory. */
+/* Covariance of all values. NULL if out of memory. */
 static gsl_matrix *covariance(const agreement_data *d, double scatter)
 {
     gsl_matrix *const v = gsl_matrix_alloc(d->n, d->n);

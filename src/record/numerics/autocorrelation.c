@@ -1,9 +1,7 @@
-/* Likelihood of slow scatter by Kalman's filter, and what is left when it is averaged.
+/* Likelihood of autocorrelated scatter by a Kalman filter, and averages over the laws. Harvey,
+ * Forecasting, structural time series models and the Kalman filter (1989), chapter 3.
  *
- * Harvey, Forecasting, structural time series models and the Kalman filter (1989), chapter 3.
- *
- * SPDX-License-Identifier: GPL-3.0-or-later
- */
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "record/numerics/autocorrelation.h"
 
 #include <gsl/gsl_cdf.h>
@@ -11,13 +9,13 @@
 #include <math.h>
 #include <stdlib.h>
 
-static const double shortest = 0.5; /* steps */
-/* closer at the ends, where a little white or slow scatter changes much */
+static const double shortest = 0.5; /* [steps] */
+/* denser near 0 and 1, where a small white or slow part has a large effect */
 static const double shares[SCATTER_SHARES] = {0, 0.02, 0.05, 0.1, 0.2, 0.4, 0.6, 0.8, 0.95, 1};
 
-/* Before a series is seen: how long slow scatter may be, of the series, and how likely each share
- * is, in parts of all. Under a change: white, or any other. Of a mean: four white to one all slow
- * and one partly slow, by share (1 - share) over the steps of the shares. */
+/* Prior of the laws: longest correlation length as a share of the series, and relative weights of
+ * the shares. For a change, white scatter has the weight of all other shares. For a mean, the
+ * weights are 4 (white), 1 (all slow) and 1 (partly slow, by share (1 - share) and spacing). */
 static const struct {
     double longest, likely[SCATTER_SHARES];
 } expected[] = {
@@ -83,7 +81,7 @@ scatter_fit scatter_solve(const scatter_sums *s, bool line)
     return (scatter_fit){about - slope * slope * tt, log(p[0]) + log(tt), slope, 1 / tt};
 }
 
-/* log_unit: ln of the square of what the second column is told in. */
+/* log_unit: ln of the squared unit of the second column. */
 static double likelihood_of(const scatter_sums *s, bool line, double least, double log_unit)
 {
     const scatter_fit f = scatter_solve(s, line);
@@ -95,7 +93,8 @@ static double likelihood_of(const scatter_sums *s, bool line, double least, doub
 
 double scatter_likelihood(const scatter_sums *s, bool line, double least)
 {
-    /* a slope over the whole of the points, so that it has the unit of y however many they are */
+    /* the slope is taken over the whole series, so that its unit does not depend on the number of
+     * points */
     return likelihood_of(s, line, least, line ? 2 * log((double)s->n) : 0);
 }
 
@@ -157,7 +156,7 @@ double mixture_mean(const t_mixture *m)
     return sum;
 }
 
-/* About where the tails are, of laws of any degrees of freedom. */
+/* Approximate distance of the tails, for any degrees of freedom. */
 static double mixture_width(const t_mixture *m)
 {
     const double mean = mixture_mean(m);
@@ -173,7 +172,7 @@ static double mixture_below(const t_mixture *m, double x)
 {
     double sum = 0;
     for (size_t i = 0; i < m->n; i++)
-        if (m->log_weight[i] > -40) /* what is lighter is below the digits of the sum */
+        if (m->log_weight[i] > -40) /* smaller weights are below the rounding of the sum */
             sum +=
                 exp(m->log_weight[i]) * gsl_cdf_tdist_P((x - m->centre[i]) / m->scale[i], m->df[i]);
     return sum;

@@ -1,7 +1,6 @@
 /* Means of a friction record over its cycles.
  *
- * SPDX-License-Identifier: GPL-3.0-or-later
- */
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "record/numerics/cycles.h"
 
 #include "core/base/array.h"
@@ -9,15 +8,16 @@
 #include <math.h>
 #include <stdlib.h>
 
-/* Spans of time: no more than these, of which a change is placed to a thousandth of the record. */
+/* Limit of the number of time spans. A change is then located to 0.1 % of the record. */
 static const double most_spans = 1000;
-/* They hold the samples of all of the record but its longest pauses. */
+/* Each span holds a sample anywhere in the record except in the longest pauses, which take this
+ * share of it. */
 static const double pauses = 0.01;
-/* Of the fastest sample of a cycle: below, the others stand still but for the noise of the speed.
- */
+/* Fraction of the fastest sample of a cycle. Slower samples are at rest except for noise of the
+ * speed. */
 static const double at_rest = 0.01;
 
-/* ---- friction of every sample ---------------------------------------------------------------- */
+/* ---- friction of each sample ----------------------------------------------------------------- */
 
 static bool has_both_signs(const double *x, size_t n)
 {
@@ -26,7 +26,7 @@ static bool has_both_signs(const double *x, size_t n)
         below += x[i] < 0;
         above += x[i] > 0;
     }
-    return 10 * below > n && 10 * above > n; /* a tenth is more than scatter about 0 */
+    return 10 * below > n && 10 * above > n; /* 10 % exceeds scatter about 0 */
 }
 
 static double load_of(const wt_record *record, double load, size_t i)
@@ -35,7 +35,7 @@ static double load_of(const wt_record *record, double load, size_t i)
     return measured != NULL ? measured[i] : load;
 }
 
-/* The coefficient of the file, unless it lost the sign that its force has. */
+/* The coefficient of the file is used unless it lost the sign that the force has. */
 static wt_status friction_of(const wt_record *record, double load, double *friction,
                              wt_cycles *cycles, wt_error *err)
 {
@@ -63,9 +63,9 @@ static wt_status friction_of(const wt_record *record, double load, double *frict
     return WT_OK;
 }
 
-/* ---- which samples are a cycle --------------------------------------------------------------- */
+/* ---- selection of cycles --------------------------------------------------------------------- */
 
-/* What runs on through the record. */
+/* Returns the first channel that increases through the record. */
 static const double *running(const wt_record *record)
 {
     static const wt_record_channel order[] = {WT_RECORD_TIME, WT_RECORD_DISTANCE, WT_RECORD_LAPS};
@@ -89,7 +89,8 @@ static bool same_step(const wt_record *record, size_t i)
     return i < record->n && record->step[i] == record->step[i - 1];
 }
 
-/* Whole laps: the last of a step is none, nor the first unless it begins with it. */
+/* Finds complete laps. The last lap of a step is incomplete, and the first one unless the step
+ * begins with it. */
 static void find_laps(const wt_record *record, double radius, cycle_spans *spans)
 {
     for (size_t first = 0, end; first < record->n; first = end) {
@@ -105,8 +106,8 @@ static void find_laps(const wt_record *record, double radius, cycle_spans *spans
     }
 }
 
-/* A span that holds at least one sample wherever the record has some: longer than all steps but
- * those that make up the pauses. `steps` is room for them. */
+/* Returns a span that holds at least one sample: longer than all sampling intervals except pauses.
+ * `steps`: [n] scratch. */
 static double span_of(const double *x, size_t n, double *steps)
 {
     const double all = x[n - 1] - x[0];
@@ -125,7 +126,7 @@ static void find_spans(const wt_record *record, double *room, cycle_spans *spans
     const double *const x = running(record);
     const double width = record->n > 1 ? span_of(x, record->n, room) : 1;
     for (size_t first = 0, end; first < record->n; first = end) {
-        /* half a step more, so that equal steps do not fall to either side by their digits */
+        /* the tolerance keeps equal sampling intervals from rounding to either side */
         for (end = first + 1; same_step(record, end) && !(x[end] - x[first] > 0.999 * width);)
             end++;
         spans->span[spans->n++] = (cycle_span){first, first, end};
@@ -156,7 +157,7 @@ static wt_status choose(const wt_record *record, wt_cycle_kind wanted, double ra
                         const double *friction, double *room, cycle_spans *spans,
                         wt_cycle_kind *kind, wt_error *err)
 {
-    enum { FEWEST = 3 }; /* below, it is no series */
+    enum { FEWEST = 3 }; /* fewer are not a series */
     for (*kind = WT_CYCLE_STROKE; *kind <= WT_CYCLE_SAMPLE; ++*kind) {
         if (wanted != WT_CYCLE_AUTO && *kind != wanted)
             continue;
@@ -173,8 +174,8 @@ static wt_status choose(const wt_record *record, wt_cycle_kind wanted, double ra
     return status;
 }
 
-/* Before sliding begins and after it ends there is no friction of sliding: a cycle is what slides
- * in it. Strokes come to rest where they turn. */
+/* Friction of sliding exists only during motion: the function trims samples at rest from a cycle.
+ * Strokes come to rest at their turning points. */
 static cycle_span sliding_part(const wt_record *record, wt_cycle_kind kind, cycle_span s)
 {
     const double *const x = record->channel[WT_RECORD_VELOCITY] != NULL
@@ -216,7 +217,8 @@ static double deviation_of(const double *x, cycle_span s, double mean)
     return n > 1 ? sqrt(sum / (n - 1)) : (double)NAN;
 }
 
-/* To the first sample of the next cycle, so that one of a single sample has a duration. */
+/* The span ends at the first sample of the next cycle, so that a cycle of one sample has a
+ * duration. */
 static size_t end_of(const wt_record *record, cycle_span s)
 {
     return same_step(record, s.end) ? s.end : s.end - 1;
@@ -227,7 +229,8 @@ static double span_over(const double *x, const wt_record *record, cycle_span s)
     return x != NULL ? x[end_of(record, s)] - x[s.first] : (double)NAN;
 }
 
-/* Of strokes the mean of what changes its sign with the direction is without the sign. */
+/* For strokes the mean of a quantity that changes its sign with the direction is that of its
+ * magnitude. */
 static double mean_speed(const double *x, cycle_span s, wt_cycle_kind kind)
 {
     double sum = 0, n = 0;
@@ -241,7 +244,7 @@ static double mean_speed(const double *x, cycle_span s, wt_cycle_kind kind)
     return n > 0 ? sum / n : (double)NAN;
 }
 
-/* There and back. */
+/* Length of a double stroke. */
 static double path_of_strokes(const double *position, cycle_span s)
 {
     double low = (double)INFINITY, high = -(double)INFINITY;
@@ -288,7 +291,7 @@ static void set_friction(const wt_record *record, const double *friction, wt_cyc
     c->zero = 0.5 * (m.there + m.back);
 }
 
-/* As measured or given, else what the coefficient of the file says of its friction force. */
+/* Measured or stated normal force, else the friction force over the coefficient of the file. */
 static double normal_force_of(const wt_record *record, double load, cycle_span s)
 {
     const double *const mu = record->channel[WT_RECORD_COEFFICIENT],
@@ -324,7 +327,7 @@ static void set_cycle(const wt_record *record, double radius, double load, cycle
     c->wear_depth = mean_of(channel[WT_RECORD_WEAR_DEPTH], s);
 }
 
-/* The sign of friction is that of a direction: each step is turned to the positive side. */
+/* The sign of friction is that of a direction. Each step is made positive on average. */
 static void turn_steps(wt_cycles *cycles)
 {
     for (size_t first = 0, end; first < cycles->n; first = end) {

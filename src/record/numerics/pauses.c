@@ -1,8 +1,7 @@
-/* Pauses of a friction record, by what it tells of the motion: distance, laps, position, velocity
- * or rotation. Where it tells none of them, a gap in the time is one.
+/* Pauses of a friction record, found by its motion: distance, laps, position, velocity or rotation.
+ * Without these channels, a gap in the time is a pause.
  *
- * SPDX-License-Identifier: GPL-3.0-or-later
- */
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "record/numerics/pauses.h"
 
 #include "core/base/arena.h"
@@ -12,45 +11,49 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Of the time of a step: what is shorter changes no running-in that anybody could read off. */
+/* Shortest pause as a fraction of the time of a step. A shorter one has no visible effect on the
+ * running-in. */
 static const double least_part = 1e-3;
-/* Times what the motion takes beside it for as much progress: the clock of a recorder is late by
- * less, and a display changes its last digit sooner. */
+/* A pause takes at least this many times the time that the motion beside it takes for the same
+ * progress. The clock of a recorder is late by less, and a display changes its last digit
+ * sooner. */
 static const double outstanding = 10;
-/* Levels on either side that tell how fast it slides: their median stands one odd among two. */
+/* Number of levels on either side whose median gives the sliding speed. A single outlier does not
+ * change it. */
 enum { BESIDE = 5 };
-/* Of the range of a position: where a slider stands, it moves by less. */
+/* Fraction of the range of a position. A slider at rest moves by less. */
 static const double standing = 0.02;
-/* Of the time from turn to turn: at its turns a slider that goes as a sine is within `standing` for
- * a seventh of it. */
+/* Fraction of the time between turning points. A sinusoidal motion stays within the rest range for
+ * 1/7 of this time at a turning point. */
 static const double least_of_stroke = 0.5;
-/* Times the median scatter about the place of a slider that stands: less is scatter. */
+/* Multiple of the median scatter about the position of a slider at rest. Smaller deviations are
+ * scatter. */
 static const double outside = 5;
-/* Of the largest speed: below, a disc may stand, and the speed be that of its noise. */
+/* Fraction of the largest speed. A slower disc may be at rest, with a speed that is noise. */
 static const double at_rest = 0.01;
-/* Means over standard deviations: noise without a sign has 1.3, without motion and with it 0; that
- * of a motor that turns slowly has more. */
+/* Ratio of mean and standard deviation. Rectified noise has 1.3; signed noise without motion has 0.
+ * A slowly turning motor exceeds the limit. */
 static const double noise = 2;
-/* So many gaps, the longest below twice the shortest, are the recorder's. */
+/* Fewest gaps of the recorder: equal gaps, the longest below twice the shortest. */
 enum { FEW_GAPS = 5 };
-/* Of the range of what runs on: what falls by more goes there and back. */
+/* Fraction of the range. A channel that falls by more reciprocates. */
 static const double there_and_back = 0.1;
 
-/* Samples of a step, and what of it moves. */
+/* Samples of one step with the motion of one channel. */
 typedef struct pause_search {
     const double *time, *moved; /* [n] */
     size_t n;
-    double *cut;  /* [n] time that is left out before a sample */
+    double *cut;  /* [n] pause before a sample that is removed [s] */
     bool *rest;   /* [n] */
     double *room; /* [n] */
 } pause_search;
 
 typedef struct level {
-    size_t first, next;    /* samples: where it is reached and where it is left */
-    double time, progress; /* to the next level */
+    size_t first, next;    /* samples at which the level is reached and left */
+    double time, progress; /* up to the next level */
 } level;
 
-/* ---- there and on ---------------------------------------------------------------------------- */
+/* ---- unidirectional motion ------------------------------------------------------------------- */
 
 static double largest_fall(const double *x, size_t n)
 {
@@ -62,7 +65,7 @@ static double largest_fall(const double *x, size_t n)
     return fall;
 }
 
-/* Samples at one place are a level: that of a distance that is measured scatters by as much as it
+/* Groups samples at one position into levels. A measured distance scatters by as much as it
  * falls. */
 static size_t find_levels(const pause_search *s, level *levels)
 {
@@ -78,7 +81,7 @@ static size_t find_levels(const pause_search *s, level *levels)
     return n;
 }
 
-/* Time for progress by the levels on one side; NaN: there are none. */
+/* Median time per progress of the levels on one side. NaN if there are none. */
 static double slowness_of(const level *levels, size_t n)
 {
     double slow[BESIDE];
@@ -108,10 +111,10 @@ static void find_in_levels(pause_search *s, level *levels)
     }
 }
 
-/* ---- there and back -------------------------------------------------------------------------- */
+/* ---- reciprocating motion -------------------------------------------------------------------- */
 
-/* Mean time from turn to turn, by the strokes that come from one quarter of the range to the other:
- * the way that is made would hold the noise of every sample. */
+/* Mean time between turning points. It counts strokes from one outer quarter of the range to the
+ * other: the path itself would include the noise of every sample. */
 static double time_of_stroke(const pause_search *s, double low, double high)
 {
     const double quarter = 0.25 * (high - low);
@@ -125,8 +128,8 @@ static double time_of_stroke(const pause_search *s, double low, double high)
     return (s->time[s->n - 1] - s->time[0]) / (double)(strokes > 0 ? strokes : 1);
 }
 
-/* From samples near one place those that are at it, as far as it scatters: before and behind the
- * slider was on its way. */
+/* Restricts samples near one position to the rest itself. Before and after, the slider was
+ * moving. */
 static void trim(const pause_search *s, size_t *first, size_t *next)
 {
     const size_t n = *next - *first;
@@ -160,10 +163,10 @@ static void find_standing(pause_search *s, double low, double high)
     }
 }
 
-/* ---- what moves ------------------------------------------------------------------------------ */
+/* ---- motion of a channel --------------------------------------------------------------------- */
 
-/* A speed that stands, without its noise: runs far below the largest whose mean does not stand out
- * of their scatter. */
+/* Sets a speed to zero where it is noise: runs far below the largest speed whose mean does not
+ * exceed their scatter. */
 static void quieten(double *speed, size_t n)
 {
     double fastest = 0;
@@ -191,7 +194,7 @@ static bool is_whole(const double *x, size_t n)
     return x != NULL;
 }
 
-/* The way by a speed, which is that of the way to its sample. */
+/* Integrates a speed, which holds over the interval before its sample. */
 static void way_of(double *speed, const double *time, size_t n, double *way)
 {
     quieten(speed, n);
@@ -200,8 +203,8 @@ static void way_of(double *speed, const double *time, size_t n, double *way)
         way[i] = way[i - 1] + speed[i] * (time[i] - time[i - 1]);
 }
 
-/* What runs on or goes there and back, from sample `first` of the record on, WT_RECORD_CHANNELS for
- * the number of the sample; false: the record does not tell it. */
+/* Copies the motion of a channel from sample `first` on. WT_RECORD_CHANNELS stands for the sample
+ * number. False if the record lacks the channel. */
 static bool motion_of(const wt_record *record, wt_record_channel c, size_t first, size_t n,
                       double *moved, double *room)
 {
@@ -218,18 +221,18 @@ static bool motion_of(const wt_record *record, wt_record_channel c, size_t first
         way_of(room, record->channel[WT_RECORD_TIME] + first, n, moved);
     else
         memcpy(moved, room, n * sizeof *moved);
-    for (size_t i = 0; i < n; i++) /* a direction has a sign */
+    for (size_t i = 0; i < n; i++) /* the sign is that of a direction */
         room[i] = moved[n - 1] < moved[0] ? -moved[i] : moved[i];
     memcpy(moved, room, n * sizeof *moved);
     return true;
 }
 
-/* ---- the record ------------------------------------------------------------------------------ */
+/* ---- record ---------------------------------------------------------------------------------- */
 
-/* What is worked with: a number for each sample, but `levels`. */
+/* Scratch arrays with one element per sample. */
 typedef struct pause_room {
     double *moved, *room;
-    double *cut, *paused; /* by this channel, and by all: before the sample */
+    double *cut, *paused; /* [s] before a sample: pauses of this channel, pauses of all channels */
     bool *rest;
     level *levels;
 } pause_room;
@@ -258,7 +261,7 @@ static void find_in_step(const wt_record *record, wt_record_channel c, size_t fi
         find_in_levels(&s, r->levels);
 }
 
-/* Many gaps that are alike; they are taken back. */
+/* Restores the time of many equal gaps, which belong to the recorder. Returns their number. */
 static size_t take_back(const wt_record *record, double *cut)
 {
     double least = (double)INFINITY, most = 0;
@@ -275,7 +278,7 @@ static size_t take_back(const wt_record *record, double *cut)
     return n;
 }
 
-/* Numbers samples anew, without those at rest. */
+/* Removes the samples at rest and renumbers the others. */
 static void keep(wt_record *record, const pause_room *r)
 {
     static const wt_record_channel running[] = {WT_RECORD_TIME, WT_RECORD_DISTANCE, WT_RECORD_LAPS};
@@ -285,7 +288,7 @@ static void keep(wt_record *record, const pause_room *r)
     for (size_t i = 0; i < record->n; i++) {
         paused += r->paused[i] + r->cut[i];
         shift[0] += r->cut[i];
-        /* what a display counts at rest is no way */
+        /* a display that counts at rest adds no path */
         for (size_t k = 1; k < COUNT_OF(running); k++)
             if (r->rest[i] && channel[running[k]] != NULL)
                 shift[k] += channel[running[k]][i] - channel[running[k]][i - 1];
@@ -336,7 +339,7 @@ static wt_status text_append(const wt_record *record, const double *paused, reco
 
 wt_status record_leave_out_pauses(wt_record *record, record_pauses *pauses, wt_error *err)
 {
-    /* the finest first; at last by the time alone, where no way runs on */
+    /* the finest channel first; time alone last, without a progressive channel */
     static const wt_record_channel order[] = {WT_RECORD_DISTANCE, WT_RECORD_VELOCITY,
                                               WT_RECORD_ROTATION, WT_RECORD_POSITION,
                                               WT_RECORD_LAPS,     WT_RECORD_CHANNELS};

@@ -1,4 +1,5 @@
-/* Pauses of a friction record: rest in mid-record, which is no time of sliding. Internal.
+/* Pauses of a friction record: rests within the record, which are not sliding time. Internal to
+ * record.
  *
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #ifndef WT_RECORD_NUMERICS_PAUSES_H
@@ -7,19 +8,19 @@
 #include "weartrack/data.h"
 
 typedef struct record_pause {
-    size_t before; /* the sample, of those that are left, that it was before */
-    double at;     /* [s] of sliding, where it was */
-    double time;   /* [s] that it lasted */
+    size_t before; /* sample that follows the pause, counted without removed samples */
+    double at;     /* [s] sliding time of the pause */
+    double time;   /* [s] duration */
 } record_pause;
 
 typedef struct record_pauses {
-    record_pause *of; /* [n], rising; freed with free() */
+    record_pause *of; /* [n] ascending; released with free() */
     size_t n;
-    size_t alike; /* gaps in the time that are many and alike: of the recorder, and left in */
+    size_t alike; /* number of equal time gaps that belong to the recorder and stay */
 } record_pauses;
 
-/* Takes them out: samples at rest go, and time, distance and laps run on without them. What stands
- * still before sliding begins, after it ends or for a whole step of the instrument stays. */
+/* Removes the samples of pauses; time, distance and laps continue without them. Rests before
+ * sliding begins, after it ends or over a whole instrument step stay. */
 wt_status record_leave_out_pauses(wt_record *record, record_pauses *pauses,
                                   wt_error *err) WT_NODISCARD;
 

@@ -1,7 +1,6 @@
-/* How a predicted course lies in a series of cycles.
+/* Fit of a predicted running-in curve to a series of cycles.
  *
- * SPDX-License-Identifier: GPL-3.0-or-later
- */
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "record/numerics/running_in_curve.h"
 
 #include "core/base/arena.h"
@@ -10,7 +9,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-/* ---- the course ------------------------------------------------------------------------------ */
+/* ---- curve ----------------------------------------------------------------------------------- */
 
 double running_in_curve_at(const course *c, double log_time)
 {
@@ -62,16 +61,16 @@ void running_in_series_clear(running_in_series *s)
     *s = (running_in_series){.n = 0};
 }
 
-/* ---- one factor ------------------------------------------------------------------------------ */
+/* ---- one time factor ------------------------------------------------------------------------- */
 
-/* The integral of a course from the start on: means by it are exact in the first cycles, too,
- * within which most of a course may pass. */
+/* Integral of a curve from the start. Means computed from it are exact in the first cycles, too, in
+ * which most of a curve may pass. */
 typedef struct course_sums {
     const course *c;
-    double *time, *sum; /* [n] its times [s], and the integral up to them; NULL: out of memory */
+    double *time, *sum; /* [n] times [s], and the integral up to them; NULL if out of memory */
 } course_sums;
 
-/* From time i, behind which the course is linear in the logarithm of time. */
+/* Integral within interval i, in which the curve is linear in the logarithm of time. */
 static double piece(const course *c, size_t i, double from, double to)
 {
     const double rise = (c->value[i + 1] - c->value[i]) / c->log_step;
@@ -103,7 +102,7 @@ static double course_sum(const course_sums *m, double time)
     return m->sum[i] + piece(c, i, m->time[i], time);
 }
 
-/* The course over its height, as the means of the series would show it. column: [n]. */
+/* Mean of the curve over its height in each interval of the series. column: [n]. */
 static void fill_column(const running_in_series *s, const course_sums *m, double height,
                         double log_factor, double *column)
 {
@@ -130,9 +129,9 @@ static double level_of(const scatter_sums *s, double coefficient)
     return (s->product[3] - coefficient * s->product[1]) / s->product[0];
 }
 
-/* Digits of a maximum that a likelihood tells. */
+/* Tolerance of a maximum of the likelihood. */
 static const double finest = 1e-4;
-static const double golden = 0.6180339887498949; /* of the golden section */
+static const double golden = 0.6180339887498949; /* ratio of the golden section */
 
 typedef struct place_search {
     const running_in_series *s;
@@ -190,40 +189,40 @@ running_in_optimum running_in_optimum_find(const running_in_series *s, const cou
     return place;
 }
 
-/* ---- all factors ----------------------------------------------------------------------------- */
+/* ---- all time factors ------------------------------------------------------------------------ */
 
-/* Of the factors that are tried: apart first, then so many where the likelihood is. */
+/* Step of the coarse scan (in ln), and number of factors of the fine scan. */
 static const double coarse = 0.2;
 enum { FINE = 40, COARSE_MOST = 200 };
-/* ln of what the likelihood has lost where it is left: 1e-5 of the largest. */
+/* ln of the ratio to the largest likelihood at which a factor is skipped: about 1e-5. */
 static const double deep = 12;
-/* What is settled within two means is not told by them; times are tried from an eighth of that to
- * so many times the length of the series. */
+/* A curve that settles within two means is not resolved. The scan goes from 1/8 of that to a
+ * multiple of the length of the series. */
 static const double fewest_means = 2, least_part = 0.125, most_lengths = 5;
-static const double tail = 0.025; /* on each side of an interval of 95 % */
+static const double tail = 0.025; /* on each side of a 95 % interval */
 
-/* One series with its course. */
+/* One series with its curve. */
 typedef struct member {
     const running_in_series *s;
     course_sums sums;
     double height, variance, least, settled;
     double *column;                  /* [n] */
-    bool kept[SCATTER_LAWS];         /* laws that count */
+    bool kept[SCATTER_LAWS];         /* laws that are not excluded */
     double null[SCATTER_LAWS];       /* ln of their likelihoods about a constant */
-    double likelihood[SCATTER_LAWS]; /* the largest with the course */
+    double likelihood[SCATTER_LAWS]; /* largest likelihood with the curve */
     double best, best_level, best_scatter;
     scatter_law best_law;
 } member;
 
 typedef struct law_sum {
-    double weight, ratio, square; /* weight as a logarithm, the others by it */
+    double weight, ratio, square; /* weight as a logarithm; the others are weighted means */
 } law_sum;
 
 typedef struct scan {
     member *of; /* [n_of] */
     size_t n_of;
-    law_sum *each;               /* [n_of] of one factor */
-    size_t n;                    /* factors so far */
+    law_sum *each;               /* [n_of] for one factor */
+    size_t n;                    /* number of factors so far */
     double *log_factor, *weight; /* [n] ln of the likelihood over all laws */
     double *ratio, *square;      /* [n] mean and mean square of the ratio over the laws */
 } scan;
@@ -236,7 +235,7 @@ static void add_law(law_sum *sum, double weight, double ratio, double variance)
                      old * sum->square + now * (ratio * ratio + variance)};
 }
 
-/* `first`: what each law comes to is kept. */
+/* `first`: stores the likelihood of each law. */
 static law_sum try_member(member *t, double log_factor, bool first)
 {
     law_sum sum = {-(double)INFINITY, 0, 0};
@@ -249,12 +248,12 @@ static law_sum try_member(member *t, double log_factor, bool first)
             sum_up(t->s, t->column, scatter_law_of(SCATTER_UNDER_CHANGE, i, t->s->n));
         const scatter_fit f = scatter_solve(&s, true);
         const double scatter = fmax(f.squares / df, t->least);
-        /* changes about as large as the scatter of the whole are taken for possible, or else a
-         * course that lies beyond the series would be as likely as it is free */
+        /* The prior admits changes of the order of the total scatter. Without it, a curve outside
+         * the series would be as probable as it is unconstrained. */
         const double l = scatter_prior(SCATTER_UNDER_CHANGE, i) +
                          scatter_profile_likelihood(&s, t->least) -
                          0.5 * log1p(f.variance * scatter / t->variance);
-        if (!isfinite(l)) /* no course within the series */
+        if (!isfinite(l)) /* the curve does not pass within the series */
             continue;
         const double variance = scatter * f.variance * df / (df - 2); /* of Student's t */
         add_law(&sum, l, f.coefficient / t->height, variance / (t->height * t->height));
@@ -270,8 +269,8 @@ static law_sum try_member(member *t, double log_factor, bool first)
     return sum;
 }
 
-/* The change that is taken for possible, as a variance in the unit of the first series: that of the
- * series that scatters least. */
+/* Prior variance of the change, in the unit of the first series. It is that of the series with the
+ * least scatter. */
 static double possible_of(const scan *t)
 {
     double least = (double)INFINITY;
@@ -291,9 +290,9 @@ static double null_of(const member *m)
     return none;
 }
 
-/* The series have the ratio in common, too, and a scatter each. What one says of the ratio is taken
- * for normal; which changes are possible counts once and not for each. A series that the course
- * begins behind says as much as a constant, unless it is the only one. */
+/* Combines the series, which share the ratio and have a scatter each. The ratio of each series is
+ * treated as normal. The prior of the change counts once. A series that does not contain the curve
+ * contributes like a constant, unless it is the only one. */
 static law_sum join(const scan *t)
 {
     double precision = 0, mean = 0, squares = 0, weight = 0;
@@ -337,7 +336,7 @@ static void keep_factor(scan *t, double log_factor, law_sum sum)
     t->square[t->n++] = sum.square;
 }
 
-/* Factors in equal steps from low to high. */
+/* Evaluates factors in equal steps from low to high. */
 static void try_factors(scan *t, double low, double high, size_t n, bool first)
 {
     t->n = 0;
@@ -347,14 +346,14 @@ static void try_factors(scan *t, double low, double high, size_t n, bool first)
     }
 }
 
-/* Laws that are e^-deep as likely as the best change nothing. */
+/* Excludes laws that are less likely than the best by a factor of e^-deep. */
 static void drop_laws(member *m)
 {
     for (size_t i = 0; i < SCATTER_LAWS; i++)
         m->kept[i] = m->likelihood[i] > m->best - deep;
 }
 
-/* From the least that one of the series may show to the most. */
+/* Limits of the factor: from the smallest to the largest one that any of the series can show. */
 static void limits_of(const scan *t, double limit[2])
 {
     limit[0] = (double)INFINITY;
@@ -376,7 +375,7 @@ static void scan_coarsely(scan *t, const double limit[2])
         drop_laws(&t->of[i]);
 }
 
-/* ln of the odds of the course, by any factor, over constants. */
+/* ln of the odds of the curve, with any factor, over constants. */
 static double log_odds(const scan *t)
 {
     double any = -(double)INFINITY, none = 0;
@@ -387,8 +386,8 @@ static double log_odds(const scan *t)
     return any - log((double)t->n) - none - 0.5 * log(2 * M_PI * possible_of(t));
 }
 
-/* Again where the likelihood is, until it lies on many factors: a precise series tells the factor
- * to less than a step. */
+/* Repeats the scan where the likelihood is large, until it covers many factors. A precise series
+ * determines the factor to less than a step. */
 enum { MANY = FINE / 2, SCANS = 5 };
 
 static size_t scan_finely(scan *t, const double limit[2])
@@ -409,9 +408,10 @@ static size_t scan_finely(scan *t, const double limit[2])
     return n;
 }
 
-/* ---- what they say --------------------------------------------------------------------------- */
+/* ---- results --------------------------------------------------------------------------------- */
 
-/* `expected` > 0: the factors are as likely as that says before, else equally. */
+/* Normalises the weights. `expected` > 0: standard deviation of the normal prior of the factor;
+ * else the prior is uniform. */
 static void weigh(scan *t, double expected)
 {
     double all = -(double)INFINITY;
@@ -435,7 +435,7 @@ static void append_ratio(const scan *t, running_in_curve_fit *fit)
     fit->ratio_error = sqrt(fmax(square - mean * mean, 0));
 }
 
-/* Where so much of the weight lies below. */
+/* Quantile of the weights. */
 static double quantile(const scan *t, double share)
 {
     double below = 0;
@@ -449,7 +449,7 @@ static double quantile(const scan *t, double share)
     return t->log_factor[t->n - 1];
 }
 
-/* No series lasts until it is settled; it is so within the first means of all. */
+/* True if no series lasts until the curve settles. */
 static bool is_beyond(const scan *t, double log_factor)
 {
     for (size_t i = 0; i < t->n_of; i++)

@@ -1,10 +1,8 @@
-/* Where a series of cycles becomes steady: the place of the change with all that is not known of
- * the scatter before and behind it.
+/* End of the running-in of a series of cycles: the change point, averaged over the unknown scatter
+ * before and after. Compare Scargle et al., Astrophys. J. 764 (2013) 167; here the scatter is
+ * autocorrelated.
  *
- * Scargle et al., Astrophys. J. 764 (2013) 167, have such places; here the scatter is correlated.
- *
- * SPDX-License-Identifier: GPL-3.0-or-later
- */
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "record/numerics/autocorrelation.h"
 
 #include "core/base/arena.h"
@@ -14,20 +12,20 @@
 #include <math.h>
 #include <stdlib.h>
 
-/* Points before the change: two more than the constants of a line. Behind it: a tenth of the
- * series, and so many that a scatter is known to a quarter. */
+/* Fewest points before the change: two more than the constants of a line. Fewest points after it:
+ * they determine a scatter to 25 %, with a share of the series below. */
 enum { FEWEST_BEFORE = 4, FEWEST_BEHIND = 12 };
 static const double least_behind = 0.1;
-/* Odds over a series without a running-in at which it is told: one false alarm in twenty at most.
- */
+/* Odds over a series without a running-in at which one is reported: at most one false alarm in
+ * twenty. */
 static const double least_odds = 20;
-/* Range of the ratio of the two scatters that is taken for possible, as a logarithm: 1 % to 100. */
+/* Prior range of the logarithm of the ratio of the two scatters: 1 % to 100. */
 static const double scatter_range = 9.2;
-static const double tail = 0.025; /* on each side of an interval of 95 % */
+static const double tail = 0.025; /* on each side of a 95 % interval */
 
 typedef struct likelihoods {
     size_t n;
-    double *before, *behind; /* [n + 1] of the points before place k, and from it on */
+    double *before, *behind; /* [n + 1] of the points before k, and of those from k on */
     double least;
 } likelihoods;
 
@@ -41,7 +39,7 @@ static double total_variance(const double *y, size_t n)
     return sum / (double)n;
 }
 
-/* All places at once: the scatter is the same from either end. */
+/* Evaluates all change points at once, since the scatter is the same from either end. */
 static void add_law(likelihoods *l, const double *y, size_t i)
 {
     const scatter_law law = scatter_law_of(SCATTER_UNDER_CHANGE, i, l->n);
@@ -79,14 +77,14 @@ static void interval_of(const double *log_weight, size_t first, size_t end, wt_r
         if (below >= 1 - tail)
             break;
     }
-    /* of the normal law with that interval: the tails may be far away, and are light */
+    /* standard error of the normal law with this interval: the tails may be long and light */
     r->end.standard_error = (r->end.high - r->end.low) / (2 * NORMAL_95);
     r->steady_from = (size_t)r->end.high;
 }
 
-/* Odds of a running-in at any place over none. It has one line and one scatter more: coefficients
- * within the scatter of the whole series are taken for possible; the law of that scatter is
- * averaged over. */
+/* ln of the odds of a running-in at any point over none. It has one line and one scatter more. The
+ * prior admits coefficients within the scatter of the series. The law of the scatter is averaged
+ * over. */
 static double log_odds(const likelihoods *l, const double *log_weight, size_t first, size_t end,
                        double variance)
 {
@@ -143,7 +141,7 @@ static wt_status find(const double *y, size_t n, wt_running_in *r, wt_error *err
     return WT_OK;
 }
 
-/* From parts to points: a change within a part is seen at either end of it. */
+/* Converts batches to points. A change within a batch shows at either of its ends. */
 static void tell_in_points(const scatter_parts *parts, wt_running_in *r)
 {
     const double length = (double)parts->length, rest = (double)parts->rest;

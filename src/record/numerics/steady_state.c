@@ -1,7 +1,6 @@
-/* Mean and drift of a steady series with correlated scatter.
+/* Mean and drift of a steady-state series with autocorrelated scatter.
  *
- * SPDX-License-Identifier: GPL-3.0-or-later
- */
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "record/numerics/autocorrelation.h"
 
 #include "core/math/normal_quantile.h"
@@ -11,16 +10,16 @@
 #include <math.h>
 #include <stdlib.h>
 
-enum { FEWEST = 4 }; /* two more than a line has constants */
-/* Of the mean: what rounding makes of equal samples. */
+enum { FEWEST = 4 }; /* two more than the constants of a line */
+/* Relative to the mean: rounding errors of equal samples. */
 static const double rounding = 1e-12;
-static const double tail = 0.025; /* on each side of an interval of 95 % */
-/* Fewer independent points than these do not tell how far they scatter. */
+static const double tail = 0.025; /* on each side of a 95 % interval */
+/* Fewer independent points do not determine their scatter. */
 static const double least_independent = 8;
-/* Of a drift over none before the series is seen: with even odds slow scatter passes for a drift
- * and its means are held in up to 4 % less; with none a drift passes for slow scatter and makes the
- * error of white scatter three times as large. Drifts up to one that is all of the variance are
- * taken for possible: the square of its change from end to end, of that variance. */
+/* Prior odds of a drift. With even odds, slow scatter passes for a drift and the coverage falls by
+ * up to 4 %. With none, a drift passes for slow scatter and triples the error of white scatter. The
+ * second value is the squared end-to-end change of a drift that is all of the variance, in units of
+ * it. */
 static const double drift_odds = 0.1, whole_change = 12;
 
 static wt_interval interval_of(const t_mixture *m)
@@ -29,14 +28,14 @@ static wt_interval interval_of(const t_mixture *m)
     return (wt_interval){mixture_mean(m), (high - low) / (2 * NORMAL_95), low, high};
 }
 
-/* Of laws that have one centre: as far above it as below. */
+/* Interval of laws with one centre, which is symmetric. */
 static wt_interval interval_about(const t_mixture *m, double centre)
 {
     const double high = mixture_quantile(m, 1 - tail);
     return (wt_interval){centre, (high - centre) / NORMAL_95, 2 * centre - high, high};
 }
 
-/* By one law, about a constant and about a line: a drift is no scatter. */
+/* Adds one law, about a constant and about a line: a drift is not scatter. */
 static void add_law(const scatter_parts *parts, moments m, size_t i, t_mixture *mean,
                     t_mixture *drift)
 {
@@ -59,7 +58,7 @@ static void add_law(const scatter_parts *parts, moments m, size_t i, t_mixture *
                 sqrt(about_line * line.variance) / length);
 }
 
-/* Mean, drift and correlation by all laws, each as heavy as it is likely. */
+/* Mean, drift and correlation averaged over all laws with their probabilities. */
 static void average_laws(const scatter_parts *parts, moments m, wt_steady *steady)
 {
     t_mixture mean = {.n = 0}, drift = {.n = 0};

@@ -1,7 +1,6 @@
-/* Stick-slip in the samples of a friction record.
+/* Detection of stick-slip in the samples of a friction record.
  *
- * SPDX-License-Identifier: GPL-3.0-or-later
- */
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "weartrack/fit.h"
 
 #include "core/base/arena.h"
@@ -10,15 +9,15 @@
 #include <math.h>
 #include <stdlib.h>
 
-/* A slip is a fall of so many standard deviations of the scatter from sample to sample, beyond what
- * white scatter does in a million samples. */
+/* Fall of a slip in standard deviations of the sample-to-sample scatter. White scatter does not
+ * reach it in a million samples. */
 static const double outstanding = 6;
-/* Sticking lasts longer than slipping by this ratio; in a wave up and down are alike. */
+/* Ratio of sticking to slipping time. It is 1 for a wave. */
 static const double least_ratio = 2;
-enum { FEWEST = 10 }; /* slips that tell a mean and its scatter */
+enum { FEWEST = 10 }; /* slips that determine a mean and its scatter */
 
-/* Standard deviation of white scatter: the median of second differences, of which the slips are
- * few. They have 6 times its variance, and 0.6745 of a deviation is the median. */
+/* Standard deviation of white scatter by the median of second differences, few of which are slips.
+ * Their variance is 6 times larger. The median of |x| is 0.6745 standard deviations. */
 static double scatter_of(const double *y, size_t n, double *room)
 {
     for (size_t i = 0; i + 2 < n; i++)
@@ -28,8 +27,8 @@ static double scatter_of(const double *y, size_t n, double *room)
 }
 
 typedef struct slip_sums {
-    double n, mean, squares; /* of the falls */
-    double rise, fall;       /* samples spent */
+    double n, mean, squares; /* heights of the falls */
+    double rise, fall;       /* number of samples */
 } slip_sums;
 
 static void add_fall(slip_sums *s, double height)
@@ -40,7 +39,7 @@ static void add_fall(slip_sums *s, double height)
     s->squares += off * (height - s->mean);
 }
 
-/* From turning point to turning point, with hysteresis. */
+/* Finds falls between turning points with hysteresis. */
 static slip_sums find_falls(const double *y, size_t n, double least)
 {
     slip_sums s = {0};
@@ -69,7 +68,7 @@ wt_status wt_stick_slip_find(const double *y, size_t n, wt_stick_slip *slips, wt
 {
     arena memory = {0};
     *slips = (wt_stick_slip){0, (double)NAN, (double)NAN};
-    if (n < 4 * FEWEST) /* a slip and its rise are four samples at least */
+    if (n < 4 * FEWEST) /* a slip and its rise take at least four samples */
         return WT_OK;
     double *const room = arena_numbers(&memory, n);
     wt_status status = memory.failed ? wt_fail(err, WT_E_MEMORY, "out of memory") : WT_OK;

@@ -1,28 +1,26 @@
-/* Strokes of a reciprocating record.
+/* Strokes of a reciprocating friction record.
  *
- * SPDX-License-Identifier: GPL-3.0-or-later
- */
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "record/numerics/cycles.h"
 
 #include <math.h>
 
-/* A way back is one of a quarter of the stroke at least: less is scatter of the sensor. */
+/* Smallest return motion as a fraction of the stroke. Smaller ones are scatter of the sensor. */
 static const double least_way = 0.25;
-/* What is left out at either end of a stroke, of its length: there the motion turns round, and the
- * friction with it. */
+/* Fraction of the stroke skipped at either end, where motion and friction reverse. */
 static const double ends = 0.1;
-/* Friction that changes its sign is that of strokes if the smaller side is so much of the larger.
- */
+/* Smallest ratio of the smaller to the larger level of a friction that changes sign with the
+ * strokes. */
 static const double least_side = 0.2;
 
-/* Where a signal turns round, with hysteresis; NaN does not count. */
+/* Turning points of a signal with hysteresis. NaN is skipped. */
 typedef struct turning {
-    double low, high; /* since the last turn */
+    double low, high; /* extremes since the last turn */
     size_t at_low, at_high;
-    int way; /* 1 up, -1 down, 0 not known yet */
+    int way; /* 1 up, -1 down, 0 unknown */
 } turning;
 
-/* True where the signal has turned: *at is the sample of the turn. */
+/* True at a turn; *at is then the sample of the extreme. */
 static bool turns(turning *t, double value, size_t i, double hysteresis, size_t *at)
 {
     if (isnan(value))
@@ -54,7 +52,7 @@ static bool turns(turning *t, double value, size_t i, double hysteresis, size_t 
     return false;
 }
 
-/* Range of a signal: its means above and below the middle of what it reaches. */
+/* Levels of a signal: its means below and above the middle of its range. */
 typedef struct sides {
     double low, high;
 } sides;
@@ -75,8 +73,8 @@ static sides sides_of(const double *x, size_t n)
     return (sides){sum[0] / count[0], sum[1] / count[1]};
 }
 
-/* The signal whose turns are those of the stroke, and how far it must go back; NULL. Friction turns
- * round at the ends of a stroke in one leap, so that its leaps are turns, too. */
+/* Returns the signal whose turns are those of the stroke, and its hysteresis. NULL if there is
+ * none. Friction reverses abruptly at the ends of a stroke. */
 static const double *turning_signal(const wt_record *record, const double *friction,
                                     double *hysteresis)
 {
@@ -92,7 +90,7 @@ static const double *turning_signal(const wt_record *record, const double *frict
     return f.low < 0 && f.high > 0 && small > least_side * large ? friction : NULL;
 }
 
-/* Sides of 0 of a leap: the first sample behind it. Position turns at its extreme. */
+/* Returns the first sample after a sign change of friction. Position turns at its extreme. */
 static size_t turn_at(const double *signal, bool leaps, size_t at, size_t now)
 {
     size_t i = at;
@@ -128,7 +126,7 @@ void strokes_find(const wt_record *record, const double *friction, cycle_spans *
     }
 }
 
-/* Mean over the middle of one way: by position where there is one, else by number. */
+/* Mean over the middle of one stroke, by position if measured, else by sample number. */
 static double middle_mean(const double *position, const double *friction, size_t first, size_t end)
 {
     double low = (double)INFINITY, high = -(double)INFINITY, sum = 0, n = 0;

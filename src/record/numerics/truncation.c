@@ -1,14 +1,13 @@
-/* Rules by which others leave out the beginning of a series.
+/* Published rules for the truncation of the beginning of a series.
  *
- * SPDX-License-Identifier: GPL-3.0-or-later
- */
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "weartrack/fit.h"
 
 #include <math.h>
 
 size_t wt_step_detect(const double *y, size_t n)
 {
-    static const double margin = 0.02; /* of the series, on either side */
+    static const double margin = 0.02; /* fraction of the series on either side */
     const size_t edge = (size_t)ceil(margin * (double)n);
     double all = 0, before = 0, most = -(double)INFINITY;
     size_t best = 0;
@@ -28,7 +27,7 @@ size_t wt_step_detect(const double *y, size_t n)
 
 size_t wt_mser_5(const double *y, size_t n)
 {
-    enum { BATCH = 5 }; /* of the rule, after which it is called */
+    enum { BATCH = 5 }; /* batch size of the rule MSER-5 */
     const size_t batches = n / BATCH;
     double sum = 0, squares = 0, least = (double)INFINITY;
     size_t best = 0;
@@ -36,7 +35,7 @@ size_t wt_mser_5(const double *y, size_t n)
         double mean = 0;
         for (size_t i = 0; i < BATCH; i++)
             mean += y[BATCH * d + i] / BATCH;
-        /* Welford's sums from behind */
+        /* Welford's sums from the end */
         const double kept = (double)(batches - d), off = mean - sum;
         sum += off / kept;
         squares += off * (mean - sum);

@@ -1,7 +1,6 @@
-/* A wear track in a profile across it.
+/* Wear track in a profile across it.
  *
- * SPDX-License-Identifier: GPL-3.0-or-later
- */
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "weartrack/fit.h"
 
 #include "core/base/arena.h"
@@ -10,16 +9,16 @@
 #include <math.h>
 
 enum { FEWEST = 40 };            /* ten in each quarter */
-static const double outside = 3; /* standard deviations that are a track */
+static const double outside = 3; /* standard deviations that indicate a track */
 
-/* Area between two samples of what is above 0; the line between them is cut where it crosses. */
+/* Area of the part above 0 between two samples. The linear segment is cut at zero. */
 static double area_above(double width, double a, double b)
 {
     return 0.5 * width * (fmax(a, 0) + fmax(b, 0));
 }
 
-/* Error of the area below a line: the line is off by what the outer quarters scatter, and they
- * scatter slowly; within the track the samples themselves do. */
+/* Standard error of the area below the base line. The error of the line follows from the slow
+ * scatter of the outer quarters. Within the track the samples scatter, too. */
 static wt_status find_error(const double *r, size_t n, size_t quarter, const double *x,
                             wt_track *track, wt_error *err)
 {
@@ -42,7 +41,7 @@ static wt_status measure(const double *x, const double *r, size_t n, size_t quar
 {
     size_t first = n, last = 0;
     for (size_t i = 0; i < n; i++) {
-        /* two samples one after the other: a single one in a few hundred is scatter */
+        /* two successive samples: a single one in a few hundred is scatter */
         if (i > 0 && fmax(r[i - 1], r[i]) < -outside * track->scatter) {
             first = first == n ? i - 1 : first;
             last = i;

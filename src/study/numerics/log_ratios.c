@@ -1,11 +1,12 @@
-/* Two ratios of moduli against each other. SPDX-License-Identifier: GPL-3.0-or-later */
+/* Comparison of two ratios of moduli.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "core/math/students_t.h"
 #include "weartrack/fit.h"
 
 #include <gsl/gsl_cdf.h>
 #include <math.h>
 
-/* The part of one in the sum of which Satterthwaite takes the freedom; a normal error has none. */
+/* Contribution to the denominator of Satterthwaite's degrees of freedom; 0 for a normal error. */
 static double freedom_part(const wt_log_ratio *ratio)
 {
     const double variance = ratio->standard_error * ratio->standard_error;

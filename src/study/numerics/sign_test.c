@@ -1,4 +1,5 @@
-/* Whether what the curves of two groups show beside the modulus (a pull, a misfit) differs.
+/* Test for differences between two groups in other quantities than the modulus: adhesion, lack of
+ * fit.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "core/base/arena.h"
 #include "core/base/array.h"
@@ -22,7 +23,7 @@ static int by_spot(const void *a, const void *b)
     return (x->value > y->value) - (x->value < y->value);
 }
 
-/* Of the means of the spots, of finite values. */
+/* Moments of the means of the spots, over finite values. */
 static moments spot_moments(const double *values, const long *spots, size_t n, arena *memory)
 {
     size_t kept = 0, units = 0;
@@ -63,7 +64,7 @@ wt_status wt_compare_signs(const double *const values[2], const long *const spot
     if (!(fmin(m[0].n, m[1].n) > 1))
         return WT_OK;
     const double difference = m[1].mean - m[0].mean;
-    if (!(welch.error > 0)) { /* none scatters: they are equal, or they are not */
+    if (!(welch.error > 0)) { /* without scatter the means are equal or different */
         signs->larger_chance[1] = difference > 0 ? 0 : 1;
         signs->larger_chance[0] = difference < 0 ? 0 : 1;
         return WT_OK;

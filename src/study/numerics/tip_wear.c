@@ -1,23 +1,23 @@
-/* What a tip of another radius than the stated one does to a modulus: the curve that it makes,
- * fitted by the law of the stated tip with modulus and contact point.
+/* Effect of a worn tip on the modulus: the force curve of the worn tip is fitted by the law of the
+ * stated tip with modulus and contact point.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "weartrack/fit.h"
 
 #include <math.h>
 
-/* Depths of the curve, and halvings of the bracket of a contact point: to 1e-6 of the depth. */
+/* Depths of the curve, and steps of the search for the contact point: to 1e-6 of the depth. */
 enum { NODES = 64, STEPS = 30 };
 
-/* Noise of the force moves the tip, too, so that a residual counts less by 1 + (stiffness of the
- * contact over that of the lever); samples are even along the piezo, which goes so much farther
- * than the tip. */
+/* Weights of the residuals. Noise of the force also moves the tip, so that a residual counts less
+ * by 1 + contact stiffness over spring constant. Samples are equidistant along the piezo, which
+ * travels further than the tip by this factor. */
 typedef struct worn_curve {
     const wt_contact_table *stated;
-    double depth;                       /* nodes rise evenly to it */
-    double force[NODES], travel[NODES]; /* 1 + that ratio */
+    double depth;                       /* largest depth of the equidistant nodes [m] */
+    double force[NODES], travel[NODES]; /* 1 + contact stiffness over spring constant */
 } worn_curve;
 
-/* Sum of squares that is left with the contact point `shift` late, and the modulus. */
+/* Returns the residual sum of squares with the contact point late by `shift`, and the modulus. */
 static double squares_left(const worn_curve *c, double shift, double *modulus)
 {
     double at[NODES], g[NODES], gg = 0, gf = 0, ff = 0;
@@ -37,7 +37,7 @@ static double squares_left(const worn_curve *c, double shift, double *modulus)
 wt_status wt_tip_wear_fit(const wt_tip *tip, double radius, double depth, double bending,
                           wt_tip_wear *fit, wt_error *err)
 {
-    const double section = 0.5 * (3 - sqrt(5)); /* of the golden section search */
+    const double section = 0.5 * (3 - sqrt(5)); /* ratio of the golden section search */
     wt_contact_table *table = NULL;
     wt_tip worn = *tip;
     worn.radius = radius;

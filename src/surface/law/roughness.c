@@ -1,7 +1,5 @@
-/* Roughness: what every law shares - root-mean-square height and slope, release.
- *
- * SPDX-License-Identifier: GPL-3.0-or-later
- */
+/* Functions that all roughness laws share: moments, root-mean-square height and slope, release.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "surface/law/roughness.h"
 #include "core/math/special.h"
 
@@ -17,8 +15,8 @@ void wt_roughness_free(wt_roughness *roughness)
     free(roughness);
 }
 
-/* int q^(m+1) C d(ln q) over [from, to], inside which C is smooth: Gauss-Legendre with 8 nodes on
- * pieces so short that any power law is integrated to rounding. */
+/* Integrates q^(m+1) C d(ln q) over [from, to], where C is smooth. Gauss-Legendre quadrature
+ * with 8 nodes uses segments so short that a power law is exact to rounding. */
 static double moment_piece(const wt_roughness *roughness, int m, double from, double to)
 {
     const double length = log1p((to - from) / from);

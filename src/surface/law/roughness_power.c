@@ -1,7 +1,5 @@
-/* Power spectra made of power laws: self-affine with a roll-off, and log-log tables.
- *
- * SPDX-License-Identifier: GPL-3.0-or-later
- */
+/* Power spectra of piecewise power laws: self-affine with a roll-off, and log-log tables.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "core/base/param.h"
 #include "weartrack/model.h"
 
@@ -12,12 +10,12 @@
 
 /* C = density[i] (q / knot[i])^slope[i] for knot[i] <= q <= knot[i + 1]. */
 typedef struct power_data {
-    size_t n;         /* pieces */
+    size_t n;         /* number of segments */
     double *knot;     /* [n + 1] rad/m, rising */
     double *density;  /* [n] m^4 at the left end */
     double *slope;    /* [n] */
-    double *below[2]; /* [n] int q C and int q^3 C up to the left end */
-    double numbers[]; /* [5 n + 1] all of them */
+    double *below[2]; /* [n] int q C and int q^3 C up to the left end of a segment */
+    double numbers[]; /* [5 n + 1] storage of the five arrays */
 } power_data;
 
 static void power_density(const wt_roughness *roughness, const double *q, size_t n, double *c)
@@ -41,7 +39,7 @@ static const double *power_breaks(const wt_roughness *roughness, size_t *n)
     return d->knot + 1;
 }
 
-/* int q^m C from knot k to q. */
+/* Integrates q^m C from knot k to q. */
 static double moment_in(const power_data *d, int m, size_t k, double q)
 {
     const double from = d->knot[k];

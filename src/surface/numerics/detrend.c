@@ -1,4 +1,4 @@
-/* The form of a surface: a polynomial by least squares, taken off its heights.
+/* Removes the form of a surface: a polynomial fitted to its heights by least squares.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "surface/numerics/surface_analysis.h"
 
@@ -9,14 +9,14 @@
 
 /* Powers of x and y in the terms of a form. */
 static const int power_x[FORM_TERMS] = {0, 1, 0, 2, 1, 0}, power_y[FORM_TERMS] = {0, 0, 1, 0, 1, 2};
-enum { HIGHEST = 4 }; /* power in a product of two terms */
+enum { HIGHEST = 4 }; /* highest power in a product of two terms */
 
 static double coordinate(size_t i, size_t n)
 {
     return n > 1 ? (2 * (double)i + 1 - (double)n) / (double)n : 0;
 }
 
-/* The terms of the form; of a profile those without y. */
+/* Lists the terms of the form. A profile has no terms in y. */
 static size_t terms_of(unsigned degree, bool profile, size_t terms[FORM_TERMS])
 {
     size_t n = 0;
@@ -26,7 +26,7 @@ static size_t terms_of(unsigned degree, bool profile, size_t terms[FORM_TERMS])
     return n;
 }
 
-/* Sums of x^i over the heights of a row, and of x^i z. */
+/* Sums of x^i and of x^i z over the heights of a row. */
 typedef struct row_sums {
     double x[HIGHEST + 1], z[HIGHEST / 2 + 1];
     size_t n;
@@ -88,7 +88,7 @@ wt_status surface_form_remove(double *z, size_t nx, size_t ny, unsigned degree,
     }
     for (size_t t = 0; t < FORM_TERMS; t++)
         coefficients[t] = 0;
-    /* What rounding may have left of the unknowns before is nothing. */
+    /* Pivots within the rounding error count as zero. */
     if (n_points < n ||
         !cholesky_solve(&m[0][0], FORM_TERMS, n, (double)(n * n) * DBL_EPSILON, v)) {
         wt_fail(err, WT_E_EMPTY, "too few heights for the form that is taken off");

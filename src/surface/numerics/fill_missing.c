@@ -1,26 +1,26 @@
-/* Missing heights: the membrane over their neighbours, by conjugate gradients (Hestenes and
- * Stiefel, J. Res. Natl. Bur. Stand. 49 (1952) 409). SPDX-License-Identifier: GPL-3.0-or-later */
+/* Fills missing heights by a membrane over their neighbours, with conjugate gradients (Hestenes
+ * and Stiefel, J. Res. Natl. Bur. Stand. 49 (1952) 409).
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "surface/numerics/surface_analysis.h"
 
 #include <math.h>
 #include <stdint.h>
 #include <stdlib.h>
 
-/* What is left of the equations, of what they began with: far below the last digit of an
- * instrument. */
+/* Relative residual at the end of the iteration, far below the resolution of an instrument. */
 static const double residual_left = 1e-12;
 
 typedef struct membrane {
-    double *z;                              /* the heights; missing ones are filled in place */
-    size_t nx, ny, n;                       /* n missing */
-    size_t *place;                          /* [n] */
-    uint32_t *unknown;                      /* [ny * nx] number of the missing one, or NONE */
+    double *z;         /* heights; missing ones are filled in place */
+    size_t nx, ny, n;  /* size of the grid; n: missing heights */
+    size_t *place;     /* [n] */
+    uint32_t *unknown; /* [ny * nx] index of a missing height; a marker for known heights */
     double *residual, *direction, *product; /* [n] */
 } membrane;
-enum { NEIGHBOURS = 4 }; /* in a grid */
+enum { NEIGHBOURS = 4 }; /* neighbours in the grid */
 #define NONE UINT32_MAX
 
-/* Places beside one in the grid; returns how many. */
+/* Lists the neighbours of a grid point and returns their number. */
 static size_t neighbours_of(const membrane *m, size_t p, size_t to[NEIGHBOURS])
 {
     const size_t i = p % m->nx, j = p / m->nx;
@@ -36,7 +36,8 @@ static size_t neighbours_of(const membrane *m, size_t p, size_t to[NEIGHBOURS])
     return n;
 }
 
-/* Number of neighbours times the value less those of missing neighbours, of all missing ones. */
+/* Applies the discrete Laplacian to the missing heights: number of neighbours times the value,
+ * minus the missing neighbours. */
 static void apply(const membrane *m, const double *x, double *to)
 {
     size_t beside[NEIGHBOURS];
@@ -58,7 +59,7 @@ static double square(const double *x, size_t n)
     return sum;
 }
 
-/* From 0 on: the residual is the sum over the neighbours that are known. */
+/* Starts at zero. The residual is the sum of the known neighbours. */
 static void begin(membrane *m)
 {
     size_t beside[NEIGHBOURS];
@@ -79,7 +80,7 @@ static wt_status solve(membrane *m, wt_error *err)
     begin(m);
     const double first = square(m->residual, m->n);
     double now = first;
-    /* In exact numbers n steps suffice; rounding asks for a few more of a small patch. */
+    /* In exact arithmetic n steps suffice; a small patch needs a few more due to rounding. */
     for (size_t step = 0; step < 2 * m->n + 10; step++) {
         if (now <= residual_left * residual_left * first)
             return WT_OK;

@@ -1,10 +1,10 @@
-/* What the heights of a surface are: amplitudes and slopes. SPDX-License-Identifier:
- * GPL-3.0-or-later */
+/* Statistics of the heights of a surface: amplitudes, slopes and peak curvature.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "surface/numerics/height_grid.h"
 
 #include <math.h>
 
-/* Running sum and how many. */
+/* Running sum and number of values. */
 typedef struct mean {
     double sum, n;
 } mean;
@@ -71,7 +71,8 @@ void surface_heights_find(const wt_height_map *map, wt_surface_heights *to)
     to->area_excess = value_of(excess);
 }
 
-/* The strongest curvature of a peak by second differences over 2 l, [1/m], negative. */
+/* Returns the most negative curvature of the peaks [1/m], from second differences over 2 l
+ * points. */
 static double peak_curvature(const wt_height_map *map, size_t l)
 {
     const size_t nx = map->nx, ny = map->ny;

@@ -1,4 +1,4 @@
-/* Inside the fit room: what the heights of a surface are, less their form.
+/* Internal interface: statistics of the heights of a surface without their form.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #ifndef WT_SURFACE_NUMERICS_HEIGHT_GRID_H
 #define WT_SURFACE_NUMERICS_HEIGHT_GRID_H
@@ -6,8 +6,8 @@
 #include "weartrack/fit.h"
 
 void surface_heights_find(const wt_height_map *map, wt_surface_heights *to);
-/* The wavenumber [rad/m] whose wave is as long as the shortest second difference that stays below
- * half the curvature of the tip; 0 if none does. */
+/* Returns a wavenumber [rad/m]. Its wavelength is the shortest second difference that stays
+ * below half the curvature of the tip. It is 0 if none does. radius [m]. */
 double surface_tip_limit(const wt_height_map *map, double radius);
 
 #endif

@@ -1,16 +1,16 @@
-/* The spectrum of an isotropic surface from that of its profiles.
+/* Converts the spectrum of profiles to the spectrum of an isotropic surface.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "surface/numerics/surface_analysis.h"
 
 #include <math.h>
 
-/* cosh^(p - 1) has its next singularity at i pi/2, so that of panels half as wide as 1 ten points
- * leave nothing above the last digit for the slopes that spectra have (tried to p = -8). */
+/* Width of a quadrature subinterval. cosh^(p - 1) is singular at i pi/2, so ten points are exact
+ * to rounding for the slopes of spectra (tested to p = -8). */
 static const double panel = 0.5;
-/* Beyond it cosh^(p - 1) of the flattest slope that is let go on, -1, is below the last digit. */
+/* Beyond this limit cosh^(p - 1) is below rounding even for the flattest allowed slope, -1. */
 static const double no_more = 20;
 
-/* int_a^b cosh^power t dt */
+/* Integrates cosh^power t from a to b. */
 static double integral(const gsl_integration_glfixed_table *rule, double a, double b, double power)
 {
     const double n = fmax(1, ceil((b - a) / panel)), width = (b - a) / n;
@@ -33,7 +33,7 @@ double surface_invert(const double *q, const double *c1, size_t n, bool goes_on,
         p = log(c1[i + 1] / c1[i]) / log(q[i + 1] / q[i]);
         if (q[i + 1] <= at)
             continue;
-        /* with k = at cosh t */
+        /* substitution k = at cosh t */
         sum += p * c1[i] * pow(at / q[i], p) *
                integral(rule, q[i] > at ? acosh(q[i] / at) : 0, acosh(q[i + 1] / at), p - 1);
     }

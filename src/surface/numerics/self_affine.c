@@ -1,5 +1,6 @@
-/* The self-affine law with a roll-off behind a spectrum: for a roll-off that is given it is linear
- * in ln C. SPDX-License-Identifier: GPL-3.0-or-later */
+/* Fits a self-affine law with a roll-off to a spectrum. For a fixed roll-off the law is linear
+ * in ln C.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "surface/numerics/surface_analysis.h"
 
 #include "core/math/cholesky.h"
@@ -19,12 +20,12 @@ enum { LN_C0, LN_ROLL_OFF, HURST, CONSTANTS };
 typedef struct law_fit {
     double *x, *y, *weight; /* [n] ln q, ln C without its bias, 1 / variance */
     size_t n;
-    double *places;                    /* [n * n_sizes] what the sizes have of each y, or NULL */
-    double c, power;                   /* of the last roll-off that was tried: ln C0, -2 (1 + H), */
-    double c_variance, power_variance; /* and theirs for that roll-off */
+    double *places;  /* [n * n_sizes] place weights of each point by scan size, or NULL */
+    double c, power; /* ln C0 and -2 (1 + H) at the last tested roll-off */
+    double c_variance, power_variance; /* variances at that roll-off */
 } law_fit;
 
-/* Least squares for a roll-off at x = r; returns chi-squared. */
+/* Fits by least squares for a roll-off at x = r. Returns chi-squared. */
 static double chi_squared(law_fit *f, double r)
 {
     double s = 0, sx = 0, sy = 0, sxx = 0, sxy = 0, chi = 0;
@@ -53,8 +54,8 @@ static double less_chi_squared(double r, void *user)
     return -chi_squared(user, r);
 }
 
-/* The best roll-off: a kink at each point, so between each two of them on its own. Two points at
- * least lie above it, or the slope is not known. */
+/* Finds the best roll-off. chi-squared has a kink at each point, so each interval is searched
+ * separately. At least two points lie above the roll-off, to determine the slope. */
 static double find_roll_off(law_fit *f, double *best)
 {
     enum { SECTIONS = 40 }; /* to 1e-8 of the distance of two points */
@@ -71,17 +72,17 @@ static double find_roll_off(law_fit *f, double *best)
     return at;
 }
 
-/* The law about its best constants, linear in those that are fitted: J^T W J, and in what order. */
+/* The law linearised at its best constants: J^T W J, in the order of `fitted`. */
 typedef struct linear_law {
     const law_fit *f;
     double r;
     size_t n; /* 3, or 2 without a roll-off */
     double normal[CONSTANTS][CONSTANTS];
 } linear_law;
-/* The roll-off last, for without one it is not fitted. */
+/* The roll-off is last, because it is not always fitted. */
 static const size_t fitted[CONSTANTS] = {LN_C0, HURST, LN_ROLL_OFF};
 
-/* What a constant changes a point by. */
+/* Returns the derivative of a point by a constant. */
 static double slope_of(const linear_law *l, size_t i, size_t constant)
 {
     const double x = l->f->x[i] - l->r;
@@ -99,7 +100,7 @@ static linear_law linear_about(const law_fit *f, double r, bool rolls_off)
     return l;
 }
 
-/* e becomes (J^T W J)^-1 e; in the order of `fitted`. */
+/* Replaces e by (J^T W J)^-1 e, in the order of `fitted`. */
 static bool solve_linear(const linear_law *l, double e[CONSTANTS])
 {
     double m[CONSTANTS][CONSTANTS];
@@ -109,10 +110,10 @@ static bool solve_linear(const linear_law *l, double e[CONSTANTS])
     return cholesky_solve(&m[0][0], CONSTANTS, l->n, (double)(l->n * l->n) * DBL_EPSILON, e);
 }
 
-/* By what the variances that the scatter of the modes gives are to be multiplied, so that 1.96
- * standard errors hold 95 %: by 1, for that scatter is known, unless the misfit asks for more, as
- * far as its few degrees of freedom tell it. The law's own misfit is so held whatever it is; a
- * misfit of at least 1 and Student's t together held 98.7 % where the law is right. */
+/* Returns the factor on the variances of the mode scatter so that 1.96 standard errors contain
+ * 95 %. It is 1 unless the misfit, with its few degrees of freedom, is larger. The misfit of the
+ * law is thus always included. A misfit of at least 1 together with Student's t contained 98.7 %
+ * for a correct law. */
 static double widened(double misfit, double freedom)
 {
     gsl_quiet();
@@ -120,7 +121,7 @@ static double widened(double misfit, double freedom)
     return fmax(1, misfit * t * t);
 }
 
-/* (J^T W J)^-1 times a number. */
+/* Computes (J^T W J)^-1 times a factor. */
 static bool find_covariance(const linear_law *l, double times, double to[CONSTANTS][CONSTANTS])
 {
     for (size_t c = 0; c < l->n; c++) {
@@ -148,12 +149,12 @@ static void widen(value_span *span, double low, double high)
     span->high = fmax(span->high, high);
 }
 
-/* All constants of laws that are within 1.96 standard errors of the best. The kink at the
- * roll-off makes chi-squared no parabola: by its curvature at the best one the intervals of c0 and
- * roll-off held the truth of stitched scans in 89 and 91 % only. */
+/* Finds the ranges of the constants of all laws within 1.96 standard errors of the best one. The
+ * kink at the roll-off makes chi-squared not parabolic. Intervals from its curvature contained
+ * c0 and the roll-off of stitched scans in 89 and 91 % only. */
 static law_spans find_spans(law_fit *f, double best, bool rolls_off, double wider)
 {
-    enum { ROLL_OFFS = 2000 }; /* a tenth of the error of the best known */
+    enum { ROLL_OFFS = 2000 }; /* a tenth of the smallest error of the roll-off */
     const double none = (double)INFINITY, first = f->x[0],
                  step = (f->x[f->n - 3] - first) / ROLL_OFFS,
                  most = chi_squared(f, best) + NORMAL_95 * NORMAL_95 * wider;
@@ -180,8 +181,8 @@ static wt_interval of_span(double value, value_span span, bool logarithm)
     return (wt_interval){exp(value), exp(value) * half, exp(span.low), exp(span.high)};
 }
 
-/* What the places make of the constants: the scans of a size are off by an error of their own, the
- * same in all their bins, so that scans of several sizes tilt the law and move its roll-off. */
+/* Computes the covariance due to the place scatter. The scans of one size share one error in all
+ * bins, so several sizes tilt the law and move its roll-off. */
 static bool find_place_covariance(const linear_law *l, const wt_surface_spectrum *s,
                                   double to[CONSTANTS][CONSTANTS])
 {
@@ -252,8 +253,8 @@ wt_status wt_self_affine_fit(const wt_surface_spectrum *spectrum, wt_self_affine
         double best;
         const double none = chi_squared(&f, f.x[0]), r = find_roll_off(&f, &best);
         const double freedom = (double)(f.n - CONSTANTS), misfit = fmax(1, best / freedom);
-        /* 95 % of chi-squared with one degree of freedom: a roll-off that the scatter could make is
-         * none. */
+        /* A roll-off counts if it is significant at 95 % (chi-squared with one degree of
+         * freedom). */
         law->rolls_off = r > f.x[0] && none - best > gsl_cdf_chisq_Pinv(0.95, 1) * misfit;
         const double at = law->rolls_off ? r : f.x[0],
                      left = law->rolls_off ? freedom : freedom + 1;
@@ -270,7 +271,7 @@ wt_status wt_self_affine_fit(const wt_surface_spectrum *spectrum, wt_self_affine
     return WT_OK;
 }
 
-/* ---- what the law gives ---------------------------------------------------------------------- */
+/* ---- predictions of the law ------------------------------------------------------------------ */
 
 double wt_self_affine_density(const wt_self_affine *law, double wavenumber)
 {
@@ -293,7 +294,7 @@ double wt_self_affine_log_error(const wt_self_affine *law, double wavenumber, bo
     return sqrt(fmax(0, variance));
 }
 
-/* ---- where the slope ends -------------------------------------------------------------------- */
+/* ---- cutoff at a slope ----------------------------------------------------------------------- */
 
 typedef struct slope_root {
     const wt_roughness *roughness;

@@ -1,12 +1,12 @@
-/* What the places that were scanned give the bins of a spectrum: a place is rougher or smoother at
- * all wavenumbers alike, but scans of another size lie at other places, so that bins of these are
- * not off together with those. SPDX-License-Identifier: GPL-3.0-or-later */
+/* Variance of a spectrum from place to place. A place is rougher or smoother at all wavenumbers.
+ * Scans of different sizes lie at different places, so their bins have independent errors.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "surface/numerics/surface_analysis.h"
 
 #include <math.h>
 #include <stdlib.h>
 
-/* The parts of the scans in the bins. */
+/* Weights of the scans in the bins. */
 typedef struct place_weights {
     const double *of; /* [n_bins * n] */
     size_t n_bins, n;
@@ -20,7 +20,7 @@ static bool same_parts(const place_weights *w, size_t a, size_t b)
     return true;
 }
 
-/* The first bin with a part of the scan. */
+/* Returns the first bin in which the scan has a weight. */
 static size_t first_bin(const place_weights *w, size_t scan)
 {
     size_t k = 0;
@@ -29,7 +29,7 @@ static size_t first_bin(const place_weights *w, size_t scan)
     return k;
 }
 
-/* The first scan of each size, those with the longest waves before others; how many there are. */
+/* Lists the first scan of each size, longest waves first, and returns the number of sizes. */
 static size_t find_sizes(const place_weights *w, size_t *first)
 {
     size_t n = 0;

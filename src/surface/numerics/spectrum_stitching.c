@@ -1,4 +1,5 @@
-/* Spectra of several scans to one: scans of several sizes are stitched, several places averaged.
+/* Combines the spectra of several scans. Different scan sizes are stitched, different places are
+ * averaged.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "surface/numerics/surface_analysis.h"
 
@@ -11,14 +12,14 @@
 #include <math.h>
 #include <stdlib.h>
 
-/* What the scans have in a bin of the same edges. */
+/* Working data of the combination; all spectra have the same bin edges. */
 typedef struct joining {
     const wt_surface_spectrum *const *spectra;
     size_t n;
     int first, last;
-    double *offset; /* [n] ln C of a scan above the mean of them */
-    double *weight; /* [n] of that */
-    size_t *group;  /* [n] the first scan that it is tied to by bins that scans share */
+    double *offset; /* [n] deviation of ln C of a scan from the mean */
+    double *weight; /* [n] weight of the offset */
+    size_t *group;  /* [n] first scan that is linked by shared bins */
 } joining;
 
 static const wt_spectrum_bin *bin_with(const wt_surface_spectrum *s, int index)
@@ -34,9 +35,9 @@ static double log_density(const wt_spectrum_bin *b)
     return log(b->density) - surface_log_bias(b->freedom);
 }
 
-/* ---- from place to place --------------------------------------------------------------------- */
+/* ---- scatter from place to place ------------------------------------------------------------- */
 
-/* The mean of a bin with the offsets taken off; how many scans have it. */
+/* Computes the mean of a bin without the offsets. Returns the number of scans in it. */
 static size_t mean_without(const joining *j, int index, double *mean)
 {
     double sum = 0, weights = 0;
@@ -53,7 +54,7 @@ static size_t mean_without(const joining *j, int index, double *mean)
     return n;
 }
 
-/* One step towards offsets and means of bins that agree; the largest change of an offset. */
+/* Improves the offsets by one step and returns the largest change. */
 static double refine_offsets(joining *j, double *sum)
 {
     double middle = 0, change = 0;
@@ -86,7 +87,7 @@ static double refine_offsets(joining *j, double *sum)
     return change;
 }
 
-/* Scans of sizes that share no bin tell nothing of each other. */
+/* Groups the scans by shared bins. Scans without a shared bin cannot be compared. */
 static void find_groups(joining *j)
 {
     bool changed = true;
@@ -108,8 +109,8 @@ static void find_groups(joining *j)
     }
 }
 
-/* Adds the squares of the offsets of one group about their mean and what the scatter of the modes
- * gives them; how many they are. */
+/* Adds the squares of the offsets of a group about their mean and the variance of their mode
+ * scatter. Returns the number of scans. */
 static size_t add_group(const joining *j, size_t group, double *squares, double *noise)
 {
     double sum = 0, square = 0;
@@ -126,22 +127,21 @@ static size_t add_group(const joining *j, size_t group, double *squares, double 
     return n;
 }
 
-/* The modes of a third of all samples of so many places scatter by less than this part of what they
- * do in the mean. An interval takes no more off: with all of it two places that scatter by twice
- * what the modes do are held in 87 % and three in 91, as their modes often leave nothing; with this
- * part two to ten places are held in 93 to 98 %, whatever they scatter by. */
+/* Returns the share of the mode scatter that an interval subtracts: the lower third of its
+ * distribution. With all of it, two places with twice the mode scatter are contained in 87 % and
+ * three in 91 %. With this share two to ten places are contained in 93 to 98 %. */
 static double sure_part(double freedom)
 {
     gsl_quiet();
     return gsl_cdf_chisq_Pinv(1.0 / 3, freedom) / freedom;
 }
 
-/* Of the scans that share bins with others: the variance of their offsets less what the scatter of
- * the modes gives them. */
+/* Estimates the place scatter: variance of the offsets of linked scans minus the variance of
+ * their mode scatter. */
 static void find_places(joining *j, wt_surface_spectrum *to, double *scratch)
 {
-    enum { STEPS = 200 };        /* each shrinks the change, of two scans at once */
-    const double settled = 1e-6; /* of ln C, far below its scatter */
+    enum { STEPS = 200 };        /* each step reduces the change */
+    const double settled = 1e-6; /* in ln C, far below its scatter */
     double squares = 0, noise = 0;
     size_t n = 0, groups = 0;
     for (int step = 0; step < STEPS && refine_offsets(j, scratch) > settled; step++)
@@ -161,8 +161,8 @@ static void find_places(joining *j, wt_surface_spectrum *to, double *scratch)
         students_t_quantile(freedom) / NORMAL_95 * sqrt(fmax(0, all - sure_part(freedom) * modes));
 }
 
-/* What the places give the mean: a bin that one size alone tells has the places of that only, and
- * one of two sizes next to those of the scans that have most of its modes. */
+/* Computes the place error of the mean. A bin of one size has only the places of that size. A
+ * bin of two sizes has mostly those of the scans with most modes. */
 static void find_place_error(wt_surface_spectrum *to)
 {
     double sum = 0;
@@ -175,7 +175,7 @@ static void find_place_error(wt_surface_spectrum *to)
 
 /* ---- bins ------------------------------------------------------------------------------------ */
 
-/* By the numbers of modes. */
+/* Adds the directional sums, weighted by the number of modes. */
 static void add_directions(const wt_spectrum_bin *b, wt_spectrum_bin *to)
 {
     const double w = (double)b->n;
@@ -190,8 +190,8 @@ static void add_directions(const wt_spectrum_bin *b, wt_spectrum_bin *to)
     }
 }
 
-/* Means of ln q and ln C by the numbers of modes. A mean of logarithms is too low by more where a
- * scan has few modes: what it lacks against the mean of all modes is added. */
+/* Averages ln q and ln C with the number of modes as weight. The mean of logarithms is biased
+ * low for few modes, which is corrected. */
 static bool join_bin(const joining *j, int index, wt_spectrum_bin *to)
 {
     double n = 0, freedom = 0, ln_q = 0, ln_c = 0, q = 0, bias = 0, variance = 0, shared = 0,
@@ -233,7 +233,7 @@ static bool join_bin(const joining *j, int index, wt_spectrum_bin *to)
     return true;
 }
 
-/* The parts of the scans in the bin. */
+/* Stores the weights of the scans in the bin. */
 static void weigh_places(const joining *j, int index, double *weight)
 {
     double n = 0;

@@ -1,4 +1,5 @@
-/* One height map or profile to its spectrum. SPDX-License-Identifier: GPL-3.0-or-later */
+/* Computes the power spectrum of one height map or profile.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "surface/numerics/surface_analysis.h"
 #include "surface/numerics/height_grid.h"
 
@@ -6,9 +7,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Waves over the shorter side that the form and the window spoil. */
+/* Waves over the shorter side that the form and the window distort. */
 static const double first_waves = 2;
-/* Fewest points of a direction: first waves, and as many points for each as are trusted at best. */
+/* Minimum number of points in a direction, so that a range of reliable waves remains. */
 enum { LEAST_POINTS = 16 };
 
 wt_surface_options wt_surface_options_defaults(void)
@@ -16,10 +17,10 @@ wt_surface_options wt_surface_options_defaults(void)
     return (wt_surface_options){
         .form = WT_FORM_QUADRATIC,
         .window = WT_WINDOW_HANN,
-        /* filled scattered points keep C to 5 % up to here, patches do not */
+        /* with this share of filled scattered points the error of C is 5 %; patches are worse */
         .largest_missing = 0.2,
-        /* of a self-affine surface 2 % of the density there is of waves that
-           are too short for the points; at 2 points it is half */
+        /* for a self-affine surface, aliased waves contribute 2 % of the density there; with 2
+         * points it is half */
         .points_per_wave = 4,
         .tip_radius = (double)NAN};
 }
@@ -38,11 +39,10 @@ static double edge(int index, double side)
     return pow(10, (index + side) / 10);
 }
 
-/* The slope of ln C against ln q about a bin, by it and two on each side as far as they are there.
- */
+/* Returns the slope of ln C against ln q at a bin, from it and two bins on each side. */
 static double slope_about(const wt_surface_spectrum *s, size_t at)
 {
-    enum { BESIDE = 2 }; /* four bins apart: the scatter of two moves the slope by little */
+    enum { BESIDE = 2 }; /* over four bins the scatter changes the slope little */
     double n = 0, x = 0, y = 0, xx = 0, xy = 0;
     for (size_t k = at > BESIDE ? at - BESIDE : 0; k < s->n && k <= at + BESIDE; k++) {
         const double w = s->bins[k].freedom, u = log(s->bins[k].wavenumber),
@@ -59,8 +59,8 @@ static double slope_about(const wt_surface_spectrum *s, size_t at)
     return d > 0 ? (n * xy - x * y) / d : 0;
 }
 
-/* Modes squared: the variance of the spectrum of a window along an axis, the mean square of its
- * slope over that of itself and (2 pi)^2. What goes on beyond the edges needs none. */
+/* Returns the variance of the spectrum of a window along an axis, in squared modes: mean square
+ * slope over mean square and (2 pi)^2. A periodic surface needs no window. */
 static double window_variance(wt_surface_window window)
 {
     switch (window) {
@@ -73,9 +73,8 @@ static double window_variance(wt_surface_window window)
     }
 }
 
-/* By how much the neighbours that a window mixes in raise a law C = q^p: to second order, at m
- * waves in the length of the map. Where that is half and more the law is no law for so few waves.
- */
+/* Returns the relative leakage of a window for C = q^p, to second order, with m waves in the
+ * length of the map. From one half on the law is meaningless for so few waves. */
 static double leak_of(const wt_height_map *map, double variance, double p, double q)
 {
     const double m = q * (double)map->nx * map->dx / (2 * M_PI);
@@ -85,13 +84,13 @@ static double leak_of(const wt_height_map *map, double variance, double p, doubl
     return variance * p * p / 4 * (1 / (m * m) + 1 / (n * n));
 }
 
-/* What the mean over a bin is too large by where the spectrum is steep: a law lies above its value
- * at the geometric mean of the wavenumbers, C = q^p by exp(p^2 width^2 / 2), and what varies within
- * the bin has fewer degrees of freedom; and the window mixes in what is larger. */
+/* Corrects the mean of a bin for a steep spectrum. C = q^p exceeds its value at the geometric
+ * mean by exp(p^2 width^2 / 2). The variation within the bin reduces the degrees of freedom. The
+ * window adds leakage. */
 static wt_status take_off_slope(const wt_height_map *map, wt_surface_window window,
                                 wt_surface_spectrum *s, wt_error *err)
 {
-    const double most = 0.6; /* at two waves and a slope that rough surfaces have */
+    const double most = 0.6; /* leakage at two waves and the slope of rough surfaces */
     const double variance = window_variance(window);
     double *slope = malloc((s->n + 1) * sizeof *slope);
     if (slope == NULL)
@@ -111,7 +110,7 @@ static wt_status take_off_slope(const wt_height_map *map, wt_surface_window wind
     return WT_OK;
 }
 
-/* Both edges of a bin lie in the range, and it has a scatter that can be told. */
+/* Marks the bins whose edges lie in the reliable range and whose scatter is known. */
 static void mark_reliable(wt_surface_spectrum *s)
 {
     for (size_t k = 0; k < s->n; k++) {

@@ -1,6 +1,5 @@
-/* Inside the fit room: the steps from heights to a power spectrum, and from spectra to one.
- * SPDX-License-Identifier: GPL-3.0-or-later
- */
+/* Internal interface: from heights to a power spectrum, and the combination of spectra.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #ifndef WT_SURFACE_NUMERICS_SURFACE_ANALYSIS_H
 #define WT_SURFACE_NUMERICS_SURFACE_ANALYSIS_H
 
@@ -8,64 +7,62 @@
 
 #include <gsl/gsl_integration.h>
 
-/* ---- heights: surface_form.c, surface_fill.c --------------------------------------------------
- */
+/* ---- heights: detrend.c, fill_missing.c ------------------------------------------------------ */
 
-/* 1; x, y; x^2, x y, y^2, with x and y from -1 to 1 over the points. */
+/* Terms: 1; x, y; x^2, x y, y^2, with x and y from -1 to 1 over the points. */
 enum { FORM_TERMS = 6 };
-/* Takes the polynomial of that degree off, which is fitted to the finite heights by least squares;
- * of a profile that in x alone. `coefficients` of the terms above, 0 where there is none.
+/* Subtracts the polynomial of that degree, fitted to the finite heights by least squares. A
+ * profile has terms in x only. `coefficients` of the terms above, 0 if absent. Returns
  * WT_E_EMPTY with fewer heights than terms. */
 wt_status surface_form_remove(double *z, size_t nx, size_t ny, unsigned degree,
                               double coefficients[FORM_TERMS], wt_error *err) WT_NODISCARD;
-/* Fills missing heights by the membrane over their neighbours: the five-point Laplace equation,
- * without a slope across the edges. */
+/* Fills missing heights by the membrane over their neighbours: the five-point Laplace equation
+ * with zero slope across the edges. */
 wt_status surface_fill(double *z, size_t nx, size_t ny, wt_error *err) WT_NODISCARD;
 
-/* ---- spectra: surface_transform.c -------------------------------------------------------------
- */
+/* ---- spectra: surface_transform.c ------------------------------------------------------------ */
 
-/* Bins are ten to a decade; bin k holds the modes of 10^((k - 1/2)/10) <= q / reference
- * < 10^((k + 1/2)/10). Modes outside [low, high] are left out. */
+/* Ten bins per decade; bin k contains the modes of 10^((k - 1/2)/10) <= q / reference < 10^((k +
+ * 1/2)/10). Modes outside [low, high] are skipped. */
 typedef struct surface_bins {
     double reference, low, high; /* [rad/m] */
 } surface_bins;
-/* C(q) of the heights, C1(q) of their rows if `lines`; the arrays of `to` are made. */
+/* Computes C(q) [m^4] of the heights, or C1(q) [m^3] of their rows if `lines`. The caller frees
+ * the arrays of `to`. */
 wt_status surface_transform(const wt_height_map *map, wt_surface_window window, bool lines,
                             const surface_bins *bins, wt_surface_spectrum *to,
                             wt_error *err) WT_NODISCARD;
 
-/* ---- the scatter of a mean of exponential variables: surface_scatter.c -------------------------
- */
+/* ---- scatter of a mean of exponential variables: surface_scatter.c --------------------------- */
 
-/* ln of a mean with so many degrees of freedom: what it is off ln of the truth in the mean, and its
- * variance; the freedom of a variance. */
+/* Mean bias and variance of ln of a mean with `freedom` degrees of freedom, and the degrees of
+ * freedom for a given variance. */
 double surface_log_bias(double freedom);
 double surface_log_variance(double freedom);
 double surface_freedom_of(double variance);
-/* The interval of the truth behind a mean. */
+/* Returns the 95 % interval of the true value for a mean. */
 wt_interval surface_interval(double mean, double freedom);
 
-/* ---- places: surface_places.c -----------------------------------------------------------------
- */
+/* ---- places: spatial_variance.c -------------------------------------------------------------- */
 
-/* Finds the sizes, and what they have, from the parts of the scans in each bin of `to`, [n_scans]
- * for each. */
+/* Finds the scan sizes and their weights from the weights of the scans in each bin of `to`,
+ * [n_scans] for each bin. */
 wt_status surface_places_take(const double *weights, size_t n_scans, wt_surface_spectrum *to,
                               wt_error *err) WT_NODISCARD;
-/* Standard error of ln C of a bin by the places of one size, over place_reach; and by
- * all. Where they are not kept all scans count alike. */
+/* Standard error of ln C of a bin due to the places of one size, or of all sizes, divided by
+ * place_reach. Without stored weights all scans count equally. */
 double surface_places_of(const wt_surface_spectrum *s, size_t bin, size_t size);
 double surface_places_part(const wt_surface_spectrum *s, size_t bin);
 
-/* ---- C of C1: surface_invert.c ------------------------------------------------------------------
- */
+/* ---- C from C1: psd_1d_to_2d.c --------------------------------------------------------------- */
 
-/* C(q) = -(1/pi) int_q^inf C1'(k) / sqrt(k^2 - q^2) dk of log-log linear C1 between n >= 2 knots,
- * above which its last slope goes on (`goes_on`) or it is 0. NaN below the first knot, and if the
- * last slope is not steeper than -1 where it goes on. */
+/* Returns C(q) = -(1/pi) int_q^inf C1'(k) / sqrt(k^2 - q^2) dk for log-log linear C1 between n
+ * >= 2 knots. Above the last knot the last slope continues (`goes_on`) or C1 is 0. NaN below the
+ * first knot, or if a continued slope is not below -1. */
 double surface_invert(const double *q, const double *c1, size_t n, bool goes_on, double at,
                       const gsl_integration_glfixed_table *rule);
-enum { INVERSION_POINTS = 10 }; /* of the rule; surface_invert.c has the reason */
+enum {
+    INVERSION_POINTS = 10
+}; /* points of the quadrature rule; psd_1d_to_2d.c states the reason */
 
 #endif

@@ -1,16 +1,16 @@
-/* What of a spectrum depends on the direction in the plane of the surface.
+/* Dependence of a spectrum on the direction in the plane of the surface.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "surface/numerics/surface_analysis.h"
 
 #include <math.h>
 
-/* The standard error of a direction of which nothing is known: any in a turn over the order. */
+/* Standard error of an unknown direction: uniform over a turn divided by the order. */
 static double unknown_direction(double order)
 {
     return 2 * M_PI / order / sqrt(12);
 }
 
-/* Sums over the reliable bins, each with the weight of its modes. */
+/* Sums over the reliable bins, weighted by the number of modes. */
 typedef struct direction_sums {
     double n, variance, cosine, sine, cosine_fourth, sine_fourth, square;
 } direction_sums;
@@ -24,8 +24,8 @@ static direction_sums sum_directions(const wt_surface_spectrum *spectrum)
             continue;
         const double n = (double)b->n, scatter = b->deviation / b->density;
         s.n += n;
-        /* Each part scatters by 2 / sqrt(freedom) where the directions are alike and the modes are
-         * exponential; where these scatter more, by that. */
+        /* Each component has the variance 4 / freedom for isotropic, exponential modes. If the
+         * modes scatter more, their scatter replaces it. */
         s.variance += 4 * n * n * scatter * scatter / b->freedom;
         s.square += n * scatter * scatter;
         s.cosine += n * b->cosine;
@@ -45,8 +45,8 @@ wt_surface_anisotropy wt_surface_directions(const wt_surface_spectrum *spectrum,
     const double second = hypot(s.cosine, s.sine) / s.n,
                  fourth = hypot(s.cosine_fourth, s.sine_fourth) / s.n;
     const double amplitude = order == 2 ? second : fourth, square = amplitude * amplitude;
-    /* What the directions make modes differ by is no scatter of the amplitude: the mean square of a
-     * mode over its mean squared is (1 + scatter^2) (1 + a^2/2 + b^2/2). */
+    /* The anisotropy itself adds to the scatter of the modes and is removed. The mean square of
+     * a mode over its squared mean is (1 + scatter^2) (1 + a^2/2 + b^2/2). */
     const double all = s.square / s.n, turned = 1 + (second * second + fourth * fourth) / 2;
     const double own = fmax(0, (all + 1) / turned - 1) / all;
     const double scatter = sqrt(s.variance) / s.n;

@@ -1,4 +1,4 @@
-/* The spectrum of a surface from that of its profiles, with its scatter.
+/* Converts the spectrum of profiles to that of the surface, with its scatter.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "surface/numerics/surface_analysis.h"
 
@@ -6,14 +6,14 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* A density that the scatter of C1 leaves so open is none: its logarithm is not normal then. */
+/* Maximum variance of ln C. Above it ln C is not normal and the density is dropped. */
 static const double largest_variance = 0.5;
 
-/* The relative variance of C at a knot: what the scatter of every knot of C1 does to it. */
+/* Returns the relative variance of C at a knot due to the scatter of all knots of C1. */
 static double variance_at(const wt_surface_spectrum *p, const double *q, double *c1, size_t at,
                           double c, const gsl_integration_glfixed_table *rule)
 {
-    const double step = 1e-4; /* of ln C1: the inversion is smooth in it */
+    const double step = 1e-4; /* step in ln C1; the inversion is smooth in it */
     double sum = 0;
     for (size_t k = 0; k < p->n; k++) {
         const double was = c1[k];
@@ -77,7 +77,7 @@ wt_status wt_surface_invert(const wt_surface_spectrum *profile, wt_surface_spect
     double *q = malloc(2 * profile->n * sizeof *q);
     made.kind = WT_SPECTRUM_2D;
     made.n = made.n_sizes = 0;
-    made.place_part = NULL; /* each bin of C is of many of C1 */
+    made.place_part = NULL; /* each bin of C depends on many bins of C1 */
     made.bins = malloc(profile->n * sizeof *made.bins);
     gsl_integration_glfixed_table *rule = gsl_integration_glfixed_table_alloc(INVERSION_POINTS);
     wt_status status = q != NULL && made.bins != NULL && rule != NULL

@@ -1,6 +1,7 @@
-/* The scatter of a power spectrum: the squared amplitude of a mode of a random surface is
- * exponential, the mean of several chi-squared with two degrees of freedom for each that is
- * independent. SPDX-License-Identifier: GPL-3.0-or-later */
+/* Scatter of a power spectrum. The squared amplitude of a mode of a random surface is
+ * exponential. The mean of several is chi-squared with two degrees of freedom for each
+ * independent mode.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "surface/numerics/surface_analysis.h"
 
 #include "core/math/gsl_quiet.h"
@@ -10,7 +11,7 @@
 #include <gsl/gsl_sf_psi.h>
 #include <math.h>
 
-/* Below one degree of freedom the error is not of modes but of places, which are normal in ln C. */
+/* Below one degree of freedom the place error dominates, which is normal in ln C. */
 static const double least_freedom = 1;
 
 double surface_log_bias(double freedom)
@@ -23,8 +24,8 @@ double surface_log_variance(double freedom)
     return gsl_sf_psi_n(1, freedom / 2);
 }
 
-/* Newton's method in ln x on ln of the trigamma function, which is nearly straight there: its slope
- * lies between -2 and -1. */
+/* Uses Newton's method in ln x on ln of the trigamma function, which is nearly straight: its
+ * slope is between -2 and -1. */
 double surface_freedom_of(double variance)
 {
     double x = variance > 1 ? 1 / sqrt(variance) : 1 / variance + 0.5;
@@ -47,7 +48,7 @@ wt_interval surface_interval(double mean, double freedom)
         i.low = mean * exp(-surface_log_bias(freedom) - reach);
         i.high = mean * exp(-surface_log_bias(freedom) + reach);
     }
-    /* The interval is skew, the logarithm is nearly not. */
+    /* The interval is skewed, its logarithm is nearly symmetric. */
     i.standard_error = mean * log(i.high / i.low) / 2 / NORMAL_95;
     return i;
 }

@@ -1,4 +1,5 @@
-/* Heights to a power spectrum by bins: window, discrete Fourier transform, means over modes.
+/* Computes a binned power spectrum of heights: window, discrete Fourier transform, means over
+ * modes.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "surface/numerics/surface_analysis.h"
 
@@ -8,7 +9,9 @@
 #include <pthread.h>
 #include <stdlib.h>
 
-enum { PER_DECADE = 10 }; /* a law is straight over a bin, and its first ones hold some modes */
+enum {
+    PER_DECADE = 10
+}; /* a power law is nearly straight in a bin, and the first bins contain some modes */
 
 /* ---- windows --------------------------------------------------------------------------------- */
 
@@ -26,8 +29,8 @@ static double window_at(wt_surface_window window, size_t i, size_t n)
     return 1;
 }
 
-/* By how much its modes are correlated: mean(w^4) / mean(w^2)^2 over one direction, from many
- * points. */
+/* Returns the correlation of modes under the window: mean(w^4) / mean(w^2)^2 over one direction,
+ * for many points. */
 static double window_correlation(wt_surface_window window)
 {
     switch (window) {
@@ -41,7 +44,8 @@ static double window_correlation(wt_surface_window window)
     return 1;
 }
 
-/* The window over one direction [n], and the mean of its square. */
+/* Creates the window over one direction [n] and returns the mean of its square. The caller frees
+ * it. */
 static double *make_window(wt_surface_window window, size_t n, double *mean_square)
 {
     double *w = malloc(n * sizeof *w), sum = 0;
@@ -55,16 +59,17 @@ static double *make_window(wt_surface_window window, size_t n, double *mean_squa
 
 /* ---- transforms ------------------------------------------------------------------------------ */
 
-/* Rows of nx heights and room for nx / 2 + 1 complex numbers each. */
+/* Rows of nx heights with space for nx / 2 + 1 complex numbers each. */
 typedef struct transform {
     double *row; /* [ny * stride] */
     size_t nx, ny, stride;
-    double density; /* times |amplitude|^2 */
+    double density; /* factor on |amplitude|^2 */
 } transform;
 
-static pthread_mutex_t planning = PTHREAD_MUTEX_INITIALIZER; /* FFTW plans by one at a time */
+static pthread_mutex_t planning =
+    PTHREAD_MUTEX_INITIALIZER; /* the FFTW planner is not thread-safe */
 
-/* Over rows and columns, or over each row. */
+/* Transforms rows and columns, or each row separately. */
 static wt_status run(const transform *t, bool lines, wt_error *err)
 {
     fftw_complex *out = (fftw_complex *)t->row;
@@ -92,7 +97,7 @@ static wt_status make_transform(const wt_height_map *map, wt_surface_window wind
     double *wx = make_window(window, map->nx, &square_x);
     double *wy = make_window(lines ? WT_WINDOW_NONE : window, map->ny, &square_y);
     *t = (transform){.nx = map->nx, .ny = map->ny, .stride = 2 * (map->nx / 2 + 1)};
-    /* Not by fftw_malloc, which ends the process where memory runs out. */
+    /* fftw_malloc would abort the process when memory is exhausted. */
     t->row = malloc(t->ny * t->stride * sizeof *t->row);
     wt_status status = WT_OK;
     if (wx == NULL || wy == NULL || t->row == NULL)
@@ -124,16 +129,16 @@ static double density_at(const transform *t, size_t i, size_t j)
 /* ---- bins ------------------------------------------------------------------------------------ */
 
 typedef struct mode_sums {
-    double n, q, ln_q, ln_q2, c, square; /* the last about `first` */
+    double n, q, ln_q, ln_q2, c, square; /* the last two relative to `first` */
     double first, cosine, sine, c_cosine, c_sine;
     double cosine_fourth, sine_fourth, c_cosine_fourth, c_sine_fourth;
     double sector_n[WT_SURFACE_SECTORS], sector_c[WT_SURFACE_SECTORS];
-    double pairs; /* sum over pairs of modes of the squares of their correlation; 0: not counted */
+    double pairs; /* sum of squared correlations over pairs of modes; 0: not counted */
 } mode_sums;
 
 typedef struct binning {
     const surface_bins *of;
-    int first; /* number of the first bin */
+    int first; /* index of the first bin */
     size_t n;
     mode_sums *sums;
 } binning;
@@ -151,7 +156,8 @@ static wt_status make_bins(const surface_bins *of, binning *b, wt_error *err)
     return b->sums != NULL ? WT_OK : wt_fail(err, WT_E_MEMORY, "no memory for bins");
 }
 
-/* The bin of a mode; -1 if it is outside. Modes of a lattice lie on the limits, up to rounding. */
+/* Returns the bin of a mode, or -1 outside the limits. Modes of the lattice lie on the limits up
+ * to rounding. */
 static int place_of(const binning *b, double q)
 {
     if (q < b->of->low * (1 - 4 * DBL_EPSILON) || q > b->of->high * (1 + 4 * DBL_EPSILON))
@@ -160,7 +166,7 @@ static int place_of(const binning *b, double q)
     return k >= 0 && (size_t)k < b->n ? k : -1;
 }
 
-/* What depends on the direction, whose double angle has this cosine and sine. */
+/* Adds the directional sums. The double angle of the direction has this cosine and sine. */
 static void add_direction(mode_sums *s, double cosine, double sine, double c, double times)
 {
     const double cosine_fourth = 2 * cosine * cosine - 1, sine_fourth = 2 * sine * cosine;
@@ -178,7 +184,7 @@ static void add_direction(mode_sums *s, double cosine, double sine, double c, do
     s->sector_c[k] += times * c;
 }
 
-/* A mode that stands for `times` of the full plane. */
+/* Adds a mode that represents one or two modes of the full plane. */
 static void add_mode(const binning *b, double qx, double qy, double c, double times)
 {
     const double q = hypot(qx, qy);
@@ -186,7 +192,7 @@ static void add_mode(const binning *b, double qx, double qy, double c, double ti
     if (k < 0)
         return;
     mode_sums *s = &b->sums[k];
-    /* from the lower edge on, so that little cancels */
+    /* relative to the lower edge, which reduces cancellation */
     const double ln_q = log(q / b->of->reference) - (k + b->first - 0.5) * M_LN10 / PER_DECADE;
     const double cosine = (qx * qx - qy * qy) / (q * q), sine = 2 * qx * qy / (q * q);
     if (s->n == 0)
@@ -200,12 +206,12 @@ static void add_mode(const binning *b, double qx, double qy, double c, double ti
     add_direction(s, cosine, sine, c, times);
 }
 
-/* ---- how many modes are independent ---------------------------------------------------------- */
+/* ---- number of independent modes ------------------------------------------------------------- */
 
-/* Correlation of the amplitudes of modes that lie so many apart under a Hann window. */
+/* Correlation of the amplitudes of modes at distance 0, 1, 2 under a Hann window. */
 static const double hann_neighbours[] = {1, 2.0 / 3, 1.0 / 6};
 enum { REACH = sizeof hann_neighbours / sizeof *hann_neighbours - 1 };
-/* Larger bins than this have next to all neighbours of a mode inside. */
+/* In larger bins nearly all neighbours of a mode lie in the same bin. */
 static const double few_modes = 20000;
 
 static double square_of(int apart)
@@ -214,8 +220,8 @@ static double square_of(int apart)
     return r * r;
 }
 
-/* How many modes of a sector at q are as one that is independent: their neighbours along it, and
- * across it those that are within its width. */
+/* Returns the number of modes of a sector at q for each independent one. It counts the
+ * neighbours along q and those across within the width of the sector. */
 static double sector_tie(const wt_height_map *map, wt_surface_window window, double q)
 {
     const double along = window_correlation(window), two = square_of(1) + square_of(2);
@@ -226,7 +232,7 @@ static double sector_tie(const wt_height_map *map, wt_surface_window window, dou
     return along * (1 + (along - 1) * within);
 }
 
-/* Bins of the modes from -reach to reach in both directions, row by row. */
+/* Bin indices of the modes from -reach to reach in both directions, row by row. */
 typedef struct mode_grid {
     int reach_x, reach_y;
     short *bin;
@@ -250,7 +256,7 @@ static double pairs_of(const mode_grid *g, int i, int j, int bin, int reach_y)
     return sum;
 }
 
-/* For bins of few modes, many of whose neighbours are in other bins. */
+/* Counts the pairs in bins of few modes, whose neighbours are often in other bins. */
 static wt_status count_pairs(const wt_height_map *map, bool lines, const binning *b, wt_error *err)
 {
     double most = 0;
@@ -280,10 +286,11 @@ static wt_status count_pairs(const wt_height_map *map, bool lines, const binning
 
 /* ---- means ----------------------------------------------------------------------------------- */
 
-/* Degrees of freedom of the mean of modes: two for each that is independent, and -q is none. */
+/* Returns the degrees of freedom of a mean of modes: two for each independent mode. -q is not
+ * independent of q. */
 static double freedom_of(const mode_sums *s, size_t n_lines, double correlation)
 {
-    /* rows of a line count as one each, and their pairs were counted for one of them */
+    /* the lines count as one, and the pairs were counted for one line */
     return s->pairs > 0
                ? (double)n_lines * (s->n / (double)n_lines) * (s->n / (double)n_lines) / s->pairs
                : s->n / correlation;
@@ -316,7 +323,8 @@ static wt_spectrum_bin finish_bin(const mode_sums *s, int index, double referenc
     return bin;
 }
 
-/* Of an even number of points the mode n/2 stands for itself alone, as that of 0 does. */
+/* Returns the multiplicity of a mode. With an even number of points the mode n/2 occurs once, as
+ * mode 0 does. */
 static double times_of(size_t i, size_t n)
 {
     return i == 0 || 2 * i == n ? 1 : 2;
@@ -333,7 +341,7 @@ static void bin_plane(const transform *t, const wt_height_map *map, const binnin
     }
 }
 
-/* Each mode stands for itself and the one at -q. */
+/* Bins the modes of lines. Each mode also represents that at -q. */
 static void bin_lines(const transform *t, const wt_height_map *map, const binning *b)
 {
     const double step = 2 * M_PI / ((double)t->nx * map->dx);
