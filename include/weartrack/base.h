@@ -397,6 +397,12 @@ WT_API const char *wt_sandbox_limitations(void);
 WT_API double wt_time_wall(void);
 WT_API double wt_time_cpu(void);
 
+/* ---- Student's t ----------------------------------------------------------------------------- */
+
+/* Returns the 97.5 % quantile of Student's t: the half width of a 95 % interval in standard errors.
+ * Infinite degrees of freedom are the normal distribution. */
+WT_API double wt_student(double freedom);
+
 #ifdef __cplusplus
 }
 #endif

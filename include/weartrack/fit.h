@@ -624,8 +624,6 @@ typedef struct wt_contact_slope {
 WT_API wt_status wt_contact_slope_fit(const double *position, const double *signal, size_t n,
                                       const wt_slope_options *options, wt_contact_slope *slope,
                                       wt_error *err) WT_NODISCARD;
-/* Half of the interval of 95 % over the error, by Student's t. */
-WT_API double wt_student(double freedom);
 /* Mean of n values: of the means of their units (spots, files), numbered in `units`, if there are
  * three units or more, else of the values; those of a unit stand one behind another, NULL: there
  * are no units. Interval of 95 % by Student's t with *n_units - 1 degrees of freedom; of one value

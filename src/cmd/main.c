@@ -7,9 +7,6 @@
 #include "cmd/cmd.h"
 #include "core/base/spell_suggest.h"
 
-int cmd_full_argc;
-char **cmd_full_argv;
-
 /* One table drives dispatch, --help and the tests. */
 const cmd_command cmd_commands[] = {
     {"Files", NULL, NULL},
@@ -94,8 +91,7 @@ static int dispatch(int argc, char **argv)
 
 int main(int argc, char **argv)
 {
-    cmd_full_argc = argc;
-    cmd_full_argv = argv;
+    cmd_set_command_line(argc, argv);
     /* `weartrack ... | head` shall end quietly, also where a parent ignores the signal. */
     signal(SIGPIPE, SIG_DFL);
     wt_protect_begin();

@@ -5,6 +5,9 @@
 
 #include "core/base/param.h"
 
+/* Default relative numerical error of a job and of the friction kernel. */
+#define DEFAULT_TOLERANCE 1e-10
+
 /* clang-format off: one a line */
 
 #define FRICTION_TOLERANCE(type)                                                                   \

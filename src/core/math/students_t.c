@@ -6,6 +6,7 @@
  */
 #include "core/math/students_t.h"
 #include "core/base/array.h"
+#include "weartrack/base.h"
 
 #include <gsl/gsl_cdf.h>
 #include <math.h>
@@ -34,6 +35,11 @@ double students_t_quantile(double df)
 {
     const double p = 0.5 + 0.5 * confidence;
     return isinf(df) ? gsl_cdf_ugaussian_Pinv(p) : gsl_cdf_tdist_Pinv(p, df);
+}
+
+double wt_student(double freedom)
+{
+    return students_t_quantile(freedom);
 }
 
 /* From the side of the tail, which keeps its digits. */

@@ -8,7 +8,6 @@
 #include "core/base/param.h"
 #include "weartrack/fit.h"
 
-#include <gsl/gsl_cdf.h>
 #include <math.h>
 #include <stdlib.h>
 
@@ -344,11 +343,6 @@ static size_t count_units(const double *values, const long *units, size_t n, dou
     for (size_t at = 0; at < n; n_units++)
         *sum += unit_mean(values, units, n, &at);
     return n_units;
-}
-
-double wt_student(double freedom)
-{
-    return gsl_cdf_tdist_Pinv(level, freedom);
 }
 
 wt_interval wt_student_mean(const double *values, const long *units, size_t n, size_t *n_units)
