@@ -7,7 +7,7 @@
 #include <stddef.h>
 
 /* Reading the database of UDUNITS takes as long as fitting several force curves, and most runs need
- * nothing of it but these. unit_base_units holds each of them against UDUNITS for every quantity,
+ * nothing of it but these. unit_core_units holds each of them against UDUNITS for every quantity,
  * bit by bit. */
 typedef struct known_unit {
     const char *text, *si;

@@ -10,7 +10,7 @@
 
 /* Lack of fit is real below this probability, with what is not known of the noise. The customary
  * level, one wrong "fails" in a hundred sweeps at most, of the two counts of superposition.c
- * together. A smaller one misses second processes (unit_fit_master); at 0.05 one sound sweep of
+ * together. A smaller one misses second processes (unit_dma_master_fit); at 0.05 one sound sweep of
  * twenty would fail. */
 static const double significant = 0.01;
 /* Superposition is not said to hold below this one, with the noise as estimated: its factors and

@@ -1032,7 +1032,7 @@ static void test_record(void **state)
 {
     (void)state;
     static const char strokes[] = "test_tables_put_strokes.csv",
-                      disc[] = "test_tables_put_disc.csv";
+                      disc[] = "test_case_tables_written_disc.csv";
     uint64_t seed = 4;
     FILE *out = fopen(strokes, "w");
     assert_non_null(out);

@@ -1,7 +1,7 @@
 /* Extreme materials, surfaces, velocities and pressures, drawn at random: the true error of
  * friction lies within the stated one. The truth is that of friction_truth.h.
  *
- * With an argument that many other scenes are drawn: test_kernel_extremes CASES [SEED [FIRST]], and
+ * With an argument that many other scenes are drawn: test_friction_extremes CASES [SEED [FIRST]], and
  * those before FIRST are left out. */
 #include "near.h"
 

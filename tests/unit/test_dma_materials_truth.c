@@ -1,5 +1,5 @@
 /* Materials side by side: isotherms of two rubbers whose spectra, laws and scales are known, so
- * that every ratio is. How often the interval holds it: `unit_truth_materials N` draws N pairs and
+ * that every ratio is. How often the interval holds it: `unit_dma_materials_truth N` draws N pairs and
  * prints the shares. SPDX-License-Identifier: GPL-3.0-or-later */
 #include "all_formats.h"
 #include "truth.h"

@@ -364,7 +364,7 @@ static void test_differ(void **state)
 
 /* ---- the bundled case ------------------------------------------------------------------------ */
 
-static const char case_path[] = "test_flow_running_in.xml", csv_path[] = "test_flow_running_in.csv";
+static const char case_path[] = "test_flow_running_in.xml", csv_path[] = "test_record_running_in.csv";
 static wt_result *result;
 static const wt_table *runs;
 

@@ -471,7 +471,7 @@ static void test_what_is_lacking(void **state)
 static void test_a_contradiction(void **state)
 {
     (void)state;
-    static const char path[] = "test_flow_record.csv";
+    static const char path[] = "test_record_job.csv";
     const wt_record_job job = wt_record_job_defaults();
     FILE *out = fopen(path, "w");
     assert_non_null(out);
