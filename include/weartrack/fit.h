@@ -140,8 +140,8 @@ typedef struct wt_indent_fit {
     double lack_of_fit;          /* slow part of the residual in contact, over the variance that the
                                     noise of the baseline gives it: 1 if the law is right; NaN where
                                     the baseline is too short to say */
-    double lack_of_fit_chance;   /* of more by noise alone */
-    double baseline_chance;      /* that a straight baseline departs as much from a line */
+    double lack_of_fit_p;        /* of more by noise alone */
+    double baseline_p;           /* that a straight baseline departs as much from a line */
     double bend_shift;           /* what the same bend in contact adds to E [Pa]; 0: a baseline that
                                     is straight, as far as its noise tells */
     double misfit[WT_CURVE_WAVES]; /* cosines of the residual over the contact, of max_force */
@@ -257,7 +257,7 @@ typedef struct wt_curve_depth {
         modulus[WT_DEPTHS]; /* of the rubber that would give that force at that depth alone */
     wt_interval change;     /* the last over the first */
     double chance;          /* of a larger change by scatter alone */
-    double misfit_chance;   /* of a larger residual of another shape */
+    double misfit_p;        /* of a larger residual of another shape */
     /* If a layer thinner than the indentation makes the change; NaN where the curves do not tell
      * all three. */
     wt_interval layer_modulus, ground_modulus, thickness;
@@ -553,7 +553,7 @@ typedef struct wt_dwell {
     double drift, drift_from;        /* of the force [N/s], since that time [s] */
     double indentation_common_error; /* of the indentation at the end [m], what curves of one kind
                                         share; NaN as below */
-    double misfit, misfit_chance; /* sum of squares over its degrees of freedom, by which the errors
+    double misfit, misfit_p; /* sum of squares over its degrees of freedom, by which the errors
                                      are wider where it is above 1; chance of more by noise: below
                                      0.01 the errors are not known (NaN) */
     size_t n, n_points;
@@ -1013,7 +1013,7 @@ typedef struct wt_master {
     wt_superposition superposition;
     double lack_of_fit_p, misfit_low, misfit_high;           /* misfit: relative, 95 % */
     double kramers_kronig_p, loss_factor, loss_factor_error; /* ln of a factor on all E'' */
-    double holds_from, holds_to;    /* [K] where superposition holds, if it fails beyond; or NaN */
+    double valid_from, valid_to;    /* [K] where superposition holds, if it fails beyond; or NaN */
     bool settled;                   /* false: a fit ended at its last step */
     char because[256];              /* of the verdict, and what would settle it */
     size_t evaluations;             /* of the model, at all points */

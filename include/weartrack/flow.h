@@ -381,7 +381,7 @@ typedef struct wt_group_data {
     double *max_force, *max_indentation; /* [n] N, m; NaN if unknown */
     /* of all curves together: mean residual of the largest force, and the chance of more by
      * scatter; NaN if unknown */
-    double pooled_misfit, pooled_misfit_chance;
+    double pooled_misfit, pooled_misfit_p;
     /* [n_fitted] of the curves that were fitted, rejected ones too, for a misfit rejects them: cube
      * root of the lack of fit, number of the spot (not that of the accepted ones) */
     double *lack_of_fit;
@@ -575,8 +575,8 @@ typedef struct wt_shared_shift_law_job {
 } wt_shared_shift_law_job;
 WT_API wt_shared_shift_law_job wt_shared_shift_law_job_defaults(void);
 WT_API const wt_params *wt_shared_shift_law_job_params(void);
-/* Table "common_law": the law with its errors, the shifts about it, and whether the samples have
- * one law. */
+/* Table "shared_shift_law": the law with its errors, the shifts about it, and whether the samples
+ * have one law. */
 WT_API wt_status wt_shared_shift_law_make(const wt_shared_shift_law_job *job, wt_table **table,
                                           wt_error *err) WT_NODISCARD;
 
@@ -904,8 +904,8 @@ WT_API wt_status wt_flash_make(const wt_sliding *sliding, const wt_job *work, wt
 /* Table "directions": hysteresis friction and contact area of a transversely isotropic rubber at
  * every velocity, with its factors on E' and E'' and with those on one of them or none. WT_E_ARG if
  * it has no directions. */
-WT_API wt_status wt_directions_make(const wt_sliding *sliding, const wt_job *work, wt_table **table,
-                                    wt_error *err) WT_NODISCARD;
+WT_API wt_status wt_transverse_isotropy_make(const wt_sliding *sliding, const wt_job *work,
+                                             wt_table **table, wt_error *err) WT_NODISCARD;
 
 /* Table "anisotropy": hysteresis friction, contact area and the force to the side with the
  * anisotropy of `sliding` and without it. WT_E_ARG if there is none. */
@@ -991,16 +991,16 @@ WT_API wt_status wt_layer_bands_make(const wt_sliding *sliding, const wt_layer_j
 WT_API wt_status wt_running_in_make(const wt_sliding *sliding, const wt_layer_job *job,
                                     const wt_layer_observation *known, const wt_job *work,
                                     wt_table **table, wt_error *err) WT_NODISCARD;
-/* Table "layer_balances": all balances of a layer that acts back, and the folds between them. */
+/* Table "layer_feedback": all balances of a layer that acts back, and the folds between them. */
 WT_API wt_status wt_layer_balances_make(const wt_sliding *sliding, const wt_layer_job *job,
                                         const wt_layer_observation *known, const wt_job *work,
                                         wt_table **table, wt_error *err) WT_NODISCARD;
 /* Table "existence": balance thickness at every velocity, at the pressures of the map of `sliding`
  * if it has some, else at its pressure, and with `known` (may be NULL) what the layer does to
  * friction. */
-WT_API wt_status wt_existence_make(const wt_sliding *sliding, const wt_layer_job *job,
-                                   const wt_layer_observation *known, const wt_job *work,
-                                   wt_table **table, wt_error *err) WT_NODISCARD;
+WT_API wt_status wt_layer_regime_map_make(const wt_sliding *sliding, const wt_layer_job *job,
+                                          const wt_layer_observation *known, const wt_job *work,
+                                          wt_table **table, wt_error *err) WT_NODISCARD;
 
 /* Table "energy_density": the energy density against depth at the velocity of the layer. */
 WT_API wt_status wt_energy_density_table(const wt_sliding *sliding, const wt_layer_job *job,

@@ -23,7 +23,7 @@ static void print_plan(const wt_table *plan)
         const bool does = wt_table_number(plan, i, PLAN_RUNS) > 0;
         printf("%-*s%s\n%*s", INDENT, does ? "run" : "leave", wt_table_text(plan, i, PLAN_TITLE),
                INDENT, "");
-        cmd_wrap(stdout, INDENT, INDENT, wt_table_text(plan, i, PLAN_BECAUSE));
+        cmd_wrap(stdout, INDENT, INDENT, wt_table_text(plan, i, PLAN_REASON));
     }
 }
 

@@ -17,7 +17,7 @@
 /* Without misfits: these cells stick and their baselines are bent. */
 static const char text[] =
     "<case version=\"1\"><indentation><tip>pyramid:half-angle=17.5deg,radius=20nm</tip>"
-    "<least-chance>0</least-chance>"
+    "<misfit-p-threshold>0</misfit-p-threshold>"
     "<bulk><files>" JPK "map-data-2022.10.29-12.27.34.564.jpk-force-map</files></bulk>"
     "<track><files>" JPK "fmt-jpk-cc_pr14-polymergel-2021.06.30.jpk-force</files></track>"
     "</indentation><dma><files>" SWEEPS "</files></dma>"

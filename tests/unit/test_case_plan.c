@@ -51,7 +51,7 @@ static void check_plan(const char *text, const char *runs)
     assert_int_equal(wt_table_n_rows(plan), FLOW_N_STAGES);
     for (size_t i = 0; i < wt_table_n_rows(plan); i++) {
         bool chosen = number_cell(plan, i, "runs") > 0;
-        const char *because = text_cell(plan, i, "because");
+        const char *because = text_cell(plan, i, "reason");
         assert_int_equal(
             strncmp(because, chosen ? "runs because " : "left out because ", chosen ? 13 : 17), 0);
         if (chosen) {
@@ -66,7 +66,7 @@ static void check_plan(const char *text, const char *runs)
 static void check_because(const char *text, const char *stage, const char *part)
 {
     wt_table *plan = plan_of(text);
-    const char *because = text_cell(plan, row_where(plan, "stage", stage), "because");
+    const char *because = text_cell(plan, row_where(plan, "stage", stage), "reason");
     if (strstr(because, part) == NULL)
         fail_msg("%s: %s", stage, because);
     wt_table_free(plan);

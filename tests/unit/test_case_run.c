@@ -169,9 +169,9 @@ static void test_stand_in(void **state)
     assert_string_equal(text_cell(table_of(&r, "failures"), 0, "file"),
                         "stage friction with the layer");
     const size_t first = row_where(cost, "stage", "friction");
-    assert_non_null(strstr(text_cell(cost, first, "because"), ", and failed"));
+    assert_non_null(strstr(text_cell(cost, first, "reason"), ", and failed"));
     assert_string_equal(text_cell(cost, first + 1, "stage"), "friction");
-    assert_string_equal(text_cell(cost, first + 1, "because"),
+    assert_string_equal(text_cell(cost, first + 1, "reason"),
                         "runs because it did not succeed with the layer");
     assert_int_equal(wt_table_n_rows(table_of(&r, "friction")), 4);
     check_answer(&r, "thickness", "grows without end");

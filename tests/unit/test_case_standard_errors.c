@@ -212,8 +212,8 @@ static const expectation measured[] = {
     {&shift_factors_schema, "wlf_c2", "kk"},
     {&shift_factors_schema, "activation_energy", ".."}, /* WLF has none, and no joint */
     {&shift_factors_schema, "joint", ".."},
-    {&shift_factors_schema, "holds_from", ".."}, /* it holds everywhere */
-    {&shift_factors_schema, "holds_to", ".."},
+    {&shift_factors_schema, "valid_from", ".."}, /* it holds everywhere */
+    {&shift_factors_schema, "valid_to", ".."},
     {&shift_factors_schema, "law_slope", "kk"},
     {&shift_factors_schema, "pole", "kk"},
     {&shift_factors_schema, "offset", "kk"},
@@ -302,8 +302,8 @@ static void test_named(void **state)
     static const char *const of_layer[WAYS] = {
         NULL, BOTH LAYER, "material, temperature, roughness, " LAYER, "material, " BOTH LAYER};
     for (int way = 0; way < WAYS; way++) {
-        const char *a = wt_table_key(friction[way].friction, "standard_error_lacks"),
-                   *b = wt_table_key(layer[way].layer, "standard_error_lacks");
+        const char *a = wt_table_key(friction[way].friction, "standard_error_excludes"),
+                   *b = wt_table_key(layer[way].layer, "standard_error_excludes");
         if (way == ALL) {
             assert_true(a == NULL && b == NULL);
             continue;
@@ -340,7 +340,7 @@ static void test_no_replicates(void **state)
     work.replicates = 0;
     assert_int_equal(wt_friction_make(&sliding, NULL, &work, &tables, NULL), WT_OK);
     assert_true(isnan(cell(tables.friction, 0, "hysteresis_standard_error")));
-    assert_string_equal(wt_table_key(tables.friction, "standard_error_lacks"),
+    assert_string_equal(wt_table_key(tables.friction, "standard_error_excludes"),
                         "material with its shift law, pressure, temperature, roughness");
     wt_friction_tables_clear(&tables);
 }

@@ -186,7 +186,7 @@ static void test_directions(void **state)
     for (int i = 0; i < 2; i++) {
         wt_table *table = NULL;
         rubber.poisson_ratio = i == 0 ? 0.49 : 0.5;
-        assert_int_equal(wt_directions_make(&sliding, &work, &table, NULL), WT_OK);
+        assert_int_equal(wt_transverse_isotropy_make(&sliding, &work, &table, NULL), WT_OK);
         see(table);
         wt_table_free(table);
     }
@@ -352,7 +352,7 @@ static void test_no_superposition(void **state)
         job.fit.reference_temperature = 303.15;
         assert_int_equal(wt_master_make(&job, &common, &tables, NULL, NULL), WT_OK);
         assert_true((wt_table_key(tables.shift_factors, "route") != NULL) == (i == 1));
-        assert_true((wt_table_key(tables.shift_factors, "holds_from") != NULL) == (i == 0));
+        assert_true((wt_table_key(tables.shift_factors, "valid_from") != NULL) == (i == 0));
         assert_true(strncmp(wt_table_key(tables.shift_factors, "superposition"),
                             i == 0 ? "fails up to" : "fails: ", i == 0 ? 11 : 7) == 0);
         see(tables.shift_factors);
@@ -750,7 +750,8 @@ static void see_both_edges(void)
     job.critical_energy.value = 2e10;
     job.specific_wear_rate = (wt_estimate){1e-12, 1e-14, 0, "m^2/N"};
     for (int with_edges = 0; with_edges < 2; with_edges++) {
-        assert_int_equal(wt_existence_make(&sliding, &job, NULL, &work, &table, &err), WT_OK);
+        assert_int_equal(wt_layer_regime_map_make(&sliding, &job, NULL, &work, &table, &err),
+                         WT_OK);
         if (with_edges)
             see(table);
         double most = 0;
@@ -795,7 +796,8 @@ static void test_layer_models(void **state)
     assert_int_equal(wt_layer_bands_make(&sliding, &job, &work, &table[0], &err), WT_OK);
     assert_int_equal(wt_running_in_make(&sliding, &job, &known, &work, &table[1], &err), WT_OK);
     assert_int_equal(wt_layer_balances_make(&sliding, &job, &known, &work, &table[2], &err), WT_OK);
-    assert_int_equal(wt_existence_make(&sliding, &job, &known, &work, &table[3], &err), WT_OK);
+    assert_int_equal(wt_layer_regime_map_make(&sliding, &job, &known, &work, &table[3], &err),
+                     WT_OK);
     for (size_t i = 0; i < 4; i++) {
         see(table[i]);
         wt_table_free(table[i]);

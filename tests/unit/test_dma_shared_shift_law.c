@@ -108,7 +108,7 @@ static void check_rows(const wt_table *t, bool moved)
         }
         assert_true(at_middle < 0.35);
     }
-    assert_near(key_estimate(t, "furthest").value, furthest, 1e-9);
+    assert_near(key_estimate(t, "largest_deviation").value, furthest, 1e-9);
 }
 
 static void test_same(void **state)
@@ -125,7 +125,7 @@ static void test_same(void **state)
     assert_int_equal(strncmp(wt_table_key(t, "agree"), "no: the samples have not one law (p ", 36),
                      0);
     snprintf(words, sizeof words, "that of SBR 10%% is off by up to %.2g decade",
-             key_estimate(t, "furthest").value);
+             key_estimate(t, "largest_deviation").value);
     assert_non_null(strstr(wt_table_key(t, "agree"), words));
     assert_true(atof(wt_table_key(t, "p")) < 0.05);
     assert_null(wt_table_key(t, "settled_by"));
@@ -137,7 +137,7 @@ static void test_same(void **state)
     snprintf(words, sizeof words, "wlf:reference-temperature=20degC,c1=%.6g,c2=%.6gK", a.value,
              b.value);
     assert_string_equal(wt_table_key(t, "shift_law"), words);
-    assert_string_equal(wt_table_key(t, "each_moved"), "NR 20.00 °C, SBR 10% 20.00 °C");
+    assert_string_equal(wt_table_key(t, "sample_shifts"), "NR 20.00 °C, SBR 10% 20.00 °C");
     assert_int_equal(strncmp(wt_table_key(t, "left_out"), "gone: ", 6), 0);
     assert_string_equal(cell_text(t, 12, "sample"), "gone");
     assert_non_null(strstr(wt_table_key(t, "left_out"), cell_text(t, 12, "note")));
@@ -184,7 +184,7 @@ static void test_moved(void **state)
     assert_near(cell(t, 0, "moved"), 0, 0);
     assert_true(error > 0 && fabs(moved) > 0.1);
     snprintf(words, sizeof words, "NR 20.00 °C, SBR 10%% %.2f °C ± %.2g K", 20 + moved, error);
-    assert_string_equal(wt_table_key(t, "each_moved"), words);
+    assert_string_equal(wt_table_key(t, "sample_shifts"), words);
     snprintf(words, sizeof words,
              "NR wlf:reference-temperature=20degC,c1=%.6g,c2=%.6gK; SBR 10%% "
              "wlf:reference-temperature=%.6gdegC,c1=%.6g,c2=%.6gK",

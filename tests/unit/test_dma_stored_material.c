@@ -110,8 +110,8 @@ static void test_without_draws(void **state)
     assert_true(isnan(cell(exact, 0, "hysteresis_standard_error")));
     assert_true(isnan(key_estimate(exact, "area_ratio_at_reference").standard_error));
     assert_true(cell(drawn, 0, "area_ratio_standard_error") > 0);
-    assert_non_null(strstr(wt_table_key(exact, "standard_error_lacks"), "material"));
-    assert_non_null(strstr(wt_table_key(drawn, "standard_error_lacks"), "material"));
+    assert_non_null(strstr(wt_table_key(exact, "standard_error_excludes"), "material"));
+    assert_non_null(strstr(wt_table_key(drawn, "standard_error_excludes"), "material"));
     wt_table_free(exact);
     wt_table_free(drawn);
     wt_rubber_clear(&rubber);

@@ -316,7 +316,7 @@ static void test_drawn(void **state)
         sliding.softness = &moved[i];
         assert_int_equal(wt_friction_make(&sliding, NULL, &work, &t, NULL), WT_OK);
         change[i] = number_cell(t.friction, 0, "hysteresis") - value;
-        lacks = wt_table_key(t.friction, "standard_error_lacks");
+        lacks = wt_table_key(t.friction, "standard_error_excludes");
         assert_non_null(lacks);
         assert_non_null(strstr(lacks, "softening with strain"));
         wt_friction_tables_clear(&t);

@@ -44,7 +44,7 @@ static double at(const wt_table *table, const char *factors, size_t i, const cha
 static void test_trends(void **state)
 {
     (void)state;
-    const wt_table *table = wt_result_find(result, "directions");
+    const wt_table *table = wt_result_find(result, "transverse_isotropy");
     assert_non_null(table);
     assert_int_equal(wt_table_n_rows(table), 4 * 31);
     for (size_t i = 0; i < 31; i++) {
@@ -62,7 +62,7 @@ static void test_trends(void **state)
 static void test_ends(void **state)
 {
     (void)state;
-    const wt_table *table = wt_result_find(result, "directions"),
+    const wt_table *table = wt_result_find(result, "transverse_isotropy"),
                    *friction = wt_result_find(result, "friction");
     for (size_t i = 0; i < 31; i++) {
         assert_near(at(table, "both", i, "hysteresis"), number_cell(friction, i, "hysteresis"),
@@ -75,13 +75,13 @@ static void test_ends(void **state)
     wt_table *directed = NULL;
     sliding_set_up(velocity, 3);
     work.replicates = 0;
-    assert_int_equal(wt_directions_make(&sliding, &work, &directed, NULL), WT_E_ARG);
+    assert_int_equal(wt_transverse_isotropy_make(&sliding, &work, &directed, NULL), WT_E_ARG);
     assert_int_equal(wt_friction_make(&sliding, NULL, &work, &plain, NULL), WT_OK);
     rubber.is_transverse = true;
     rubber.transverse = wt_transverse_defaults();
     rubber.transverse.axial_loss = 1.5;
     rubber.poisson_ratio = 0.49;
-    assert_int_equal(wt_directions_make(&sliding, &work, &directed, NULL), WT_OK);
+    assert_int_equal(wt_transverse_isotropy_make(&sliding, &work, &directed, NULL), WT_OK);
     wt_friction_tables_clear(&plain);
     assert_int_equal(wt_friction_make(&sliding, NULL, &work, &plain, NULL), WT_OK);
     for (size_t i = 0; i < 3; i++)
@@ -95,5 +95,5 @@ static void test_ends(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(test_trends), cmocka_unit_test(test_ends)};
-    return cmocka_run_group_tests_name("directions", tests, run_case, free_result);
+    return cmocka_run_group_tests_name("transverse_isotropy", tests, run_case, free_result);
 }

@@ -246,7 +246,7 @@ static void not_this_tip(void **state)
             data.force[i] -= 0.85 * curve_contact_force(&t, z);
     }
     wt_indent_fit fit = expect(&t, WT_CURVE_POOR_FIT, "misfit: E +- ");
-    assert_true(fit.lack_of_fit > 100 && fit.lack_of_fit_chance < 1e-6);
+    assert_true(fit.lack_of_fit > 100 && fit.lack_of_fit_p < 1e-6);
     wt_indent_options options = wt_indent_defaults();
     options.least_chance = 0.0;
     fit = fit_with(&t, &options);
@@ -499,7 +499,7 @@ static void not_by_the_noise(void **state)
     bend(&t, 0.1e-9);
     const wt_indent_fit bent =
         expect(&t, WT_CURVE_ACCEPTED, "baseline bent, which the error holds");
-    assert_true(bent.baseline_chance < 0.01);
+    assert_true(bent.baseline_p < 0.01);
     assert_true(bent.modulus.standard_error > 1.5 * straight);
     assert_near_abs(bent.modulus.value, t.modulus, 2 * bent.modulus.standard_error);
     assert_near_abs(bent.modulus.value - t.modulus, bent.bend_shift, 4 * straight);

@@ -167,8 +167,7 @@ static void check_dwells(const wt_table *t, const char *path)
         assert_near(number_cell(t, i, "indentation_start"), depth, 0.02);
         assert_near(number_cell(t, i, "indentation_end"), depth, 0.02);
         assert_near_abs(number_cell(t, i, "misfit"), 1, 0.5);
-        assert_true(number_cell(t, i, "misfit_chance") > 1e-3 &&
-                    number_cell(t, i, "misfit_chance") < 1);
+        assert_true(number_cell(t, i, "misfit_p") > 1e-3 && number_cell(t, i, "misfit_p") < 1);
         assert_true(isnan(number_cell(t, i, "amplitude")));
     }
 }

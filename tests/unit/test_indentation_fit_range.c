@@ -172,7 +172,7 @@ static void intervals_cover(void **state)
                 continue;
             }
             judged++;
-            likely += fit.lack_of_fit_chance > 0.5;
+            likely += fit.lack_of_fit_p > 0.5;
             modulus +=
                 fabs(fit.modulus.value - t.modulus) < 1.96 * fit.modulus.standard_error ? 1 : 0;
             contact += fabs(fit.contact_point.value - t.height0 - t.contact_point) <

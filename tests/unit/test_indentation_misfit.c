@@ -79,7 +79,7 @@ static void law_that_nearly_holds(void **state)
         const wt_indent_fit fit = fit_tip(&t, &stated, NULL);
         const double off = fabs(fit.modulus.value - t.modulus),
                      half = 1.96 * fit.modulus.standard_error;
-        assert_true(fit.lack_of_fit_chance < 0.01);
+        assert_true(fit.lack_of_fit_p < 0.01);
         if (!(off < 1.2 * half && half < 3 * off))
             fail_msg("radius by %g: %g off, %g stated", 1 / shares[k], off, half);
         assert_true(fit.misfit_error > 0.9 * fit.modulus.standard_error);

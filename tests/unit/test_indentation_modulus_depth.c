@@ -164,7 +164,7 @@ static void layers(void **state)
         }
         print_message("ratio %g, %g nm: %g to %g nm, %g on %g Pa, left %g\n", scenes[i].ratio,
                       1e9 * scenes[i].thickness, 1e9 * d.thickness.low, 1e9 * d.thickness.high,
-                      d.layer_modulus.value, d.ground_modulus.value, d.misfit_chance);
+                      d.layer_modulus.value, d.ground_modulus.value, d.misfit_p);
     }
 }
 

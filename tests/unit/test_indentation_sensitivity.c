@@ -299,13 +299,13 @@ static void test_volts(void **state)
     assert_true(number_cell(t.sensitivity, 2, "sensitivity_high") > 60e-9);
     assert_near(key(t.sensitivity, "retract_over_approach").value, 0.98 / 1.02, 0.003);
     /* the stated interval holds both ways, the one of each the other way */
-    assert_near(number_cell(t.sensitivity, 2, "ways_error"), 0.04 / sqrt(12), 0.03);
-    assert_near(number_cell(t.sensitivity, 0, "ways_error"), 0.04 / 1.02 / sqrt(3), 0.03);
+    assert_near(number_cell(t.sensitivity, 2, "direction_error"), 0.04 / sqrt(12), 0.03);
+    assert_near(number_cell(t.sensitivity, 0, "direction_error"), 0.04 / 1.02 / sqrt(3), 0.03);
     for (size_t row = 0; row < 3; row++) {
         assert_true(number_cell(t.sensitivity, row, "sensitivity_low") < 60e-9 * 0.98);
         assert_true(number_cell(t.sensitivity, row, "sensitivity_high") > 60e-9 * 1.02);
         assert_true(number_cell(t.sensitivity, row, "sensitivity_standard_error") >
-                    number_cell(t.sensitivity, row, "ways_error") * 60e-9 * 0.97);
+                    number_cell(t.sensitivity, row, "direction_error") * 60e-9 * 0.97);
     }
     assert_string_equal(wt_table_key(t.sensitivity, "verdict"), "straight");
     assert_true(strncmp(wt_table_key(t.sensitivity, "indent_option"), "--sensitivity ", 14) == 0);

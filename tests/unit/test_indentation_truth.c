@@ -82,8 +82,8 @@ static void test_columns(void **state)
     assert_near_abs(cell(t, 0, "baseline_offset"), HERTZ_OFFSET, HERTZ_NOISE);
     assert_near(cell(t, 0, "baseline_tilt"), HERTZ_TILT, 0.4);
     assert_near(cell(t, 0, "noise"), HERTZ_NOISE, 0.1);
-    assert_true(cell(t, 0, "lack_of_fit") > 0 && cell(t, 0, "lack_of_fit_chance") > 0.01);
-    assert_true(cell(t, 0, "baseline_chance") > 0.01);
+    assert_true(cell(t, 0, "lack_of_fit") > 0 && cell(t, 0, "lack_of_fit_p") > 0.01);
+    assert_true(cell(t, 0, "baseline_p") > 0.01);
     assert_near(cell(t, 0, "max_force"), hertz_force(&truth, truth.depth), 0.005);
     assert_near(cell(t, 0, "max_indentation"), truth.depth, 0.005);
     assert_near(cell(t, 0, "adhesion_force"), SNAP, 0.05);

@@ -343,7 +343,8 @@ static void existence_ends_where_it_says(void **state)
     wt_table *existence = NULL;
     wt_error err = WT_ERROR_INIT;
     job.severity_power = 1e4;
-    assert_int_equal(wt_existence_make(&sliding, &job, &known, &work, &existence, &err), WT_OK);
+    assert_int_equal(wt_layer_regime_map_make(&sliding, &job, &known, &work, &existence, &err),
+                     WT_OK);
     const double edge = key_number(existence, "to_velocity");
     assert_true(isnan(key_number(existence, "from_velocity")));
     assert_true(edge > velocity[0] && edge < velocity[VELOCITIES - 1]);
@@ -355,7 +356,7 @@ static void existence_ends_where_it_says(void **state)
     static const double other_way[] = {10, 1, 1e-2, 0.1, 1e-3};
     wt_table *again = NULL;
     sliding.velocity = other_way;
-    assert_int_equal(wt_existence_make(&sliding, &job, &known, &work, &again, &err), WT_OK);
+    assert_int_equal(wt_layer_regime_map_make(&sliding, &job, &known, &work, &again, &err), WT_OK);
     assert_near(key_number(again, "to_velocity"), edge, 1e-9);
     wt_table_free(again);
     sliding.velocity = &edge;
@@ -384,7 +385,8 @@ static void existence_of_two_ranges(void **state)
     wt_layer_job job = job_of();
     wt_table *existence = NULL;
     wt_error err = WT_ERROR_INIT;
-    assert_int_equal(wt_existence_make(&sliding, &job, &known, &work, &existence, &err), WT_OK);
+    assert_int_equal(wt_layer_regime_map_make(&sliding, &job, &known, &work, &existence, &err),
+                     WT_OK);
     /* R goes with 1/k: a wear rate between the two peaks of R and the valley */
     size_t first = 0, valley = 0, last = 0;
     double ratio[LIST];
@@ -402,7 +404,8 @@ static void existence_of_two_ranges(void **state)
     job.specific_wear_rate.value = wear;
     for (int whole = 0; whole < 2; whole++) {
         sliding.n_velocity = whole ? LIST : last + 1;
-        assert_int_equal(wt_existence_make(&sliding, &job, &known, &work, &existence, &err), WT_OK);
+        assert_int_equal(wt_layer_regime_map_make(&sliding, &job, &known, &work, &existence, &err),
+                         WT_OK);
         const double from = key_number(existence, "from_velocity"),
                      to = key_number(existence, "to_velocity"),
                      power = key_number(existence, "to_power");

@@ -51,11 +51,11 @@ static wt_table *balances_of(const wt_layer_job *job, const wt_layer_observation
     return table;
 }
 
-static wt_table *existence_of(const wt_layer_job *job, const wt_layer_observation *known)
+static wt_table *regime_map_of(const wt_layer_job *job, const wt_layer_observation *known)
 {
     wt_table *table = NULL;
     wt_error err = WT_ERROR_INIT;
-    if (wt_existence_make(&sliding, job, known, &work, &table, &err) != WT_OK)
+    if (wt_layer_regime_map_make(&sliding, job, known, &work, &table, &err) != WT_OK)
         fail_msg("existence: %s %s", err.message, err.found);
     return table;
 }
@@ -82,9 +82,9 @@ static void one_error_of_the_thickness(void **state)
             job.observed_thickness = (wt_estimate){2e-5, 2e-6, 0, "m"};
         }
         wt_table *layer = layer_of(&job), *bands = bands_of(&job),
-                 *running = running_of(&job, &known), *existence = existence_of(&job, NULL);
+                 *running = running_of(&job, &known), *existence = regime_map_of(&job, NULL);
         const double incubation = key_error(layer, "incubation_time");
-        assert_near(key_error(bands, "first_appearance"), incubation, AS_CLOSE);
+        assert_near(key_error(bands, "onset_time"), incubation, AS_CLOSE);
         size_t looked = 0;
         for (size_t row = 0, at = 0; row < wt_table_n_rows(bands); row++, at++) {
             if (number_cell(bands, row, "share") < 1 || number_cell(bands, row, "band") < 1)
@@ -149,13 +149,13 @@ static void errors_are_slopes(void **state)
     set_up(64);
     wt_layer_job job = job_of(share, 0);
     job.severity_power = 1e4;
-    wt_table *existence = existence_of(&job, NULL), *running = running_of(&job, &known);
+    wt_table *existence = regime_map_of(&job, NULL), *running = running_of(&job, &known);
     double edge[2], settled[2];
     for (int up = 0; up < 2; up++) {
         wt_layer_job moved = job_of(0, 0);
         moved.severity_power = 1e4;
         moved.specific_wear_rate.value *= exp(up ? share : -share);
-        wt_table *other = existence_of(&moved, NULL), *run = running_of(&moved, &known);
+        wt_table *other = regime_map_of(&moved, NULL), *run = running_of(&moved, &known);
         edge[up] = key_number(other, "to_velocity");
         settled[up] = key_number(run, "settled");
         wt_table_free(other);
@@ -188,7 +188,7 @@ static void errors_are_slopes(void **state)
         wt_table_free(other);
     }
     assert_near(key_error(bands, "last_thickness"), fabs(depth[1] - depth[0]) / 2, 0.02);
-    assert_true(key_error(bands, "first_appearance") > 0);
+    assert_true(key_error(bands, "onset_time") > 0);
     wt_table_free(bands);
 }
 
@@ -205,7 +205,7 @@ static void ends_do_not_hang_on_the_seed(void **state)
         wt_layer_job job = job_of(0, 0);
         job.severity_power = 1e4;
         job.specific_wear_rate.value *= exp((1 - k) * of_product);
-        wt_table *exact = existence_of(&job, NULL);
+        wt_table *exact = regime_map_of(&job, NULL);
         edge[k] = key_number(exact, "to_velocity");
         wt_table_free(exact);
     }
@@ -214,7 +214,7 @@ static void ends_do_not_hang_on_the_seed(void **state)
         work.seed = seed;
         wt_layer_job job = job_of(of_each, of_each);
         job.severity_power = 1e4;
-        wt_table *drawn = existence_of(&job, NULL);
+        wt_table *drawn = regime_map_of(&job, NULL);
         const double value = key_number(drawn, "to_velocity");
         assert_near(value, edge[1], 1e-6);
         assert_near(log(value / key_number(drawn, "to_velocity_low")), log(value / edge[0]), 0.02);
@@ -261,14 +261,14 @@ static void edges_that_may_not_be_there(void **state)
     set_up(32);
     wt_layer_job job = job_of(0.1, 0);
     job.severity_power = 1e4;
-    wt_table *whole = existence_of(&job, NULL);
+    wt_table *whole = regime_map_of(&job, NULL);
     const double edge = key_number(whole, "to_velocity");
     assert_int_equal(strncmp(wt_table_key(whole, "known"), "yes", 3), 0);
     wt_table_free(whole);
     const double list[] = {1e-3, 1e-2, 1.02 * edge};
     sliding.velocity = list;
     sliding.n_velocity = 3;
-    wt_table *cut = existence_of(&job, NULL);
+    wt_table *cut = regime_map_of(&job, NULL);
     assert_near(key_number(cut, "to_velocity"), edge, 1e-6);
     assert_int_equal(strncmp(wt_table_key(cut, "known"), "cannot say", 10), 0);
     assert_null(wt_table_key(cut, "to_velocity_low"));
@@ -292,11 +292,11 @@ static void a_layer_that_may_not_come(void **state)
             job.specific_wear_rate.value *= 1.2;
         wt_table *bands = bands_of(&job);
         const char *const known = wt_table_key(bands, "first_appearance_known");
-        assert_int_equal(wt_table_key(bands, "first_appearance") == NULL, given);
+        assert_int_equal(wt_table_key(bands, "onset_time") == NULL, given);
         assert_int_equal(strncmp(known, "cannot say", 10), 0);
         assert_non_null(strstr(known, given ? "something is modified" : "nothing is ever"));
         assert_null(wt_table_key(bands, "first_appearance_high"));
-        assert_true(given || isnan(key_error(bands, "first_appearance")));
+        assert_true(given || isnan(key_error(bands, "onset_time")));
         wt_table_free(bands);
     }
 }

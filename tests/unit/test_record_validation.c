@@ -391,7 +391,7 @@ static void test_choices(void **state)
     }
     assert_true(fabs(sum - 1) < 1e-9);
     assert_string_equal(text_cell(t.choices, best, "choice"), "largest wavenumber q1");
-    assert_string_equal(text_cell(t.choices, best, "tried"), "2e5 rad/m");
+    assert_string_equal(text_cell(t.choices, best, "alternative"), "2e5 rad/m");
     assert_true(fabs(number_cell(t.choices, best, "ratio") - 1) < 1e-6);
     assert_true(key_of(t.validation, "friction_kept_low") >=
                 key_of(t.validation, "friction_all_low"));

@@ -223,7 +223,7 @@ static void test_one_source_at_a_time(void **state)
             sum += number_cell(table, i, "share");
     }
     assert_near(sum, 1, 1e-12);
-    assert_string_equal(wt_table_key(table, "lacks"), "material, temperature, roughness");
+    assert_string_equal(wt_table_key(table, "excluded_errors"), "material, temperature, roughness");
     assert_non_null(strstr(wt_table_key(table, "friction_advice"), "shear stress"));
     check_reach(wt_table_key(table, "hysteresis_advice"), what_if, "hysteresis_change");
     wt_table_free(what_if);
@@ -254,7 +254,7 @@ static void test_measured_surface(void **state)
     assert_int_equal(wt_error_budget_make(&sliding, NULL, NULL, NULL, &work, &table, NULL), WT_OK);
     assert_near(relative(table, number, "pressure"), alone(&pressure), 1e-12);
     assert_near(relative(table, number, "roughness"), alone(&roughness), 1e-12);
-    assert_null(strstr(wt_table_key(table, "lacks"), "roughness"));
+    assert_null(strstr(wt_table_key(table, "excluded_errors"), "roughness"));
     wt_friction_tables f = {0};
     assert_int_equal(wt_friction_make(&sliding, NULL, &work, &f, NULL), WT_OK);
     size_t n = 0;
@@ -335,7 +335,7 @@ static void test_exact_ratio(void **state)
     assert_int_equal(wt_error_budget_make(&sliding, NULL, &known, NULL, &work, &table, NULL),
                      WT_OK);
     assert_true(relative(table, "friction coefficient with layer", "pressure") > 0);
-    assert_non_null(strstr(wt_table_key(table, "lacks"), "modulus ratio"));
+    assert_non_null(strstr(wt_table_key(table, "excluded_errors"), "modulus ratio"));
     for (size_t i = 0; i < wt_table_n_rows(table); i++) {
         assert_string_not_equal(text_cell(table, i, "source"), "modulus ratio");
         assert_string_not_equal(text_cell(table, i, "source"), "stated error");
@@ -365,7 +365,7 @@ static void test_calibration(void **state)
     assert_near(relative(table, "modulus ratio", "all together"), 0.1, 1e-12);
     assert_non_null(strstr(wt_table_key(table, "modulus_ratio_advice"), "64 %"));
     assert_null(strstr(wt_table_key(table, "modulus_ratio_advice"), "arithmetic"));
-    assert_null(strstr(wt_table_key(table, "lacks"), "calibration"));
+    assert_null(strstr(wt_table_key(table, "excluded_errors"), "calibration"));
     wt_table_free(table);
 }
 
@@ -392,7 +392,7 @@ static void test_slope(void **state)
     work.replicates = 16;
     assert_int_equal(wt_error_budget_make(&sliding, NULL, &known, NULL, &work, &exact, NULL),
                      WT_OK);
-    assert_non_null(strstr(wt_table_key(exact, "lacks"), slope));
+    assert_non_null(strstr(wt_table_key(exact, "excluded_errors"), slope));
     known.ratio_slope.standard_error = 0.05;
     assert_int_equal(wt_error_budget_make(&sliding, NULL, &known, NULL, &work, &table, NULL),
                      WT_OK);
@@ -449,7 +449,7 @@ static void test_coverage(void **state)
     assert_true(fabs(number_cell(table, row, "within_one") - 0.683) < 0.09);
     assert_true(number_cell(table, row, "low") < 0.95 && number_cell(table, row, "high") > 0.92);
     assert_string_equal(text_cell(table, row, "verdict"), "holds");
-    assert_non_null(strstr(wt_table_key(table, "caution"), "cannot reveal a wrong model"));
+    assert_non_null(strstr(wt_table_key(table, "limitations"), "cannot reveal a wrong model"));
     assert_string_equal(wt_table_key(table, "regenerated"),
                         "material as given, pressure, shear stress");
     for (size_t i = 0; i < 3; i++)

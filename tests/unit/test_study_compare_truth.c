@@ -427,7 +427,7 @@ static void test_dma(void **state)
             assert_near(cell(t, i, "extrapolated"),
                         frequency[r] * a < 10 || frequency[r] * a > 5000 ? 1 : 0, 0);
         }
-        assert_string_equal(wt_table_key(t, "standard_error_lacks"), "material");
+        assert_string_equal(wt_table_key(t, "standard_error_excludes"), "material");
         assert_near(key_estimate(t, "temperature").value, 293.15 + step, 1e-12);
         assert_int_equal(wt_table_block(t, RATES), 0);
     }
@@ -758,7 +758,7 @@ static void test_temperature_error(void **state)
         assert_near(cell(dma, 0, "storage_ratio_high") - cell(dma, 0, "storage_ratio"),
                     3e6 / of * normal_95 * hypot(own, by), 1e-9);
         assert_near(key_estimate(dma, "temperature").standard_error, error, 1e-12);
-        assert_string_equal(wt_table_key(dma, "standard_error_lacks"),
+        assert_string_equal(wt_table_key(dma, "standard_error_excludes"),
                             i == 2 ? "material, temperature" : "material");
         char sentence[1024];
         wt_result *result = wt_result_new();

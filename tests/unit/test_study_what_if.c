@@ -37,7 +37,7 @@ static size_t find_row(const wt_table *table, const char *choice, const char *tr
 {
     for (size_t i = 0; i < wt_table_n_rows(table); i++)
         if (strcmp(text_cell(table, i, "choice"), choice) == 0 &&
-            (tried == NULL || strcmp(text_cell(table, i, "tried"), tried) == 0))
+            (tried == NULL || strcmp(text_cell(table, i, "alternative"), tried) == 0))
             return i;
     if (tried != NULL)
         fail_msg("no row %s, %s", choice, tried);
@@ -51,8 +51,8 @@ static void check_cell(const wt_table *table, size_t row, const char *column, do
     /* the velocity alone is that among others but for digits below the error */
     if (!(fabs(cell / value - 1) <= 1e-12))
         fail_msg("row %zu (%s %s), %s: %.17g, a single run gives %.17g", row,
-                 text_cell(table, row, "choice"), text_cell(table, row, "tried"), column, cell,
-                 value);
+                 text_cell(table, row, "choice"), text_cell(table, row, "alternative"), column,
+                 cell, value);
     snprintf(change, sizeof change, "%s_change", column);
     assert_true(fabs(number_cell(table, row, change) - (value / used - 1)) <= 2e-12);
 }
@@ -154,7 +154,7 @@ static void test_what_is_used_is_not_tried(void **state)
     find_row(table, "shear stress of the layer", "scaled by the ratio");
     find_row(table, "depth profile", "exponential");
     for (size_t i = 1; i < wt_table_n_rows(table); i++)
-        assert_string_not_equal(text_cell(table, i, "used"), text_cell(table, i, "tried"));
+        assert_string_not_equal(text_cell(table, i, "used"), text_cell(table, i, "alternative"));
     wt_table_free(table);
 }
 
@@ -195,8 +195,8 @@ static void test_limits(void **state)
     find_row(table, "largest wavenumber q1", "4e6 rad/m");
     find_row(table, "smallest wavenumber q0", "2e3 rad/m");
     for (size_t i = 0; i < wt_table_n_rows(table); i++) {
-        assert_string_not_equal(text_cell(table, i, "tried"), "1e7 rad/m");
-        assert_string_not_equal(text_cell(table, i, "tried"), "500 rad/m");
+        assert_string_not_equal(text_cell(table, i, "alternative"), "1e7 rad/m");
+        assert_string_not_equal(text_cell(table, i, "alternative"), "500 rad/m");
         assert_true(number_cell(table, i, "hysteresis") > 0);
     }
     wt_table_free(table);
@@ -215,8 +215,8 @@ static void test_range(void **state)
     const char *low_tried = "", *high_tried = "";
     for (size_t i = 0; i < wt_table_n_rows(table); i++) {
         const double value = number_cell(table, i, "hysteresis");
-        low_tried = value < low ? text_cell(table, i, "tried") : low_tried;
-        high_tried = value > high ? text_cell(table, i, "tried") : high_tried;
+        low_tried = value < low ? text_cell(table, i, "alternative") : low_tried;
+        high_tried = value > high ? text_cell(table, i, "alternative") : high_tried;
         low = fmin(low, value);
         high = fmax(high, value);
     }

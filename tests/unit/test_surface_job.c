@@ -321,7 +321,7 @@ static void test_alone(void **state)
     assert_true(said(&m, "one scan: how much places of the surface differ is not known"));
     assert_true(isnan(key(m.tables.power_spectrum, "place_scatter")));
     assert_non_null(
-        strstr(wt_table_key(m.tables.power_spectrum, "standard_error_lacks"), "places"));
+        strstr(wt_table_key(m.tables.power_spectrum, "standard_error_excludes"), "places"));
     clear(&m);
 }
 

@@ -8,8 +8,9 @@
 #include "core/table/table.h"
 
 /* Version of the layout, in the root attribute "weartrack_format". A file with a map of force
- * curves has one of its own, so that a program that knows none does not lose the curves. */
-enum { STORE_FORMAT = 3, STORE_FORMAT_MAP };
+ * curves has one of its own, so that a program that knows none does not lose the curves. Layouts 3
+ * and 4 differ from 5 and 6 by names of tables and columns alone (former_names.h). */
+enum { STORE_FORMAT_OLDEST = 3, STORE_FORMAT = 5, STORE_FORMAT_MAP };
 
 #define STORE_VERSION_ATTRIBUTE "weartrack_version"
 #define STORE_COMMAND_ATTRIBUTE "command"

@@ -82,15 +82,15 @@ static void because_gross(const master_work *work, wt_master *m)
     const double *missed = work->part ? work->missed_whole : work->missed;
     if (work->part) {
         const bool cold = work->first > 0, warm = work->last + 1 < work->set.n;
-        m->holds_from = c[work->first].temperature;
-        m->holds_to = c[work->last].temperature;
+        m->valid_from = c[work->first].temperature;
+        m->valid_to = c[work->last].temperature;
         if (cold)
             at += clocale_print(at, 32, "up to %.1f °C%s", c[work->first - 1].temperature - zero,
                                 warm ? " and " : "");
         if (warm)
             at += clocale_print(at, 32, "from %.1f °C on", c[work->last + 1].temperature - zero);
-        clocale_print(at, 64, ", holds from %.1f to %.1f °C: ", m->holds_from - zero,
-                      m->holds_to - zero);
+        clocale_print(at, 64, ", holds from %.1f to %.1f °C: ", m->valid_from - zero,
+                      m->valid_to - zero);
     }
     clocale_print(
         m->because, sizeof m->because,
@@ -117,7 +117,7 @@ void master_assess(const master_work *work, wt_master *m)
     m->loss_factor = tested ? lack->factor : (double)NAN;
     m->loss_factor_error = tested ? lack->factor_error : (double)NAN;
     m->superposition = WT_SUPERPOSITION_CANNOT_SAY;
-    m->holds_from = m->holds_to = (double)NAN;
+    m->valid_from = m->valid_to = (double)NAN;
     if (!both) {
         clocale_print(m->because, sizeof m->because,
                       "%s alone does not tell; storage and loss modulus together would",

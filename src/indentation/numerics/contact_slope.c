@@ -32,8 +32,6 @@ static const double baseline_share = 0.6;
 /* The least rise, in standard deviations of the noise: from there on a slope is told to some per
  * cent. */
 static const double least_rise = 20;
-/* Intervals of 95 %. */
-static const double level = 0.975;
 /* Standard deviation of a normal distribution over its median distance from the median. */
 static const double mad_to_deviation = 1.4826;
 

@@ -210,7 +210,7 @@ enum { CURVE_E, CURVE_C, CURVE_F0, CURVE_T, CURVE_W, CURVE_N_PARAMETERS };
 enum { CURVE_WAVES = WT_CURVE_WAVES };
 typedef struct curve_lack {
     double statistic, chance; /* of the contact part, and of more than that by noise alone */
-    double baseline_chance;   /* that a straight baseline departs as much from a line */
+    double baseline_p;        /* that a straight baseline departs as much from a line */
     double wave[CURVE_WAVES]; /* cosines over the contact [N] */
     double window;            /* what they are over, to the end [m] */
     double flat_chance; /* that the force of a contact flattens as much at its top by noise alone */

@@ -18,7 +18,7 @@ double wt_anisotropy_density(const wt_anisotropy *anisotropy, double angle)
 
 /* Directions looked at: sixteen in a period of the highest order, between which it falls by no more
  * than 1 - cos(pi / 16), 2 %, of its amplitude. */
-enum { DIRECTIONS = 16 * WT_ANISOTROPY_ORDERS };
+enum { TRANSVERSE_ISOTROPY = 16 * WT_ANISOTROPY_ORDERS };
 
 wt_status wt_anisotropy_check(const wt_anisotropy *anisotropy, wt_error *err)
 {
@@ -26,8 +26,8 @@ wt_status wt_anisotropy_check(const wt_anisotropy *anisotropy, wt_error *err)
     for (size_t k = 0; k < WT_ANISOTROPY_ORDERS; k++)
         if (!isfinite(anisotropy->amplitude[k]) || !isfinite(anisotropy->angle[k]))
             return wt_fail(err, WT_E_RANGE, "an anisotropy of the roughness must be finite");
-    for (size_t i = 0; i < DIRECTIONS; i++) {
-        const double angle = M_PI * (double)i / DIRECTIONS;
+    for (size_t i = 0; i < TRANSVERSE_ISOTROPY; i++) {
+        const double angle = M_PI * (double)i / TRANSVERSE_ISOTROPY;
         const double density = wt_anisotropy_density(anisotropy, angle);
         if (density < least) {
             least = density;
