@@ -31,7 +31,7 @@
 
 /* The version; the build reads it from here. */
 #define WT_VERSION_MAJOR 0
-#define WT_VERSION_MINOR 1
+#define WT_VERSION_MINOR 9
 #define WT_VERSION_PATCH 0
 
 #if defined(__GNUC__)
