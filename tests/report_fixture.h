@@ -485,14 +485,14 @@ static inline void fixture_accuracy(wt_case *read)
     fixture_check(wt_run(read, &few, NULL, &asked, &failed, NULL));
     fixture_check(wt_result_add(fixture_case,
                                 fixture_copy(wt_result_find(asked, "coverage"), &no_change), NULL));
-    fixture_of_case("transverse", "directions");
+    fixture_of_case("transverse", "transverse_isotropy");
     fixture_of_case("texture", "anisotropy");
     fixture_of_case("texture", "friction_map");
     fixture_of_case("texture", "friction_decades");
     fixture_of_case("layer", "layer_bands");
     fixture_of_case("layer", "running_in");
-    fixture_of_case("layer", "layer_balances");
-    fixture_of_case("layer", "existence");
+    fixture_of_case("layer", "layer_feedback");
+    fixture_of_case("layer", "layer_regime_map");
     fixture_of_case("layer", "identification");
     fixture_check(wt_accuracy_make(&job, &work, &table, NULL));
     fixture_check(wt_result_add(fixture_case, table, NULL));
@@ -766,7 +766,7 @@ static inline void fixture_leave_out_stage(wt_table *table, size_t row)
     if (row != 0)
         return;
     fixture_put(table, "runs", 0);
-    fixture_text(table, "because", "left out: nothing asked for it");
+    fixture_text(table, "reason", "left out: nothing asked for it");
 }
 
 /* Every table, with something in it for every figure and every part of the page. */

@@ -31,7 +31,7 @@
 
 /* Version of the library. The build system reads it from here. */
 #define WT_VERSION_MAJOR 0
-#define WT_VERSION_MINOR 1
+#define WT_VERSION_MINOR 9
 #define WT_VERSION_PATCH 0
 
 #if defined(__GNUC__)
@@ -413,6 +413,12 @@ WT_API const char *wt_sandbox_limitations(void);
 /* Wall and processor time of this process [s] since an arbitrary start. */
 WT_API double wt_time_wall(void);
 WT_API double wt_time_cpu(void);
+
+/* ---- Student's t ----------------------------------------------------------------------------- */
+
+/* Returns the 97.5 % quantile of Student's t: the half width of a 95 % interval in standard errors.
+ * Infinite degrees of freedom are the normal distribution. */
+WT_API double wt_student(double freedom);
 
 #ifdef __cplusplus
 }

@@ -136,17 +136,15 @@ typedef struct wt_indent_fit {
     wt_estimate baseline_offset; /* [N] at the contact point */
     wt_estimate baseline_tilt;   /* [N/m] */
     double noise;                /* standard deviation of the baseline residual [N] */
-    double correlation_length;   /* correlation length of the noise at the scale of the contact
-                                    [samples] */
-    double
-        lack_of_fit; /* variance of the slow residual in contact over that expected from the
-                        baseline noise: 1 if the law is right; NaN if the baseline is too short */
-    double lack_of_fit_chance; /* p value of lack_of_fit for noise alone */
-    double baseline_chance;    /* p value of the deviation of the baseline from a line */
-    double bend_shift; /* change of E if the baseline curvature continues in contact [Pa]; 0:
-                          straight baseline within its noise */
-    double misfit[WT_CURVE_WAVES]; /* cosine coefficients of the residual over the contact, relative
-                                      to max_force */
+    double correlation_length;   /* of the noise, for waves as long as the contact [samples] */
+    double lack_of_fit;          /* slow part of the residual in contact, over the variance that the
+                                    noise of the baseline gives it: 1 if the law is right; NaN where
+                                    the baseline is too short to say */
+    double lack_of_fit_p;        /* of more by noise alone */
+    double baseline_p;           /* that a straight baseline departs as much from a line */
+    double bend_shift;           /* what the same bend in contact adds to E [Pa]; 0: a baseline that
+                                    is straight, as far as its noise tells */
+    double misfit[WT_CURVE_WAVES]; /* cosines of the residual over the contact, of max_force */
     double max_force;              /* [N] above the baseline */
     double max_indentation;        /* [m] */
     double adhesion_force;         /* attractive force of the snap-in [N], 0 if not significant */
@@ -265,12 +263,12 @@ typedef struct wt_curve_depth {
     wt_depth_verdict verdict;
     double depth[WT_DEPTHS]; /* equidistant depths up to the largest [m] */
     wt_interval
-        modulus[WT_DEPTHS]; /* modulus of a homogeneous rubber with that force at that depth [Pa] */
-    wt_interval change;     /* last modulus over the first */
-    double chance;          /* p value of the change for scatter alone */
-    double misfit_chance;   /* p value of the residual of another shape */
-    /* Layer thinner than the indentation as the cause of the change; NaN if the curves do not
-     * determine all three. */
+        modulus[WT_DEPTHS]; /* of the rubber that would give that force at that depth alone */
+    wt_interval change;     /* the last over the first */
+    double chance;          /* of a larger change by scatter alone */
+    double misfit_p;        /* of a larger residual of another shape */
+    /* If a layer thinner than the indentation makes the change; NaN where the curves do not tell
+     * all three. */
     wt_interval layer_modulus, ground_modulus, thickness;
     size_t n_lossy; /* curves excluded because the effect of loss on them is unknown; no verdict if
                        half of all */
@@ -571,16 +569,16 @@ typedef struct wt_dwell_moduli {
 } wt_dwell_moduli;
 enum { WT_DWELL_POINTS = 32, WT_DWELL_FREQUENCIES = 32 };
 typedef struct wt_dwell {
-    bool found, creep;          /* creep: constant force; else constant height (relaxation) */
-    const char *why_not;        /* "" or the reason why there are no moduli; static */
-    double load_time, duration; /* time from contact to dwell, and of the dwell [s] */
-    double contact_point, baseline_offset, baseline_tilt; /* as in wt_dwell_history */
-    double drift, drift_from;        /* drift of the force [N/s], and its start [s] */
-    double indentation_common_error; /* systematic error of the final indentation, common to curves
-                                        of one kind [m]; NaN as below */
-    double misfit,
-        misfit_chance; /* chi-squared over its degrees of freedom, which widens the errors if above
-                          1; p value for noise: below 0.01 the errors are unknown (NaN) */
+    bool found, creep;          /* creep: the force was held, else the height */
+    const char *why_not;        /* "", or why there are no moduli; static */
+    double load_time, duration; /* contact to dwell, and the dwell [s] */
+    double contact_point, baseline_offset, baseline_tilt; /* as in a history */
+    double drift, drift_from;        /* of the force [N/s], since that time [s] */
+    double indentation_common_error; /* of the indentation at the end [m], what curves of one kind
+                                        share; NaN as below */
+    double misfit, misfit_p; /* sum of squares over its degrees of freedom, by which the errors
+                                     are wider where it is above 1; chance of more by noise: below
+                                     0.01 the errors are not known (NaN) */
     size_t n, n_points;
     wt_dwell_moduli moduli[WT_DWELL_FREQUENCIES]; /* four per decade, 10^(i/4) rad/s, between the
                                                      inverse times from contact of the dwell */
@@ -649,12 +647,10 @@ typedef struct wt_contact_slope {
 WT_API wt_status wt_contact_slope_fit(const double *position, const double *signal, size_t n,
                                       const wt_slope_options *options, wt_contact_slope *slope,
                                       wt_error *err) WT_NODISCARD;
-/* Returns the half width of a 95 % interval over the error, by Student's t. */
-WT_API double wt_student(double freedom);
-/* Returns the mean of n values with its 95 % interval by Student's t. With three units (spots,
- * files) or more it is the mean of the unit means, with *n_units - 1 degrees of freedom; else of
- * the values. `units` numbers the units, whose values are adjacent; NULL: no units. For one value,
- * error and bounds are NaN. */
+/* Mean of n values: of the means of their units (spots, files), numbered in `units`, if there are
+ * three units or more, else of the values; those of a unit stand one behind another, NULL: there
+ * are no units. Interval of 95 % by Student's t with *n_units - 1 degrees of freedom; of one value
+ * the error and the ends are NaN. */
 WT_API wt_interval wt_student_mean(const double *values, const long *units, size_t n,
                                    size_t *n_units);
 
@@ -1052,13 +1048,12 @@ typedef struct wt_master {
     wt_superposition superposition;
     double lack_of_fit_p, misfit_low, misfit_high;           /* misfit: relative, 95 % interval */
     double kramers_kronig_p, loss_factor, loss_factor_error; /* ln of a factor on all E'' */
-    double holds_from,
-        holds_to;       /* temperature range [K] of superposition if it fails outside; or NaN */
-    bool settled;       /* false: a fit reached its iteration limit */
-    char because[256];  /* reason of the verdict, and how to decide it */
-    size_t evaluations; /* number of evaluations of the model */
-    double step_allowed,
-        step_left; /* allowed and largest remaining change by a further step [standard errors] */
+    double valid_from, valid_to;    /* [K] where superposition holds, if it fails beyond; or NaN */
+    bool settled;                   /* false: a fit ended at its last step */
+    char because[256];              /* of the verdict, and what would settle it */
+    size_t evaluations;             /* of the model, at all points */
+    double step_allowed, step_left; /* what a further step may change, and would at most
+                                       [standard errors] */
     wt_posterior *posterior;
 } wt_master;
 WT_API void wt_master_clear(wt_master *master);

@@ -380,12 +380,11 @@ typedef struct wt_group_data {
     double *spectrum_factor;      /* [n] factor on the DMA spectrum, NaN if unknown */
     double *pull; /* [n] largest attractive force of approach and retract [N]; NaN if unknown */
     double *max_force, *max_indentation; /* [n] N, m; NaN if unknown */
-    /* Of all curves together: mean residual over the largest force, and its p value for scatter
-     * alone; NaN if unknown. */
-    double pooled_misfit, pooled_misfit_chance;
-    /* [n_fitted] of all fitted curves, also of rejected ones, as lack of fit may be the reason for
-     * rejection: cube root of the lack of fit, and number of the spot (different from those of
-     * accepted curves). */
+    /* of all curves together: mean residual of the largest force, and the chance of more by
+     * scatter; NaN if unknown */
+    double pooled_misfit, pooled_misfit_p;
+    /* [n_fitted] of the curves that were fitted, rejected ones too, for a misfit rejects them: cube
+     * root of the lack of fit, number of the spot (not that of the accepted ones) */
     double *lack_of_fit;
     long *fitted_spot;
     size_t n_fitted;
@@ -577,8 +576,8 @@ typedef struct wt_shared_shift_law_job {
 } wt_shared_shift_law_job;
 WT_API wt_shared_shift_law_job wt_shared_shift_law_job_defaults(void);
 WT_API const wt_params *wt_shared_shift_law_job_params(void);
-/* Creates the table "common_law": the law with its errors, the shifts relative to it, and whether
- * the samples share one law. */
+/* Table "shared_shift_law": the law with its errors, the shifts about it, and whether the samples
+ * have one law. */
 WT_API wt_status wt_shared_shift_law_make(const wt_shared_shift_law_job *job, wt_table **table,
                                           wt_error *err) WT_NODISCARD;
 
@@ -911,11 +910,11 @@ WT_API wt_status wt_softening_make(const wt_sliding *sliding, const wt_job *work
  * if it is not requested. */
 WT_API wt_status wt_flash_make(const wt_sliding *sliding, const wt_job *work, wt_table **table,
                                wt_error *err) WT_NODISCARD;
-/* Creates the table "directions": hysteresis friction and contact area of a transversely isotropic
- * rubber at every velocity, with all its factors on E' and E'', with those on one of them, and with
- * none. WT_E_ARG if the rubber is isotropic. */
-WT_API wt_status wt_directions_make(const wt_sliding *sliding, const wt_job *work, wt_table **table,
-                                    wt_error *err) WT_NODISCARD;
+/* Table "directions": hysteresis friction and contact area of a transversely isotropic rubber at
+ * every velocity, with its factors on E' and E'' and with those on one of them or none. WT_E_ARG if
+ * it has no directions. */
+WT_API wt_status wt_transverse_isotropy_make(const wt_sliding *sliding, const wt_job *work,
+                                             wt_table **table, wt_error *err) WT_NODISCARD;
 
 /* Creates the table "anisotropy": hysteresis friction, contact area and lateral force with and
  * without the anisotropy of `sliding`. WT_E_ARG without anisotropy. */
@@ -1001,17 +1000,16 @@ WT_API wt_status wt_layer_bands_make(const wt_sliding *sliding, const wt_layer_j
 WT_API wt_status wt_running_in_make(const wt_sliding *sliding, const wt_layer_job *job,
                                     const wt_layer_observation *known, const wt_job *work,
                                     wt_table **table, wt_error *err) WT_NODISCARD;
-/* Creates the table "layer_balances": all steady states of a layer with feedback, and the folds
- * between them. */
+/* Table "layer_feedback": all balances of a layer that acts back, and the folds between them. */
 WT_API wt_status wt_layer_balances_make(const wt_sliding *sliding, const wt_layer_job *job,
                                         const wt_layer_observation *known, const wt_job *work,
                                         wt_table **table, wt_error *err) WT_NODISCARD;
-/* Creates the table "existence", the regime map: steady-state thickness at every velocity, at the
- * pressures of the map of `sliding` if any, else at its pressure. With `known` (may be NULL) it
- * includes the effect of the layer on friction. */
-WT_API wt_status wt_existence_make(const wt_sliding *sliding, const wt_layer_job *job,
-                                   const wt_layer_observation *known, const wt_job *work,
-                                   wt_table **table, wt_error *err) WT_NODISCARD;
+/* Table "existence": balance thickness at every velocity, at the pressures of the map of `sliding`
+ * if it has some, else at its pressure, and with `known` (may be NULL) what the layer does to
+ * friction. */
+WT_API wt_status wt_layer_regime_map_make(const wt_sliding *sliding, const wt_layer_job *job,
+                                          const wt_layer_observation *known, const wt_job *work,
+                                          wt_table **table, wt_error *err) WT_NODISCARD;
 
 /* Creates the table "energy_density": energy density against depth at the velocity of the layer. */
 WT_API wt_status wt_energy_density_table(const wt_sliding *sliding, const wt_layer_job *job,

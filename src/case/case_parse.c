@@ -136,6 +136,31 @@ static wt_status read_document(const wt_case *c, xmlDoc **out, wt_error *err)
     return WT_OK;
 }
 
+/* Gives elements the names of today, before the schema sees them. */
+static void use_current_elements(xmlNode *parent)
+{
+    static const struct {
+        const char *former, *name;
+    } elements[] = {{"acts-back", "feedback"},
+                    {"choices", "overrides"},
+                    {"doubtful-error", "warn-relative-error"},
+                    {"duty", "duty-cycle"},
+                    {"existence", "regime-map"},
+                    {"largest-error", "max-relative-error"},
+                    {"leave-out", "exclude"},
+                    {"least-chance", "misfit-p-threshold"},
+                    {"shear-reach", "shear-decay-length"},
+                    {"spot-scatter", "between-spot-sd"}};
+    for (xmlNode *node = parent->children; node != NULL; node = node->next) {
+        if (node->type != XML_ELEMENT_NODE)
+            continue;
+        for (size_t i = 0; i < sizeof elements / sizeof elements[0]; i++)
+            if (strcmp((const char *)node->name, elements[i].former) == 0)
+                xmlNodeSetName(node, (const xmlChar *)elements[i].name);
+        use_current_elements(node);
+    }
+}
+
 static wt_status parse_case(wt_case *c, wt_error *err)
 {
     static const struct {
@@ -154,8 +179,10 @@ static wt_status parse_case(wt_case *c, wt_error *err)
     };
     xmlDoc *doc = NULL;
     wt_status status = read_document(c, &doc, err);
-    if (status == WT_OK)
+    if (status == WT_OK) {
+        use_current_elements(xmlDocGetRootElement(doc));
         status = validate_case(doc, err);
+    }
     const xmlNode *root = status == WT_OK ? xmlDocGetRootElement(doc) : NULL;
     const struct {
         const char *name;

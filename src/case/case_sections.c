@@ -1,6 +1,7 @@
 /* Reads the sections of a case file: their parameters and their nested elements.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "case/case_sections.h"
+#include "core/table/former_names.h"
 #include "dma/rubber.h"
 #include "friction/counter_surface.h"
 #include "record/record.h"
@@ -37,7 +38,7 @@ static wt_status check_disjoint(const wt_case *c, const xmlNode *section, wt_err
 /* The path of the file with manual overrides is relative to the case. */
 static wt_status read_choices(wt_case *c, const xmlNode *section, wt_error *err)
 {
-    const xmlNode *node = case_child(section, "choices");
+    const xmlNode *node = case_child(section, "overrides");
     const char *name = NULL;
     if (node == NULL)
         return WT_OK;
@@ -387,6 +388,7 @@ wt_status case_read_report(wt_case *c, const xmlNode *section, wt_error *err)
         if (status != WT_OK)
             break;
         const bool figure = strcmp((const char *)node->name, "figure") == 0;
+        name = table_current_name(name); /* a figure of a table has its name */
         const bool known = figure ? flow_resources_of_figure(name, &things)
                                   : flow_resources_of_table(name, &things);
         if (!known)

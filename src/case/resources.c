@@ -44,7 +44,7 @@ bool flow_resources_of_table(const char *table, flow_things *things)
     if (strcmp(table, force_displacement_schema.name) == 0 ||
         strcmp(table, force_indentation_schema.name) == 0)
         *things = FLOW_BIT(FLOW_CURVE_BULK) | FLOW_BIT(FLOW_CURVE_TRACK);
-    if (strcmp(table, curves_schema.name) == 0 || strcmp(table, choices_schema.name) == 0)
+    if (strcmp(table, curves_schema.name) == 0 || strcmp(table, overrides_schema.name) == 0)
         *things = FLOW_BIT(FLOW_INDENTATION_BULK) | FLOW_BIT(FLOW_INDENTATION_TRACK);
     if (strcmp(table, modulus_depth_schema.name) == 0)
         *things = FLOW_BIT(FLOW_DEPTH_BULK) | FLOW_BIT(FLOW_DEPTH_TRACK);

@@ -51,10 +51,10 @@
     X(ASKED_RUNNING_IN, "running-in with the layer",                                               \
       "no running-in asked for (<running-in-friction> in <layer>)",                                \
       c->has_layer && c->layer.running_in)                                                         \
-    X(ASKED_FEEDBACK, "a layer that acts back",                                                    \
-      "no layer that acts back (<acts-back> in <layer>)", c->has_layer && c->layer.acts_back)      \
-    X(ASKED_EXISTENCE, "where a layer exists",                                                     \
-      "not asked where a layer exists (<existence> in <layer>)",                                   \
+    X(ASKED_FEEDBACK, "a layer that acts back", "no layer that acts back (<feedback> in <layer>)", \
+      c->has_layer && c->layer.acts_back)                                                          \
+    X(ASKED_REGIME_MAP, "where a layer exists",                                                    \
+      "not asked where a layer exists (<regime-map> in <layer>)",                                  \
       c->has_layer && c->layer.existence)                                                          \
     X(ASKED_IDENTIFICATION, "what is seen of the layer",                                           \
       "nothing that is seen of a layer (<identify>)", c->identifies)                               \
@@ -102,12 +102,12 @@
     X(ENERGY_DENSITY, "energy_density", &energy_density_schema, "")                                \
     X(LAYER_BANDS, "layer_bands", &layer_bands_schema, "")                                         \
     X(RUNNING_IN, "running_in", &running_in_schema, "")                                            \
-    X(LAYER_BALANCES, "layer_balances", &layer_balances_schema, "")                                \
-    X(EXISTENCE, "existence", &existence_schema, "")                                               \
+    X(LAYER_FEEDBACK, "layer_feedback", &layer_feedback_schema, "")                                \
+    X(LAYER_REGIME_MAP, "layer_regime_map", &layer_regime_map_schema, "")                          \
     X(IDENTIFICATION, "identification", &identification_schema, "")                                \
     X(FRICTION, "friction", &friction_schema, "")                                                  \
     X(CONTACT_AREA, "contact_area", &contact_area_schema, "")                                      \
-    X(DIRECTIONS, "directions", &directions_schema, "")                                            \
+    X(TRANSVERSE_ISOTROPY, "transverse_isotropy", &transverse_isotropy_schema, "")                 \
     X(SOFTENING_EFFECT, "softening", &softening_schema, "")                                        \
     X(ANISOTROPY, "anisotropy", &anisotropy_schema, "")                                            \
     X(FRICTION_MAP, "friction_map", &friction_map_schema, "")                                      \

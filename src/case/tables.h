@@ -47,7 +47,7 @@
 #define COST_COLUMNS(X)                                                                            \
     X(COST_STAGE, AS(stage), "stage", TEXT, LABEL("Stage"))                                        \
     X(COST_RUNS, AS(runs), "1: ran, 0: left out", YES_NO)                                          \
-    X(COST_BECAUSE, AS(because), "why", TEXT, LABEL("Because"))                                    \
+    X(COST_REASON, "reason", "reason", TEXT, SHOWS(because), LABEL("Reason"))                      \
     X(COST_WALL_TIME, "wall_time", "elapsed time", SI(TIME), SHOWS(wall), LABEL("Wall time"))      \
     X(COST_CPU_TIME, "cpu_time", "processor time", SI(TIME), SHOWS(cpu), LABEL("Processor time"),  \
       LIKE(COST_WALL_TIME))                                                                        \
@@ -74,9 +74,9 @@
     X(PLAN_STAGE, "stage", "stage", TEXT)                                                          \
     X(PLAN_TITLE, "title", "what it does", TEXT)                                                   \
     X(PLAN_RUNS, "runs", "1: runs, 0: left out", YES_NO)                                           \
-    X(PLAN_BECAUSE, "because", "why", TEXT)                                                        \
+    X(PLAN_REASON, "reason", "reason", TEXT)                                                       \
     X(PLAN_NEEDS, "needs", "what it needs", TEXT)                                                  \
-    X(PLAN_GIVES, "gives", "what it gives", TEXT)
+    X(PLAN_PRODUCES, "produces", "tables and values that it produces", TEXT)
 #define PLAN_KEYS(X)
 
 #define CONTENTS_COLUMNS(X)                                                                        \

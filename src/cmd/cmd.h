@@ -249,8 +249,9 @@ char *cmd_default_name(const char *path, const char *ending);
 /* Records the command line in the provenance of the result. */
 wt_status cmd_provenance(wt_result *result, wt_error *err);
 
-/* Command line as typed, set by main. */
-extern int cmd_full_argc;
-extern char **cmd_full_argv;
+/* Stores the command line as the user typed it; main calls this first. */
+void cmd_set_command_line(int argc, char **argv);
+/* Copies the stored command line into a provenance. WT_E_MEMORY. */
+wt_status cmd_record_command(wt_provenance *provenance);
 
 #endif

@@ -11,7 +11,7 @@ static export_options no_options(void)
 }
 
 static const wt_param rows[] = {
-    {PARAM_CHOICE_OF("as", export_options, form, "tsv|csv|json|stream|sqlite"),
+    {PARAM_CHOICE_OF("format", export_options, form, "tsv|csv|json|stream|sqlite"), .former = "as",
      .help = "how it is written; without this a name after -o that ends in .csv, .json, .sqlite or "
              ".db says so"},
     {PARAM_FLAG_OF("formulas", export_options, formulas),
@@ -24,7 +24,7 @@ static wt_export_form form_of(const char *output, const cmd_part *part)
 {
     const export_options *options = part->structure;
     const char *dot = output != NULL ? strrchr(output, '.') : NULL;
-    if (cmd_given(part, "as") || dot == NULL)
+    if (cmd_given(part, "format") || dot == NULL)
         return options->form;
     static const struct {
         const char *ending;

@@ -11,8 +11,8 @@ typedef struct export_options {
 } export_options;
 const wt_params *export_params(void);
 
-/* Writes the table to -o or standard output. Without --as the suffix of the name after -o decides
- * the form. */
+/* Writes the table to -o or standard output. Unless --format is among the options given, the end of
+ * the name after -o decides. */
 wt_status export_table(cmd_session *s, const cmd_part *part, const wt_table *table);
 
 #endif

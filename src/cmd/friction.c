@@ -2,13 +2,13 @@
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "cmd/sliding_options.h"
 
-/* Further tables, each if it applies. */
-enum { AREA, DIRECTIONS, SOFTENING, FLASH, ANISOTROPY, MAP, DECADES, N_FURTHER };
+/* The tables that follow that of friction, each where it has something to say. */
+enum { AREA, TRANSVERSE_ISOTROPY, SOFTENING, FLASH, ANISOTROPY, MAP, DECADES, N_FURTHER };
 
 static bool is_wanted(const wt_sliding *s, size_t k)
 {
     switch (k) {
-    case DIRECTIONS:
+    case TRANSVERSE_ISOTROPY:
         return s->rubber->is_transverse;
     case SOFTENING:
         return s->softness != NULL;
@@ -44,13 +44,14 @@ static wt_status make_further(cmd_sliding *s, wt_table *further[N_FURTHER])
     static const struct {
         const char *stage;
         wt_status (*make)(const wt_sliding *, const wt_job *, wt_table **, wt_error *);
-    } made[N_FURTHER] = {[AREA] = {"contact_area", wt_contact_area_table},
-                         [DIRECTIONS] = {"directions", wt_directions_make},
-                         [SOFTENING] = {"softening", wt_softening_make},
-                         [FLASH] = {"flash_temperature", wt_flash_make},
-                         [ANISOTROPY] = {"anisotropy", wt_anisotropy_make},
-                         [MAP] = {"friction_map", make_map},
-                         [DECADES] = {"friction_decades", make_decades}};
+    } made[N_FURTHER] = {
+        [AREA] = {"contact_area", wt_contact_area_table},
+        [TRANSVERSE_ISOTROPY] = {"transverse_isotropy", wt_transverse_isotropy_make},
+        [SOFTENING] = {"softening", wt_softening_make},
+        [FLASH] = {"flash_temperature", wt_flash_make},
+        [ANISOTROPY] = {"anisotropy", wt_anisotropy_make},
+        [MAP] = {"friction_map", make_map},
+        [DECADES] = {"friction_decades", make_decades}};
     wt_status status = WT_OK;
     for (size_t k = 0; status == WT_OK && k < N_FURTHER; k++) {
         if (!is_wanted(&s->conditions, k))
@@ -97,9 +98,10 @@ int cmd_friction(int argc, char **argv)
         if (made == WT_OK)
             made = wt_what_if_make(&s.conditions, NULL, known, &s.session.work, &what_if,
                                    &s.session.err);
-        wt_table **const parts[] = {&tables.friction,    &further[AREA],    &further[DIRECTIONS],
-                                    &further[SOFTENING], &further[FLASH],   &further[ANISOTROPY],
-                                    &further[MAP],       &further[DECADES], &what_if};
+        wt_table **const parts[] = {
+            &tables.friction,    &further[AREA],    &further[TRANSVERSE_ISOTROPY],
+            &further[SOFTENING], &further[FLASH],   &further[ANISOTROPY],
+            &further[MAP],       &further[DECADES], &what_if};
         cmd_finish(&s.session, made, parts, COUNT_OF(parts));
     }
     return cmd_sliding_free(&s);

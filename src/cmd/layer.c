@@ -9,7 +9,7 @@ enum {
     BANDS,
     RUNNING_IN,
     BALANCES,
-    EXISTENCE,
+    LAYER_REGIME_MAP,
     SOFTENING,
     FLASH,
     WHAT_IF,
@@ -34,12 +34,12 @@ static wt_status make_models(cmd_sliding *s, const wt_layer_job *job, wt_table *
         made = wt_running_in_make(sliding, job, known, work, &table[RUNNING_IN], err);
     }
     if (made == WT_OK && job->acts_back) {
-        wt_cost_stage(s->session.cost, "layer_balances");
+        wt_cost_stage(s->session.cost, "layer_feedback");
         made = wt_layer_balances_make(sliding, job, known, work, &table[BALANCES], err);
     }
     if (made == WT_OK && job->existence) {
-        wt_cost_stage(s->session.cost, "existence");
-        made = wt_existence_make(sliding, job, known, work, &table[EXISTENCE], err);
+        wt_cost_stage(s->session.cost, "layer_regime_map");
+        made = wt_layer_regime_map_make(sliding, job, known, work, &table[LAYER_REGIME_MAP], err);
     }
     return made;
 }
@@ -84,11 +84,11 @@ int cmd_layer(int argc, char **argv)
             "of the modified layer, at constant load and the velocity given (the middle one of a "
             "list). When asked for, also: under loads that follow one another (--loads); "
             "friction while it grows (--running-in-friction); a layer that changes the energy "
-            "that makes it (--acts-back); where there is one at all (--existence).",
+            "that makes it (--feedback); where there is one at all (--regime-map).",
         .common = "output formats columns files-from provenance cost",
         .first = "material dma roughness pressure velocity sliding-temperature "
                  "specific-wear-rate critical-energy observed-thickness duty start-thickness "
-                 "times closure energy-from loads acts-back existence output",
+                 "times closure energy-from loads feedback existence output",
         .master = CMD_DMA_OPTIONS};
     wt_layer_job job = wt_layer_job_defaults();
     cmd_sliding s;
@@ -111,7 +111,7 @@ int cmd_layer(int argc, char **argv)
     if (s.contact.wear_of == NULL && wt_layer_job_check(&job, &s.session.err) != WT_OK)
         cmd_param_error(&s.session);
     else if (needs && !cmd_sliding_knows_layer(&s, &s.parts[CMD_KNOWN]))
-        cmd_usage_error(&s.session, "--running-in-friction and --acts-back need --modulus-ratio");
+        cmd_usage_error(&s.session, "--running-in-friction and --feedback need --modulus-ratio");
     else if (cmd_sliding_open(&s)) {
         cmd_sliding_wear(&s, &job.specific_wear_rate);
         const wt_status made = make_tables(&s, &job, &tables, table);

@@ -7,10 +7,7 @@
 #include "cmd/cmd.h"
 #include "core/base/spell_suggest.h"
 
-int cmd_full_argc;
-char **cmd_full_argv;
-
-/* This table drives dispatch, --help and the tests. */
+/* One table drives dispatch, --help and the tests. */
 const cmd_command cmd_commands[] = {
     {"Files", NULL, NULL},
     {"info", cmd_info, "what a file is, what is in it, what is missing or odd"},
@@ -94,9 +91,8 @@ static int dispatch(int argc, char **argv)
 
 int main(int argc, char **argv)
 {
-    cmd_full_argc = argc;
-    cmd_full_argv = argv;
-    /* `weartrack ... | head` must end quietly, also if a parent ignores the signal. */
+    cmd_set_command_line(argc, argv);
+    /* `weartrack ... | head` shall end quietly, also where a parent ignores the signal. */
     signal(SIGPIPE, SIG_DFL);
     wt_protect_begin();
     cmd_end_without_memory();

@@ -155,8 +155,9 @@ static void master_of_one(cmd_session *s, wt_status made, const wt_master_job *j
     wt_master_tables tables = {0};
     if (made == WT_OK && common->common != WT_COMMON_NONE) {
         made = wt_fail(&s->err, WT_E_MISSING, "one sample has no law in common with another");
-        wt_error_advice(&s->err, "--common-law takes sweeps of several samples, without --sample, "
-                                 "--save-shifts and --export; see --sample-by");
+        wt_error_advice(&s->err,
+                        "--shared-shift-law takes sweeps of several samples, without --sample, "
+                        "--save-shifts and --export; see --sample-by");
     }
     if (made == WT_OK)
         made = wt_master_make(job, &s->work, &tables, NULL, &s->err);
@@ -183,7 +184,7 @@ int cmd_master(int argc, char **argv)
                 "shifts, the law of these and the errors of everything; says whether superposition "
                 "holds. Folders and patterns are allowed.",
         .common = "output formats columns files-from provenance cost",
-        .first = "reference-temperature shift-law vertical-shift leave-out liquid temperature "
+        .first = "reference-temperature shift-law vertical-shift exclude liquid temperature "
                  "units sheet deformation strain sample export prony-terms output",
         .notes =
             "The tables prony, relaxation_spectrum, shift_factors and master_curve follow one "
@@ -193,7 +194,7 @@ int cmd_master(int argc, char **argv)
             "weartrack friction, layer and compare read them as they are. Where the files name "
             "several samples, each has such tables with its name behind theirs, as in "
             "prony/nr_50, and they are compared in the tables material_ratio and materials; with "
-            "--common-law the table common_law says whether they have one law.",
+            "--shared-shift-law the table common_law says whether they have one law.",
         .n_files = CMD_SOME};
     wt_master_job job = wt_master_job_defaults();
     wt_file_set set = {.read = wt_read_defaults()};
@@ -204,7 +205,7 @@ int cmd_master(int argc, char **argv)
     cmd_part parts[] = {
         {wt_master_job_params(), &job,
          "reference-temperature reference-at vertical-shift expansion terms-per-decade liquid "
-         "shift-by leave-out shift-law",
+         "shift-by exclude shift-law",
          0},
         {saved_params(), &saved, NULL, 0},
         [EXPORTED] = {exported_params(), &own, NULL, 0},
@@ -220,7 +221,7 @@ int cmd_master(int argc, char **argv)
     if (!cmd_parse(&s, &usage, parts, COUNT_OF(parts), argc, argv) || !check_exports(&s, &own) ||
         !check_outputs(&s, &saved, &own) || !cmd_begin_files(&s, &set) ||
         (common.common == WT_COMMON_NONE && cmd_given(&parts[COMMON], "common-law-margin") &&
-         !cmd_usage_error(&s, "--common-law-margin goes with --common-law")))
+         !cmd_usage_error(&s, "--shared-shift-law-margin goes with --shared-shift-law")))
         return cmd_session_free(&s);
     job.reduction = own.reduction;
     if (!asks_for_few_terms(&parts[EXPORTED], &own))

@@ -7,7 +7,7 @@
 #include "cmd/cmd.h"
 #include "core/base/spell_suggest.h"
 
-enum { MAX_OPTIONS = 128, FIRST_CODE = 256, NAME_SIZE = 48, TEXT_SIZE = 512 };
+enum { MAX_OPTIONS = 160, FIRST_CODE = 256, NAME_SIZE = 48, TEXT_SIZE = 512 };
 
 cmd_common cmd_common_defaults(void)
 {
@@ -53,7 +53,8 @@ typedef struct option_row {
     cmd_part *part;
     size_t number; /* index of the parameter in its table */
     const wt_param *param;
-    bool negated; /* flag that is set by default: --no-NAME */
+    bool negated; /* a flag that is set by default: --no-NAME */
+    bool former;  /* the name is that of an earlier version: accepted, but not shown */
     char name[NAME_SIZE];
 } option_row;
 
@@ -120,9 +121,16 @@ static void add_part(option_list *list, cmd_part *part)
         char set[8];
         wt_params_default(part->params, i, set, sizeof set);
         option_row *row = &list->rows[list->n++];
-        *row =
-            (option_row){part, i, param, param->kind == PARAM_FLAG && strcmp(set, "yes") == 0, ""};
+        *row = (option_row){part,  i, param, param->kind == PARAM_FLAG && strcmp(set, "yes") == 0,
+                            false, ""};
         snprintf(row->name, sizeof row->name, "%s%s", row->negated ? "no-" : "", param->name);
+        if (param->former != NULL && list->n < MAX_OPTIONS) {
+            option_row *former = &list->rows[list->n++];
+            *former = *row;
+            former->former = true;
+            snprintf(former->name, sizeof former->name, "%s%s", row->negated ? "no-" : "",
+                     param->former);
+        }
     }
 }
 
@@ -181,16 +189,24 @@ static void print_all(const cmd_usage *usage, const option_list *list)
     const char *elsewhere = usage->master != NULL ? usage->master : "";
     puts("\noptions:");
     for (size_t i = 0; i < list->n; i++)
-        if (!is_listed(elsewhere, list->rows[i].name))
+        if (!list->rows[i].former && !is_listed(elsewhere, list->rows[i].name))
             print_option(&list->rows[i]);
     if (usage->master == NULL)
         return;
     puts("\nof DMA files, as in weartrack master --help all:");
     for (size_t i = 0; i < list->n; i++)
-        if (is_listed(elsewhere, list->rows[i].name))
+        if (!list->rows[i].former && is_listed(elsewhere, list->rows[i].name))
             printf("      --%s%s%s\n", list->rows[i].name,
                    list->rows[i].param->value != NULL ? " " : "",
                    list->rows[i].param->value != NULL ? list->rows[i].param->value : "");
+}
+
+static size_t count_shown(const option_list *list)
+{
+    size_t n = 0;
+    for (size_t i = 0; i < list->n; i++)
+        n += !list->rows[i].former;
+    return n;
 }
 
 static void print_help(const cmd_usage *usage, const option_list *list, bool all)
@@ -202,7 +218,7 @@ static void print_help(const cmd_usage *usage, const option_list *list, bool all
     if (all || usage->first == NULL) {
         print_all(usage, list);
     } else {
-        printf("\noptions that most need, of %zu; --help all has every one:\n", list->n);
+        printf("\noptions that most need, of %zu; --help all has every one:\n", count_shown(list));
         print_listed(list, usage->first);
         print_listed(list, "quiet help");
     }
@@ -378,7 +394,7 @@ static void list_for_getopt(const option_list *list, struct option *longs, char 
         const option_row *row = &list->rows[i];
         const int argument = row->param->kind == PARAM_FLAG ? no_argument : required_argument;
         longs[i] = (struct option){row->name, argument, NULL, FIRST_CODE + (int)i};
-        if (row->param->letter != 0) {
+        if (row->param->letter != 0 && !row->former) {
             letters[n_letters++] = row->param->letter;
             if (argument == required_argument)
                 letters[n_letters++] = ':';

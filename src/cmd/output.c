@@ -81,10 +81,24 @@ wt_status cmd_sink_close(cmd_sink *sink, wt_status written, wt_error *err)
     return written;
 }
 
+/* The command line as the user typed it. */
+static int full_argc;
+static char **full_argv;
+
+void cmd_set_command_line(int argc, char **argv)
+{
+    full_argc = argc;
+    full_argv = argv;
+}
+
+wt_status cmd_record_command(wt_provenance *provenance)
+{
+    return wt_provenance_set_command(provenance, full_argc, full_argv);
+}
+
 wt_status cmd_provenance(wt_result *result, wt_error *err)
 {
-    wt_status status =
-        wt_provenance_set_command(wt_result_provenance(result), cmd_full_argc, cmd_full_argv);
+    const wt_status status = cmd_record_command(wt_result_provenance(result));
     return status == WT_OK ? WT_OK : wt_fail(err, status, "out of memory");
 }
 

@@ -25,7 +25,7 @@ static const wt_param own_rows[] = {
     {PARAM_TEXT_OF("browse", own_options, browse), .value = "FILE.html", .unset = "",
      .flags = PARAM_WRITTEN,
      .help = "write one page to go through the force curves of the result, of weartrack indent "
-             "--curves all, with their fits; choices made on it are for indent --choices"},
+             "--curves all, with their fits; choices made on it are for indent --overrides"},
     {PARAM_TEXT_OF("sheets", own_options, sheets), .value = "FILE.pdf", .unset = "",
      .flags = PARAM_WRITTEN,
      .help = "write the force curves of the result, of weartrack indent --curves, as a PDF to be "

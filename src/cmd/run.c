@@ -23,7 +23,7 @@ static void print_plan(const wt_table *plan)
         const bool does = wt_table_number(plan, i, PLAN_RUNS) > 0;
         printf("%-*s%s\n%*s", INDENT, does ? "run" : "leave", wt_table_text(plan, i, PLAN_TITLE),
                INDENT, "");
-        cmd_wrap(stdout, INDENT, INDENT, wt_table_text(plan, i, PLAN_BECAUSE));
+        cmd_wrap(stdout, INDENT, INDENT, wt_table_text(plan, i, PLAN_REASON));
     }
 }
 
@@ -143,8 +143,7 @@ static bool is_kept(run_call *r)
         snprintf(why, sizeof why, "--formats");
     else if (wt_store_read(r->result_name, &before, NULL) != WT_OK)
         snprintf(why, sizeof why, "it cannot be read");
-    else if ((now = wt_provenance_new()) == NULL ||
-             wt_provenance_set_command(now, cmd_full_argc, cmd_full_argv) != WT_OK ||
+    else if ((now = wt_provenance_new()) == NULL || cmd_record_command(now) != WT_OK ||
              wt_run_is_current(r->the_case, before, wt_provenance_command(now), &current, why,
                                sizeof why, NULL) != WT_OK)
         snprintf(why, sizeof why, "out of memory");

@@ -21,7 +21,7 @@ typedef struct cmd_contact {
 
 /* Options for DMA files, which weartrack master documents. */
 #define CMD_DMA_OPTIONS                                                                            \
-    "leave-out shift-law reference-temperature reference-at vertical-shift expansion "             \
+    "exclude shift-law reference-temperature reference-at vertical-shift expansion "               \
     "terms-per-decade liquid shift-by temperature temperature-in-name units format sheet "         \
     "deformation strain sample sample-by"
 

@@ -232,10 +232,10 @@ static void draw_common_law(figure_drawing *d)
 
 static void caption_common_law(figure_drawing *d)
 {
-    const char *settled = common_law_words(d->table, COMMON_LAW_KEY_SETTLED_BY);
+    const char *settled = shared_shift_law_words(d->table, SHARED_SHIFT_LAW_KEY_SETTLED_BY);
     text_append_translated(&d->caption, " Reference temperatures: %s. One law? %s.",
-                           common_law_words(d->table, COMMON_LAW_KEY_MOVED),
-                           common_law_words(d->table, COMMON_LAW_KEY_AGREE));
+                           shared_shift_law_words(d->table, SHARED_SHIFT_LAW_KEY_MOVED),
+                           shared_shift_law_words(d->table, SHARED_SHIFT_LAW_KEY_AGREE));
     if (settled != NULL)
         text_append_translated(&d->caption, " What would settle it: %s.", settled);
 }
@@ -273,17 +273,17 @@ const figure_description figures_materials[] = {
               "measured (bands: 95 % intervals).",
      .draw = draw_material_ratio,
      .caption = caption_material_ratio},
-    {.name = "common_law",
+    {.name = "shared_shift_law",
      .title = "One law for several samples",
-     .table = &common_law_schema,
+     .table = &shared_shift_law_schema,
      .by_group = true,
-     .group = COMMON_LAW_SAMPLE,
-     .x = {COMMON_LAW_TEMPERATURE, AXIS_LINEAR, "Temperature"},
-     .y = {{COMMON_LAW_LOG_A, AXIS_LINEAR, "Shift factor"},
-           {COMMON_LAW_DIFFERENCE, AXIS_LINEAR, "Own law against it"}},
-     .curves = {CURVE(COMMON_LAW_LOG_A, OWN, .with_errors = true),
-                CURVE(COMMON_LAW_LAW_LOG_A, OWN, .with_errors = true),
-                CURVE(COMMON_LAW_DIFFERENCE, OWN, .with_errors = true, .panel = 1)},
+     .group = SHARED_SHIFT_LAW_SAMPLE,
+     .x = {SHARED_SHIFT_LAW_TEMPERATURE, AXIS_LINEAR, "Temperature"},
+     .y = {{SHARED_SHIFT_LAW_LOG_A, AXIS_LINEAR, "Shift factor"},
+           {SHARED_SHIFT_LAW_DIFFERENCE, AXIS_LINEAR, "Own law against it"}},
+     .curves = {CURVE(SHARED_SHIFT_LAW_LOG_A, OWN, .with_errors = true),
+                CURVE(SHARED_SHIFT_LAW_LAW_LOG_A, OWN, .with_errors = true),
+                CURVE(SHARED_SHIFT_LAW_DIFFERENCE, OWN, .with_errors = true, .panel = 1)},
      .nothing = "no sample has shift factors about a common law",
      .words = "Shift factors of the samples (bars: standard error without that of the temperature) "
               "about the one law fitted to all (lines; bands: 95 % intervals) and, below, what the "

@@ -37,8 +37,8 @@ static wt_status check_cuts(const void *member, wt_error *err)
 
 static const wt_param rows[] = {
     POISSON_RATIO(wt_master_job),
-    {PARAM_TEXTS_OF("leave-out", wt_master_job, leave_out, n_leave_out), .value = "WHAT",
-     .unset = "",
+    {PARAM_TEXTS_OF("exclude", wt_master_job, leave_out, n_leave_out), .former = "leave-out",
+     .value = "WHAT", .unset = "",
      .help = "leave out isotherms and points of the DMA: temperature:LOW..HIGH or "
              "frequency:LOW..HIGH, such as temperature:..-20degC, or one value, such as "
              "frequency:50Hz; of relaxation and creep time:LOW..HIGH; repeatable",
@@ -119,7 +119,7 @@ static void set_verdict(table_writer *t, const wt_master *m)
 {
     static const char *const words[] = {"holds", "fails", "cannot say"};
     shift_factors_set_print(t, SHIFT_FACTORS_KEY_SUPERPOSITION, "%s%s%s", words[m->superposition],
-                            isnan(m->holds_from) ? ": " : " ", m->because);
+                            isnan(m->valid_from) ? ": " : " ", m->because);
     if (isnan(m->lack_of_fit_p))
         return;
     shift_factors_set_print(t, SHIFT_FACTORS_KEY_LACK_OF_FIT_P, "%.3g", m->lack_of_fit_p);
@@ -144,9 +144,9 @@ static void set_route(table_writer *t, const wt_master *m)
     if (m->shift_route == WT_SHIFTS_OF_OVERLAP)
         shift_factors_set_text(t, SHIFT_FACTORS_KEY_ROUTE,
                                "overlap of the storage modulus, neighbour by neighbour");
-    if (!isnan(m->holds_from)) {
-        shift_factors_set_value(t, SHIFT_FACTORS_KEY_HOLDS_FROM, m->holds_from, 0, 0);
-        shift_factors_set_value(t, SHIFT_FACTORS_KEY_HOLDS_TO, m->holds_to, 0, 0);
+    if (!isnan(m->valid_from)) {
+        shift_factors_set_value(t, SHIFT_FACTORS_KEY_HOLDS_FROM, m->valid_from, 0, 0);
+        shift_factors_set_value(t, SHIFT_FACTORS_KEY_HOLDS_TO, m->valid_to, 0, 0);
     }
     if (!is_settled(m))
         shift_factors_set_print(t, SHIFT_FACTORS_KEY_STEP_LEFT, "%.3g", m->step_left);

@@ -1,6 +1,7 @@
 /* The rubber that later stages use, and its material law at a temperature.
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "dma/rubber.h"
+#include "job/cost.h"
 #include "job/random_draws.h"
 
 #include "core/base/clocale.h"
@@ -306,4 +307,14 @@ wt_status flow_rubber_spectrum(const wt_rubber *rubber, double temperature, wt_p
     for (size_t i = 0; i < prony->n; i++)
         prony->modulus[i] *= to_young;
     return WT_OK;
+}
+
+enum { ZENER_CONSTANTS = 4 }; /* of the fractional Zener model */
+
+void wt_rubber_cost(const wt_rubber *rubber, const wt_job *work)
+{
+    const size_t items = rubber->kind == WT_RUBBER_TABLE   ? rubber->sweep.isotherms[0].n
+                         : rubber->kind == WT_RUBBER_ZENER ? ZENER_CONSTANTS
+                                                           : rubber->prony.n;
+    cost_report(work, (cost_summary){.items = (double)items});
 }

@@ -21,14 +21,14 @@ wt_shared_shift_law_job wt_shared_shift_law_job_defaults(void)
 }
 
 static const wt_param rows[] = {
-    {PARAM_CHOICE_OF("common-law", wt_shared_shift_law_job, common, "none|same|moved"),
-     .flags = PARAM_NO_CASE,
+    {PARAM_CHOICE_OF("shared-shift-law", wt_shared_shift_law_job, common, "none|same|moved"),
+     .former = "common-law", .flags = PARAM_NO_CASE,
      .help = "of several samples fit one law of the shift factors, too, and say whether they have "
              "one: same: the same constants at the same reference temperature; moved: the same "
              "constants, each sample at a reference temperature of its own, as rubbers of one kind "
              "whose glass transitions differ"},
-    {PARAM("common-law-margin", wt_shared_shift_law_job, margin, WT_Q_NONE, ABOVE(0)), .value = "X",
-     .flags = PARAM_NO_CASE,
+    {PARAM("shared-shift-law-margin", wt_shared_shift_law_job, margin, WT_Q_NONE, ABOVE(0)),
+     .former = "common-law-margin", .value = "X", .flags = PARAM_NO_CASE,
      .help = "decades of log a that do not matter: that samples have one law is said only if the "
              "intervals of what their own laws differ from it lie within them"},
 };
@@ -37,7 +37,7 @@ PARAM_TABLE(wt_shared_shift_law_job_params, wt_shared_shift_law_job, rows,
 
 /* ---- the table ------------------------------------------------------------------------------- */
 
-TABLE_ROW(common_law, COMMON_LAW, const char *sample, *note; wt_interval moved;
+TABLE_ROW(shared_shift_law, SHARED_SHIFT_LAW, const char *sample, *note; wt_interval moved;
           wt_shared_law_point point;)
 
 static void put_sample(const wt_shared_shift_law_job *job, const wt_shared_shift_law *law,
@@ -49,11 +49,11 @@ static void put_sample(const wt_shared_shift_law_job *job, const wt_shared_shift
     const wt_interval moved = job->common == WT_COMMON_MOVED ? m->moved : unknown;
     table_block(t);
     if (!m->used)
-        TABLE_ADD(common_law, t, job->names[sample], m->why_not, unknown,
+        TABLE_ADD(shared_shift_law, t, job->names[sample], m->why_not, unknown,
                   {sample, none, none, none, unknown, unknown});
     for (size_t i = 0; i < law->n; i++)
         if (law->points[i].sample == sample)
-            TABLE_ADD(common_law, t, job->names[sample], NULL, moved, law->points[i]);
+            TABLE_ADD(shared_shift_law, t, job->names[sample], NULL, moved, law->points[i]);
 }
 
 /* ---- verdict and texts ----------------------------------------------------------------------- */
@@ -79,37 +79,42 @@ static void set_verdict(const wt_shared_shift_law_job *job, const wt_shared_shif
     size_t sample = 0;
     const double most = furthest_difference(law, &sample);
     const char *const kind = job->common == WT_COMMON_MOVED ? ", moved along the temperature" : "";
-    common_law_set_print(t, COMMON_LAW_KEY_MARGIN, "%g", job->margin);
+    shared_shift_law_set_print(t, SHARED_SHIFT_LAW_KEY_MARGIN, "%g", job->margin);
     if (!isnan(most)) {
-        common_law_set_value(t, COMMON_LAW_KEY_FURTHEST, most, (double)NAN, (double)NAN);
-        common_law_set_print(t, COMMON_LAW_KEY_P, "%.3g", law->p);
+        shared_shift_law_set_value(t, SHARED_SHIFT_LAW_KEY_FURTHEST, most, (double)NAN,
+                                   (double)NAN);
+        shared_shift_law_set_print(t, SHARED_SHIFT_LAW_KEY_P, "%.3g", law->p);
     }
     if (isnan(most)) {
-        common_law_set_text(t, COMMON_LAW_KEY_AGREE,
-                            "cannot say: the isotherms do not tell a law of each sample");
-        common_law_set_text(t, COMMON_LAW_KEY_SETTLED_BY, "more isotherms of each sample");
+        shared_shift_law_set_text(t, SHARED_SHIFT_LAW_KEY_AGREE,
+                                  "cannot say: the isotherms do not tell a law of each sample");
+        shared_shift_law_set_text(t, SHARED_SHIFT_LAW_KEY_SETTLED_BY,
+                                  "more isotherms of each sample");
     } else if (most <= job->margin) {
-        common_law_set_print(t, COMMON_LAW_KEY_AGREE,
-                             "yes: the laws of the samples are one%s within %.2g decade, the "
-                             "margin set (p %.2g)%s",
-                             kind, job->margin, law->p,
-                             law->p < level ? "; they differ by more than their errors, but not by "
-                                              "more than that"
-                                            : "");
+        shared_shift_law_set_print(t, SHARED_SHIFT_LAW_KEY_AGREE,
+                                   "yes: the laws of the samples are one%s within %.2g decade, the "
+                                   "margin set (p %.2g)%s",
+                                   kind, job->margin, law->p,
+                                   law->p < level
+                                       ? "; they differ by more than their errors, but not by "
+                                         "more than that"
+                                       : "");
     } else if (law->p < level) {
-        common_law_set_print(t, COMMON_LAW_KEY_AGREE,
-                             "no: the samples have not one law%s (p %.2g); that of %s is off by up "
-                             "to %.2g decade",
-                             kind, law->p, job->names[sample], most);
+        shared_shift_law_set_print(
+            t, SHARED_SHIFT_LAW_KEY_AGREE,
+            "no: the samples have not one law%s (p %.2g); that of %s is off by up "
+            "to %.2g decade",
+            kind, law->p, job->names[sample], most);
     } else {
-        common_law_set_print(
-            t, COMMON_LAW_KEY_AGREE,
+        shared_shift_law_set_print(
+            t, SHARED_SHIFT_LAW_KEY_AGREE,
             "cannot say: no difference is shown (p %.2g), but the law of %s may be "
             "off by %.2g decade",
             law->p, job->names[sample], most);
-        common_law_set_print(t, COMMON_LAW_KEY_SETTLED_BY,
-                             "more isotherms of %s, or temperatures known better than +- %.2g K",
-                             job->names[sample], law->spread);
+        shared_shift_law_set_print(
+            t, SHARED_SHIFT_LAW_KEY_SETTLED_BY,
+            "more isotherms of %s, or temperatures known better than +- %.2g K", job->names[sample],
+            law->spread);
     }
 }
 
@@ -177,10 +182,10 @@ static void set_each(const wt_shared_shift_law_job *job, const wt_shared_shift_l
     if (moved.text == NULL || given.text == NULL || without.text == NULL) {
         t->status = wt_fail(t->err, WT_E_MEMORY, "out of memory");
     } else {
-        common_law_set_text(t, COMMON_LAW_KEY_MOVED, moved.text);
-        common_law_set_text(t, COMMON_LAW_KEY_SHIFT_LAW, given.text);
+        shared_shift_law_set_text(t, SHARED_SHIFT_LAW_KEY_MOVED, moved.text);
+        shared_shift_law_set_text(t, SHARED_SHIFT_LAW_KEY_SHIFT_LAW, given.text);
         if (without.used > 0)
-            common_law_set_text(t, COMMON_LAW_KEY_LEFT_OUT, without.text);
+            shared_shift_law_set_text(t, SHARED_SHIFT_LAW_KEY_LEFT_OUT, without.text);
     }
     free(moved.text);
     free(given.text);
@@ -190,17 +195,22 @@ static void set_each(const wt_shared_shift_law_job *job, const wt_shared_shift_l
 static void set_constants(const wt_shared_shift_law *law, table_writer *t)
 {
     const bool wlf = law->kind == WT_LAW_WLF;
-    common_law_set_text(t, COMMON_LAW_KEY_LAW, wlf ? "WLF" : "Arrhenius");
-    common_law_set_value(t, COMMON_LAW_KEY_REFERENCE_TEMPERATURE, law->reference, 0, 0);
+    shared_shift_law_set_text(t, SHARED_SHIFT_LAW_KEY_LAW, wlf ? "WLF" : "Arrhenius");
+    shared_shift_law_set_value(t, SHARED_SHIFT_LAW_KEY_REFERENCE_TEMPERATURE, law->reference, 0, 0);
     if (wlf) {
-        common_law_set_value(t, COMMON_LAW_KEY_WLF_C1, law->c1.value, law->c1.standard_error, 0);
-        common_law_set_value(t, COMMON_LAW_KEY_WLF_C2, law->c2.value, law->c2.standard_error, 0);
-        common_law_set_print(t, COMMON_LAW_KEY_WLF_CORRELATION, "%.6g", law->c_correlation);
+        shared_shift_law_set_value(t, SHARED_SHIFT_LAW_KEY_WLF_C1, law->c1.value,
+                                   law->c1.standard_error, 0);
+        shared_shift_law_set_value(t, SHARED_SHIFT_LAW_KEY_WLF_C2, law->c2.value,
+                                   law->c2.standard_error, 0);
+        shared_shift_law_set_print(t, SHARED_SHIFT_LAW_KEY_WLF_CORRELATION, "%.6g",
+                                   law->c_correlation);
     } else {
-        common_law_set_value(t, COMMON_LAW_KEY_ACTIVATION_ENERGY, law->activation_energy.value,
-                             law->activation_energy.standard_error, 0);
+        shared_shift_law_set_value(t, SHARED_SHIFT_LAW_KEY_ACTIVATION_ENERGY,
+                                   law->activation_energy.value,
+                                   law->activation_energy.standard_error, 0);
     }
-    common_law_set_value(t, COMMON_LAW_KEY_TEMPERATURE_SPREAD, law->spread, (double)NAN, 0);
+    shared_shift_law_set_value(t, SHARED_SHIFT_LAW_KEY_TEMPERATURE_SPREAD, law->spread, (double)NAN,
+                               0);
 }
 
 wt_status wt_shared_shift_law_make(const wt_shared_shift_law_job *job, wt_table **table,
@@ -214,7 +224,7 @@ wt_status wt_shared_shift_law_make(const wt_shared_shift_law_job *job, wt_table 
         status = wt_shared_shift_law_fit(job->fits, job->n, job->common, job->reference, &law, err);
     if (status != WT_OK)
         return status;
-    table_writer t = table_begin(&common_law_schema, err);
+    table_writer t = table_begin(&shared_shift_law_schema, err);
     for (size_t i = 0; i < job->n; i++)
         put_sample(job, &law, i, &t);
     set_verdict(job, &law, &t);

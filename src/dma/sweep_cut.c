@@ -187,7 +187,7 @@ wt_status flow_sweep_cut(const char *const *texts, size_t n, wt_sweep *sweep, wt
         status = take_out(texts[i], sweep, log, err);
     if (status == WT_OK && n > 0 && sweep->n_isotherms + sweep->n_ramps == 0) {
         status = wt_fail(err, WT_E_EMPTY, "no isotherm is left");
-        wt_error_place(err, "leave-out");
+        wt_error_place(err, "exclude");
         wt_error_advice(err, "leave out less");
     }
     return status;

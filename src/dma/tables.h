@@ -73,9 +73,9 @@
     X(SHIFT_FACTORS_KEY_VERTICAL, "vertical", TEXT, LABEL("Vertical shift"))                       \
     X(SHIFT_FACTORS_KEY_SHIFTED_BY, "shifted_by", TEXT, LABEL("Shifted by"), OPTIONAL)             \
     X(SHIFT_FACTORS_KEY_ROUTE, "route", TEXT, LABEL("Shifts by"), OPTIONAL)                        \
-    X(SHIFT_FACTORS_KEY_HOLDS_FROM, "holds_from", SI(TEMPERATURE),                                 \
+    X(SHIFT_FACTORS_KEY_HOLDS_FROM, "valid_from", SI(TEMPERATURE),                                 \
       LABEL("Superposition holds from"), OPTIONAL)                                                 \
-    X(SHIFT_FACTORS_KEY_HOLDS_TO, "holds_to", SI(TEMPERATURE), LABEL("Superposition holds to"),    \
+    X(SHIFT_FACTORS_KEY_HOLDS_TO, "valid_to", SI(TEMPERATURE), LABEL("Superposition holds to"),    \
       OPTIONAL)                                                                                    \
     X(SHIFT_FACTORS_KEY_STEP_LEFT, "step_left", PLAIN,                                             \
       LABEL("Not settled: a further step moves a number by up to (standard errors)"), OPTIONAL)    \
@@ -92,63 +92,68 @@
     X(SHIFT_FACTORS_KEY_KRAMERS_KRONIG_P, "kramers_kronig_p", PLAIN, LABEL("Kramers-Kronig, p"),   \
       OPTIONAL)
 
-/* One row for each isotherm of the used samples and one for each skipped sample. */
-#define COMMON_LAW_COLUMNS(X)                                                                      \
-    X(COMMON_LAW_SAMPLE, AS(sample), "name of the sample", TEXT, LABEL("Sample"))                  \
-    X(COMMON_LAW_TEMPERATURE, IN(point, temperature), "temperature of the isotherm",               \
+/* A row for each isotherm of the samples that are used, and one for each that is not. */
+#define SHARED_SHIFT_LAW_COLUMNS(X)                                                                \
+    X(SHARED_SHIFT_LAW_SAMPLE, AS(sample), "name of the sample", TEXT, LABEL("Sample"))            \
+    X(SHARED_SHIFT_LAW_TEMPERATURE, IN(point, temperature), "temperature of the isotherm",         \
       SI(TEMPERATURE), LABEL("Temperature"), DECIMALS(1), SPARSE)                                  \
-    X(COMMON_LAW_LOG_A, IN(point, log_a),                                                          \
+    X(SHARED_SHIFT_LAW_LOG_A, IN(point, log_a),                                                    \
       "log10 of the horizontal shift factor from the reference of the common law", NUMBER,         \
-      LABEL("log₁₀ a"), STANDARD_ERROR(COMMON_LAW_LOG_A), DECIMALS(3), SPARSE)                     \
-    X(COMMON_LAW_LOG_A_STANDARD_ERROR, "log_a_standard_error",                                     \
+      LABEL("log₁₀ a"), STANDARD_ERROR(SHARED_SHIFT_LAW_LOG_A), DECIMALS(3), SPARSE)               \
+    X(SHARED_SHIFT_LAW_LOG_A_STANDARD_ERROR, "log_a_standard_error",                               \
       "its standard error, without that of the temperature [decade]", NUMBER,                      \
       SHOWS(point.log_a_error), LABEL("Standard error"), DECIMALS(3), SPARSE)                      \
-    X(COMMON_LAW_LAW_LOG_A, "law_log_a", "log10 a of the common law", NUMBER, SHOWS(point.law),    \
-      LABEL("log₁₀ a of the law"), INTERVAL(COMMON_LAW_LAW_LOG_A_LOW, COMMON_LAW_LAW_LOG_A_HIGH),  \
+    X(SHARED_SHIFT_LAW_LAW_LOG_A, "law_log_a", "log10 a of the common law", NUMBER,                \
+      SHOWS(point.law), LABEL("log₁₀ a of the law"),                                               \
+      INTERVAL(SHARED_SHIFT_LAW_LAW_LOG_A_LOW, SHARED_SHIFT_LAW_LAW_LOG_A_HIGH), DECIMALS(3),      \
+      SPARSE)                                                                                      \
+    X(SHARED_SHIFT_LAW_LAW_LOG_A_LOW, "law_log_a_low", "lower end of its 95 % interval", NUMBER,   \
       DECIMALS(3), SPARSE)                                                                         \
-    X(COMMON_LAW_LAW_LOG_A_LOW, "law_log_a_low", "lower end of its 95 % interval", NUMBER,         \
+    X(SHARED_SHIFT_LAW_LAW_LOG_A_HIGH, "law_log_a_high", "upper end of its 95 % interval", NUMBER, \
       DECIMALS(3), SPARSE)                                                                         \
-    X(COMMON_LAW_LAW_LOG_A_HIGH, "law_log_a_high", "upper end of its 95 % interval", NUMBER,       \
-      DECIMALS(3), SPARSE)                                                                         \
-    X(COMMON_LAW_DIFFERENCE, IN(point, difference),                                                \
+    X(SHARED_SHIFT_LAW_DIFFERENCE, IN(point, difference),                                          \
       "what the sample's own law has more, from the middle of its isotherms on [decade]", NUMBER,  \
       LABEL("Own law against it (decades)"),                                                       \
-      INTERVAL(COMMON_LAW_DIFFERENCE_LOW, COMMON_LAW_DIFFERENCE_HIGH), DECIMALS(3), SPARSE)        \
-    X(COMMON_LAW_DIFFERENCE_LOW, "difference_low",                                                 \
+      INTERVAL(SHARED_SHIFT_LAW_DIFFERENCE_LOW, SHARED_SHIFT_LAW_DIFFERENCE_HIGH), DECIMALS(3),    \
+      SPARSE)                                                                                      \
+    X(SHARED_SHIFT_LAW_DIFFERENCE_LOW, "difference_low",                                           \
       "lower limit of it, on the safe side: both limits held it in 97 to 99 % of draws", NUMBER,   \
       DECIMALS(3), SPARSE)                                                                         \
-    X(COMMON_LAW_DIFFERENCE_HIGH, "difference_high", "upper limit", NUMBER, DECIMALS(3), SPARSE)   \
-    X(COMMON_LAW_MOVED, AS(moved),                                                                 \
-      "reference temperature of the law of the sample above that of the first [K]", NUMBER,        \
-      LABEL("Moved by (K)"), STANDARD_ERROR(COMMON_LAW_MOVED), SPARSE)                             \
-    X(COMMON_LAW_MOVED_STANDARD_ERROR, "moved_standard_error", "its standard error", NUMBER,       \
+    X(SHARED_SHIFT_LAW_DIFFERENCE_HIGH, "difference_high", "upper limit", NUMBER, DECIMALS(3),     \
       SPARSE)                                                                                      \
-    X(COMMON_LAW_NOTE, AS(note), "why a sample is left out", TEXT, LABEL("Note"), SPARSE)
+    X(SHARED_SHIFT_LAW_MOVED, AS(moved),                                                           \
+      "reference temperature of the law of the sample above that of the first [K]", NUMBER,        \
+      LABEL("Moved by (K)"), STANDARD_ERROR(SHARED_SHIFT_LAW_MOVED), SPARSE)                       \
+    X(SHARED_SHIFT_LAW_MOVED_STANDARD_ERROR, "moved_standard_error", "its standard error", NUMBER, \
+      SPARSE)                                                                                      \
+    X(SHARED_SHIFT_LAW_NOTE, AS(note), "why a sample is left out", TEXT, LABEL("Note"), SPARSE)
 
-#define COMMON_LAW_KEYS(X)                                                                         \
-    X(COMMON_LAW_KEY_AGREE, "agree", TEXT, LABEL("Have the samples one law"),                      \
+#define SHARED_SHIFT_LAW_KEYS(X)                                                                   \
+    X(SHARED_SHIFT_LAW_KEY_AGREE, "agree", TEXT, LABEL("Have the samples one law"),                \
       HEADLINE("Have the samples one law"))                                                        \
-    X(COMMON_LAW_KEY_SETTLED_BY, "settled_by", TEXT, LABEL("What would settle it"), OPTIONAL)      \
-    X(COMMON_LAW_KEY_LEFT_OUT, "left_out", TEXT, LABEL("Samples left out of it, and why"),         \
+    X(SHARED_SHIFT_LAW_KEY_SETTLED_BY, "settled_by", TEXT, LABEL("What would settle it"),          \
       OPTIONAL)                                                                                    \
-    X(COMMON_LAW_KEY_P, "p", PLAIN, LABEL("One law, p"), OPTIONAL)                                 \
-    X(COMMON_LAW_KEY_FURTHEST, "furthest", NUMBER,                                                 \
+    X(SHARED_SHIFT_LAW_KEY_LEFT_OUT, "left_out", TEXT, LABEL("Samples left out of it, and why"),   \
+      OPTIONAL)                                                                                    \
+    X(SHARED_SHIFT_LAW_KEY_P, "p", PLAIN, LABEL("One law, p"), OPTIONAL)                           \
+    X(SHARED_SHIFT_LAW_KEY_FURTHEST, "largest_deviation", NUMBER,                                  \
       LABEL("Own laws against it, furthest limit (decades)"), OPTIONAL)                            \
-    X(COMMON_LAW_KEY_MARGIN, "margin", PLAIN, LABEL("Margin within which they are alike"))         \
-    X(COMMON_LAW_KEY_LAW, "law", TEXT, LABEL("Law of the shift factors"))                          \
-    X(COMMON_LAW_KEY_MOVED, "each_moved", TEXT, LABEL("Reference temperature of each sample"))     \
-    X(COMMON_LAW_KEY_REFERENCE_TEMPERATURE, "reference_temperature", SI(TEMPERATURE),              \
+    X(SHARED_SHIFT_LAW_KEY_MARGIN, "margin", PLAIN, LABEL("Margin within which they are alike"))   \
+    X(SHARED_SHIFT_LAW_KEY_LAW, "law", TEXT, LABEL("Law of the shift factors"))                    \
+    X(SHARED_SHIFT_LAW_KEY_MOVED, "sample_shifts", TEXT,                                           \
+      LABEL("Reference temperature of each sample"))                                               \
+    X(SHARED_SHIFT_LAW_KEY_REFERENCE_TEMPERATURE, "reference_temperature", SI(TEMPERATURE),        \
       LABEL("Reference temperature"))                                                              \
-    X(COMMON_LAW_KEY_WLF_C1, "wlf_c1", NUMBER, LABEL("WLF constant C₁"), OPTIONAL)                 \
-    X(COMMON_LAW_KEY_WLF_C2, "wlf_c2", SI(TEMPERATURE_DIFFERENCE), LABEL("WLF constant C₂"),       \
+    X(SHARED_SHIFT_LAW_KEY_WLF_C1, "wlf_c1", NUMBER, LABEL("WLF constant C₁"), OPTIONAL)           \
+    X(SHARED_SHIFT_LAW_KEY_WLF_C2, "wlf_c2", SI(TEMPERATURE_DIFFERENCE), LABEL("WLF constant C₂"), \
       OPTIONAL)                                                                                    \
-    X(COMMON_LAW_KEY_WLF_CORRELATION, "wlf_correlation", PLAIN, LABEL("Correlation of C₁ and C₂"), \
-      OPTIONAL)                                                                                    \
-    X(COMMON_LAW_KEY_ACTIVATION_ENERGY, "activation_energy", UNIT("J/mol"),                        \
+    X(SHARED_SHIFT_LAW_KEY_WLF_CORRELATION, "wlf_correlation", PLAIN,                              \
+      LABEL("Correlation of C₁ and C₂"), OPTIONAL)                                                 \
+    X(SHARED_SHIFT_LAW_KEY_ACTIVATION_ENERGY, "activation_energy", UNIT("J/mol"),                  \
       LABEL("Activation energy"), OPTIONAL)                                                        \
-    X(COMMON_LAW_KEY_TEMPERATURE_SPREAD, "temperature_spread", SI(TEMPERATURE_DIFFERENCE),         \
+    X(SHARED_SHIFT_LAW_KEY_TEMPERATURE_SPREAD, "temperature_spread", SI(TEMPERATURE_DIFFERENCE),   \
       LABEL("Error of the temperature of an isotherm"))                                            \
-    X(COMMON_LAW_KEY_SHIFT_LAW, "shift_law", TEXT, LABEL("To be given to --shift-law"))
+    X(SHARED_SHIFT_LAW_KEY_SHIFT_LAW, "shift_law", TEXT, LABEL("To be given to --shift-law"))
 
 #define MASTER_CURVE_COLUMNS(X)                                                                    \
     X(MASTER_CURVE_ANGULAR_FREQUENCY, AS(angular_frequency), "reduced angular frequency",          \
@@ -290,7 +295,8 @@
     X(PRONY_REDUCED_KEY_DEFORMATION, "deformation", TEXT, LABEL("Deformation"))                    \
     X(PRONY_REDUCED_KEY_ZENER, "fractional_zener", TEXT,                                           \
       LABEL("Fractional Zener law through the same points"), OPTIONAL)                             \
-    X(PRONY_REDUCED_KEY_BETTER, "better", TEXT, LABEL("What describes the points better"), OPTIONAL)
+    X(PRONY_REDUCED_KEY_BETTER, "preferred_model", TEXT,                                           \
+      LABEL("Model that describes the points better"), OPTIONAL)
 
 #define MATERIAL_DRAWS_COLUMNS(X)                                                                  \
     X(MATERIAL_DRAWS_DRAW, AS(draw), "number of the draw, from 1", NUMBER)                         \

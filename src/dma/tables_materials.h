@@ -49,7 +49,7 @@
       LABEL("Angular frequency, over temperature"), OPTIONAL)                                      \
     X(MATERIAL_RATIO_KEY_INCLUDES, "interval_includes", TEXT, SHOWS(includes),                     \
       LABEL("The interval includes"), OPTIONAL)                                                    \
-    X(MATERIAL_RATIO_KEY_LACKS, "interval_lacks", TEXT, SHOWS(lacks),                              \
+    X(MATERIAL_RATIO_KEY_LACKS, "interval_excludes", TEXT, SHOWS(lacks),                           \
       LABEL("It does not include"), OPTIONAL)                                                      \
     X(MATERIAL_RATIO_KEY_OUTSIDE, AS(outside), TEXT, LABEL("Not compared: measured of one alone"), \
       OPTIONAL)                                                                                    \

@@ -122,26 +122,26 @@ static void draw_directions(figure_drawing *d)
                 {"storage", "factors on E′ alone", 21},
                 {"both", "both", 24}};
     static const struct {
-        directions_column column;
+        transverse_isotropy_column column;
         const char *label;
-    } panels[] = {{DIRECTIONS_HYSTERESIS, "Hysteresis friction coefficient"},
-                  {DIRECTIONS_AREA_RATIO, "Real over nominal contact area"}};
-    static const unsigned columns[] = {DIRECTIONS_VELOCITY, DIRECTIONS_HYSTERESIS,
-                                       DIRECTIONS_AREA_RATIO};
+    } panels[] = {{TRANSVERSE_ISOTROPY_HYSTERESIS, "Hysteresis friction coefficient"},
+                  {TRANSVERSE_ISOTROPY_AREA_RATIO, "Real over nominal contact area"}};
+    static const unsigned columns[] = {TRANSVERSE_ISOTROPY_VELOCITY, TRANSVERSE_ISOTROPY_HYSTERESIS,
+                                       TRANSVERSE_ISOTROPY_AREA_RATIO};
     const schema_field *field = d->table->schema->columns;
     int section[COUNT_OF(kept)];
     value_span velocity = SPAN_EMPTY, friction = SPAN_EMPTY;
-    span_add_column(&velocity, d->table, DIRECTIONS_VELOCITY, true);
-    span_add_column(&friction, d->table, DIRECTIONS_HYSTERESIS, false);
+    span_add_column(&velocity, d->table, TRANSVERSE_ISOTROPY_VELOCITY, true);
+    span_add_column(&friction, d->table, TRANSVERSE_ISOTROPY_HYSTERESIS, false);
     if (span_empty(&velocity) || span_empty(&friction))
         return;
     d->height = 1.5;
     text_add(&d->script, "set multiplot layout 2,1\n");
     for (size_t k = 0; k < COUNT_OF(kept); k++) {
-        const row_filter rows = {{DIRECTIONS_FACTORS, 0}, {kept[k].factors, NULL}, false};
+        const row_filter rows = {{TRANSVERSE_ISOTROPY_FACTORS, 0}, {kept[k].factors, NULL}, false};
         section[k] = drawing_section(d, d->table, kept[k].factors, &rows, columns, 3, 3);
     }
-    axis_log(d, "x", "Sliding velocity", &field[DIRECTIONS_VELOCITY], velocity);
+    axis_log(d, "x", "Sliding velocity", &field[TRANSVERSE_ISOTROPY_VELOCITY], velocity);
     for (size_t p = 0; p < COUNT_OF(panels); p++) {
         value_span span = SPAN_EMPTY;
         span_add(&span, 0, false);
@@ -214,9 +214,9 @@ const figure_description figures_friction[] = {
             "where a line rises, those length scales make the friction. A line that still rises "
             "at its right end depends on the upper cut-off of the spectrum.",
     },
-    {.name = "directions",
+    {.name = "transverse_isotropy",
      .title = "What the directions of the material do",
-     .table = &directions_schema,
+     .table = &transverse_isotropy_schema,
      .nothing = "no friction of the material with its directions",
      .words = "Hysteresis friction and contact area of the transversely isotropic material against "
               "velocity: with its factors on the moduli, with those on one modulus alone and as "

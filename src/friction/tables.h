@@ -51,7 +51,7 @@
       HEADLINE("Real over nominal contact area"))                                                  \
     X(FRICTION_KEY_ERROR_INCLUDES, "standard_error_includes", TEXT, SHOWS(includes),               \
       LABEL("Standard errors include"))                                                            \
-    X(FRICTION_KEY_ERROR_LACKS, "standard_error_lacks", TEXT, SHOWS(lacks),                        \
+    X(FRICTION_KEY_ERROR_LACKS, "standard_error_excludes", TEXT, SHOWS(lacks),                     \
       LABEL("No error known of"), OPTIONAL)                                                        \
     X(FRICTION_KEY_REPLICATES, AS(replicates), PLAIN, LABEL("Replicates"))                         \
     X(FRICTION_KEY_MATERIAL, AS(material), TEXT, LABEL("Material"), OPTIONAL)                      \
@@ -102,25 +102,26 @@
     X(FRICTION_KEY_RELATIVE_CHANGE_HIGH, AS(relative_change_high), NUMBER,                         \
       LABEL("Relative change, highest of all velocities"), OPTIONAL)
 
-#define DIRECTIONS_COLUMNS(X)                                                                      \
-    X(DIRECTIONS_FACTORS, AS(factors),                                                             \
+#define TRANSVERSE_ISOTROPY_COLUMNS(X)                                                             \
+    X(TRANSVERSE_ISOTROPY_FACTORS, AS(factors),                                                    \
       "which factors of the directions are kept: none (isotropic), loss, storage, both", TEXT)     \
-    X(DIRECTIONS_VELOCITY, IN(point, velocity), "sliding velocity", SI(VELOCITY))                  \
-    X(DIRECTIONS_HYSTERESIS, IN(point, hysteresis), "hysteresis friction", NUMBER,                 \
-      NUMERICAL_ERROR(DIRECTIONS_HYSTERESIS))                                                      \
-    X(DIRECTIONS_HYSTERESIS_NUMERICAL_ERROR, "hysteresis_numerical_error", "its numerical error",  \
-      NUMBER)                                                                                      \
-    X(DIRECTIONS_AREA_RATIO, IN(point, area_ratio), "real over nominal contact area", NUMBER,      \
-      NUMERICAL_ERROR(DIRECTIONS_AREA_RATIO))                                                      \
-    X(DIRECTIONS_AREA_RATIO_NUMERICAL_ERROR, "area_ratio_numerical_error", "its numerical error",  \
-      NUMBER)
+    X(TRANSVERSE_ISOTROPY_VELOCITY, IN(point, velocity), "sliding velocity", SI(VELOCITY))         \
+    X(TRANSVERSE_ISOTROPY_HYSTERESIS, IN(point, hysteresis), "hysteresis friction", NUMBER,        \
+      NUMERICAL_ERROR(TRANSVERSE_ISOTROPY_HYSTERESIS))                                             \
+    X(TRANSVERSE_ISOTROPY_HYSTERESIS_NUMERICAL_ERROR, "hysteresis_numerical_error",                \
+      "its numerical error", NUMBER)                                                               \
+    X(TRANSVERSE_ISOTROPY_AREA_RATIO, IN(point, area_ratio), "real over nominal contact area",     \
+      NUMBER, NUMERICAL_ERROR(TRANSVERSE_ISOTROPY_AREA_RATIO))                                     \
+    X(TRANSVERSE_ISOTROPY_AREA_RATIO_NUMERICAL_ERROR, "area_ratio_numerical_error",                \
+      "its numerical error", NUMBER)
 
-#define DIRECTIONS_KEYS(X)                                                                         \
-    X(DIRECTIONS_KEY_MATERIAL, "material", TEXT, LABEL("Material"))                                \
-    X(DIRECTIONS_KEY_LOSS, "by_loss", TEXT, LABEL("The factors on E″ alone"), OPTIONAL)            \
-    X(DIRECTIONS_KEY_STORAGE, "by_storage", TEXT, LABEL("The factors on E′ alone"), OPTIONAL)      \
-    X(DIRECTIONS_KEY_BOTH, "by_both", TEXT, LABEL("Both"), OPTIONAL)                               \
-    X(DIRECTIONS_KEY_LEFT_OUT, "left_out", TEXT, LABEL("Not computed"), OPTIONAL)
+#define TRANSVERSE_ISOTROPY_KEYS(X)                                                                \
+    X(TRANSVERSE_ISOTROPY_KEY_MATERIAL, "material", TEXT, LABEL("Material"))                       \
+    X(TRANSVERSE_ISOTROPY_KEY_LOSS, "by_loss", TEXT, LABEL("The factors on E″ alone"), OPTIONAL)   \
+    X(TRANSVERSE_ISOTROPY_KEY_STORAGE, "by_storage", TEXT, LABEL("The factors on E′ alone"),       \
+      OPTIONAL)                                                                                    \
+    X(TRANSVERSE_ISOTROPY_KEY_BOTH, "by_both", TEXT, LABEL("Both"), OPTIONAL)                      \
+    X(TRANSVERSE_ISOTROPY_KEY_LEFT_OUT, "left_out", TEXT, LABEL("Not computed"), OPTIONAL)
 
 #define SOFTENING_COLUMNS(X)                                                                       \
     X(SOFTENING_VELOCITY, IN(with, velocity), "sliding velocity", SI(VELOCITY))                    \
@@ -254,7 +255,7 @@
     X(LAYER_KEY_DUTY, AS(duty), PLAIN, LABEL("Duty"))                                              \
     X(LAYER_KEY_ERROR_INCLUDES, "standard_error_includes", TEXT, SHOWS(includes),                  \
       LABEL("Standard errors include"))                                                            \
-    X(LAYER_KEY_ERROR_LACKS, "standard_error_lacks", TEXT, SHOWS(lacks),                           \
+    X(LAYER_KEY_ERROR_LACKS, "standard_error_excludes", TEXT, SHOWS(lacks),                        \
       LABEL("No error known of"), OPTIONAL)                                                        \
     X(LAYER_KEY_MATERIAL_STATEMENT, "material_statement", TEXT, SHOWS(statement),                  \
       LABEL("Material statement"), OPTIONAL)                                                       \

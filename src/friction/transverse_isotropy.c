@@ -16,11 +16,11 @@ enum { NONE, LOSS, STORAGE, BOTH, N_KEPT };
 static const struct {
     const char *words;
     bool storage, loss;
-    directions_key key;
-} kept[N_KEPT] = {[NONE] = {"none", false, false, DIRECTIONS_KEY_LEFT_OUT},
-                  [LOSS] = {"loss", false, true, DIRECTIONS_KEY_LOSS},
-                  [STORAGE] = {"storage", true, false, DIRECTIONS_KEY_STORAGE},
-                  [BOTH] = {"both", true, true, DIRECTIONS_KEY_BOTH}};
+    transverse_isotropy_key key;
+} kept[N_KEPT] = {[NONE] = {"none", false, false, TRANSVERSE_ISOTROPY_KEY_LEFT_OUT},
+                  [LOSS] = {"loss", false, true, TRANSVERSE_ISOTROPY_KEY_LOSS},
+                  [STORAGE] = {"storage", true, false, TRANSVERSE_ISOTROPY_KEY_STORAGE},
+                  [BOTH] = {"both", true, true, TRANSVERSE_ISOTROPY_KEY_BOTH}};
 
 typedef struct directions {
     const wt_sliding *sliding;
@@ -85,13 +85,13 @@ static wt_status compute_all(directions *d, wt_error *err)
     return WT_OK;
 }
 
-TABLE_ROW(directions, DIRECTIONS, const char *factors; wt_friction_point point;)
+TABLE_ROW(transverse_isotropy, TRANSVERSE_ISOTROPY, const char *factors; wt_friction_point point;)
 
 static void put_points(const directions *d, size_t k, table_writer *t)
 {
     table_block(t);
     for (size_t i = 0; i + 1 < d->n; i++)
-        TABLE_ADD(directions, t, kept[k].words, d->points[k * d->n + i]);
+        TABLE_ADD(transverse_isotropy, t, kept[k].words, d->points[k * d->n + i]);
 }
 
 static void say_change(const directions *d, size_t k, table_writer *t)
@@ -104,23 +104,23 @@ static void say_change(const directions *d, size_t k, table_writer *t)
                   "material",
                   velocity, 100 * (p->hysteresis.value / none->hysteresis.value - 1),
                   100 * (p->area_ratio.value / none->area_ratio.value - 1));
-    directions_set_text(t, kept[k].key, text);
+    transverse_isotropy_set_text(t, kept[k].key, text);
 }
 
 static wt_status make_table(const directions *d, wt_table **table, wt_error *err)
 {
     char material[512];
-    table_writer t = table_begin(&directions_schema, err);
+    table_writer t = table_begin(&transverse_isotropy_schema, err);
     for (size_t k = 0; k < N_KEPT; k++)
         if (d->known[k])
             put_points(d, k, &t);
     (void)wt_rubber_describe(d->sliding->rubber, material, sizeof material);
-    directions_set_text(&t, DIRECTIONS_KEY_MATERIAL, material);
+    transverse_isotropy_set_text(&t, TRANSVERSE_ISOTROPY_KEY_MATERIAL, material);
     for (size_t k = LOSS; k < N_KEPT; k++)
         if (d->known[NONE] && d->known[k])
             say_change(d, k, &t);
     if (d->left_out[0] != '\0')
-        directions_set_text(&t, DIRECTIONS_KEY_LEFT_OUT, d->left_out);
+        transverse_isotropy_set_text(&t, TRANSVERSE_ISOTROPY_KEY_LEFT_OUT, d->left_out);
     return table_end(&t, table);
 }
 
@@ -136,8 +136,8 @@ static void say_cost(const directions *d, const wt_job *work)
     cost_report(work, cost);
 }
 
-wt_status wt_directions_make(const wt_sliding *sliding, const wt_job *work, wt_table **table,
-                             wt_error *err)
+wt_status wt_transverse_isotropy_make(const wt_sliding *sliding, const wt_job *work,
+                                      wt_table **table, wt_error *err)
 {
     if (work == NULL || table == NULL)
         return wt_fail(err, WT_E_ARG, "no directions to compute");

@@ -11,7 +11,7 @@ TABLE_ROW(modulus_depth, MODULUS_DEPTH, const char *group; double depth; wt_inte
           size_t n, n_units;)
 
 TABLE_KEYS(modulus_depth, MODULUS_DEPTH, const char *changes, *reading; wt_interval ratio;
-           double chance, misfit_chance;)
+           double chance, misfit_p;)
 
 typedef struct depth_words {
     char text[48];
@@ -59,7 +59,7 @@ static void say_change(const wt_curve_depth *d, char text[320])
             text, 320,
             "cannot say: the curves have a residual in common that no modulus that changes "
             "with depth leaves (chance %s); %s",
-            number_chance(d->misfit_chance).text, depth_advice(d, true));
+            number_chance(d->misfit_p).text, depth_advice(d, true));
     else if (d->verdict == WT_DEPTH_CHANGES && d->change.low < 1 && d->change.high > 1)
         clocale_print(text, 320,
                       "yes: between %s and %s the modulus changes, by how much and which way the "
@@ -124,7 +124,7 @@ wt_status flow_depth_table_add(wt_indent_tables *tables, const char *group, cons
     }
     if (!isnan(d->change.value)) {
         keys.chance = d->chance;
-        keys.misfit_chance = d->misfit_chance;
+        keys.misfit_p = d->misfit_p;
     }
     modulus_depth_set_keys(&t, &keys);
     for (size_t i = 0; i < WT_DEPTHS && !isnan(d->change.value); i++)

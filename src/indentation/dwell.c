@@ -91,12 +91,11 @@ static void begin_row(dwell_task *task, const flow_file *file, const wt_force_cu
 static void note_of(const wt_dwell *d, char note[256])
 {
     const char *misfit =
-        d->misfit_chance < least_chance
+        d->misfit_p < least_chance
             ? "a rubber of a broad spectrum does not describe it; no errors are told"
-        : isnan(d->misfit_chance)
-            ? "whether a rubber of a broad spectrum describes it could not be "
-              "tested; no errors are told"
-            : "";
+        : isnan(d->misfit_p) ? "whether a rubber of a broad spectrum describes it could not be "
+                               "tested; no errors are told"
+                             : "";
     bool all = true, pushes = true;
     for (size_t i = 0; i < d->n; i++)
         all = all && dwell_is_modulus(&d->moduli[i]);
@@ -130,7 +129,7 @@ static void put_dwell(dwell_task *task, const flow_file *file, const wt_force_cu
     dwell_put(t, DWELL_INDENTATION_START, d->point[0].indentation);
     dwell_put(t, DWELL_INDENTATION_END, d->point[d->n_points - 1].indentation);
     dwell_put(t, DWELL_MISFIT, d->misfit);
-    dwell_put(t, DWELL_MISFIT_CHANCE, d->misfit_chance);
+    dwell_put(t, DWELL_MISFIT_CHANCE, d->misfit_p);
     put_points(task, file, curve, d);
     if (!d->found)
         return;

@@ -25,7 +25,7 @@ wt_status indent_summary_add(indent_summary *to, const wt_indent_fit *fit,
     add_shift(&to->loss, fit->loss_bias);
     add_shift(&to->loss_error, fit->loss_error);
     add_shift(&to->misfit, fit->misfit_error / fit->modulus.value);
-    to->n_misfit += fit->lack_of_fit_chance < options->least_chance;
+    to->n_misfit += fit->lack_of_fit_p < options->least_chance;
     to->n_unknown += indent_loss_is_unknown(fit);
     if (options->contact_estimators) {
         double(*more)[WT_CONTACT_ESTIMATORS] = array_grow(to->contacts, to->n, sizeof *more);

@@ -103,8 +103,8 @@ static const wt_param rows[] = {
      .help = "curves to look at, as the table curves: rejected, worst:N (of the largest relative "
              "error of the modulus), all or FILE:N; median is the representative one, whole, as "
              "force_displacement and force_indentation"},
-    {PARAM_TEXT_OF("choices", wt_indent_job, choices), .value = "FILE", .unset = "",
-     .flags = PARAM_NO_CASE,
+    {PARAM_TEXT_OF("overrides", wt_indent_job, choices), .former = "choices", .value = "FILE",
+     .unset = "", .flags = PARAM_NO_CASE,
      .help = "what was chosen by hand: curves left out, contact points of curves, spring constant, "
              "sensitivity and tip of files"},
 };

@@ -13,7 +13,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-TABLE_ROW(choices, CHOICES, const char *group, *file; double curve;
+TABLE_ROW(overrides, OVERRIDES, const char *group, *file; double curve;
           const char *choice, *value, *note; size_t applied;)
 
 static choice_values no_values(void)
@@ -99,7 +99,7 @@ static wt_status read_value(manual_override *c, const wt_indent_job *job, const 
 static wt_status read_choice(const table_view *view, size_t row, const wt_indent_job *job,
                              const wt_job *work, manual_overrides *to, wt_error *err)
 {
-    const char *word = choices_text(view, row, CHOICES_CHOICE);
+    const char *word = overrides_text(view, row, OVERRIDES_CHOICE);
     manual_override *grown = array_grow(to->choice, to->n, sizeof *grown);
     if (grown == NULL)
         return wt_fail(err, WT_E_MEMORY, "out of memory");
@@ -107,10 +107,10 @@ static wt_status read_choice(const table_view *view, size_t row, const wt_indent
     manual_override *c = &to->choice[to->n++];
     *c = (manual_override){.kind = CHOICE_EXCLUDE,
                            .row = row,
-                           .file = choices_text(view, row, CHOICES_FILE),
-                           .value = choices_text(view, row, CHOICES_VALUE),
-                           .note = choices_text(view, row, CHOICES_NOTE),
-                           .curve = choices_get(view, row, CHOICES_CURVE)};
+                           .file = overrides_text(view, row, OVERRIDES_FILE),
+                           .value = overrides_text(view, row, OVERRIDES_VALUE),
+                           .note = overrides_text(view, row, OVERRIDES_NOTE),
+                           .curve = overrides_get(view, row, OVERRIDES_CURVE)};
     while (c->kind < CHOICE_KINDS && strcmp(kinds[c->kind].word, word) != 0)
         c->kind++;
     if (c->kind == CHOICE_KINDS) {
@@ -147,8 +147,8 @@ static bool is_recorded(const wt_job *work, const char *path)
 wt_status manual_overrides_read(const wt_indent_job *job, const wt_job *work,
                                 manual_overrides *choices, wt_error *err)
 {
-    static const wt_tables_role role = {.of_curves = "choices",
-                                        .of_others = "choices",
+    static const wt_tables_role role = {.of_curves = "overrides",
+                                        .of_others = "overrides",
                                         .instead = "a table of choices, as report --browse writes "
                                                    "it: weartrack-indent(1)"};
     *choices = (manual_overrides){.path = job->choices, .group = job->group};
@@ -160,14 +160,14 @@ wt_status manual_overrides_read(const wt_indent_job *job, const wt_job *work,
                        role, &choices->tables, err);
     if (status != WT_OK)
         return status;
-    /* a table written by hand need not state its name */
-    const wt_table *table = wt_result_find(choices->tables, choices_schema.name);
+    /* a table by hand need not say its name */
+    const wt_table *table = wt_result_find(choices->tables, overrides_schema.name);
     status = table_bind(table != NULL ? table : wt_result_table(choices->tables, 0),
-                        &choices_schema, "", &view, err);
+                        &overrides_schema, "", &view, err);
     if (status != WT_OK)
         wt_error_file(err, job->choices);
     for (size_t row = 0; status == WT_OK && row < view.n_rows; row++) {
-        const char *group = choices_text(&view, row, CHOICES_GROUP);
+        const char *group = overrides_text(&view, row, OVERRIDES_GROUP);
         if (group[0] == '\0' || strcmp(group, job->group) == 0)
             status = read_choice(&view, row, job, work, choices, err);
     }
@@ -298,11 +298,11 @@ wt_status manual_overrides_table(const manual_overrides *choices, const wt_job *
     note_choices(choices, work);
     table_writer t = {0};
     if (*table == NULL) {
-        t = table_begin(&choices_schema, err);
+        t = table_begin(&overrides_schema, err);
         if (table_end(&t, table) != WT_OK)
             return t.status;
     }
-    t = table_continue(*table, &choices_schema, choices->group, err);
+    t = table_continue(*table, &overrides_schema, choices->group, err);
     for (size_t i = 0; i < choices->n; i++) {
         const manual_override *c = &choices->choice[i];
         if (c->n_curves == 0) {
@@ -311,7 +311,7 @@ wt_status manual_overrides_table(const manual_overrides *choices, const wt_job *
                                           : "the file has no such curve");
             return at_choice(choices, c, err);
         }
-        TABLE_ADD(choices, &t, choices->group, c->file, c->curve, kinds[c->kind].word, c->value,
+        TABLE_ADD(overrides, &t, choices->group, c->file, c->curve, kinds[c->kind].word, c->value,
                   c->note, c->n_curves);
     }
     return table_end(&t, NULL);

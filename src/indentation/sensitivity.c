@@ -35,8 +35,8 @@ static const wt_param job_rows[] = {
      .flags = PARAM_NO_CASE,
      .help = "which ways of the curves the answer is of; the mean of both is free of friction of "
              "the tip and of the piezo's hysteresis to first order"},
-    {PARAM("most-bend", wt_sensitivity_job, most_bend, WT_Q_NONE, ABOVE(0)), .value = "X",
-     .flags = PARAM_NO_CASE,
+    {PARAM("max-slope-change", wt_sensitivity_job, most_bend, WT_Q_NONE, ABOVE(0)),
+     .former = "most-bend", .value = "X", .flags = PARAM_NO_CASE,
      .help = "largest change of the slope within the part, of the slope, that is still straight"},
 };
 PARAM_TABLE(wt_sensitivity_job_params, wt_sensitivity_job, job_rows, wt_sensitivity_job_defaults,
@@ -289,10 +289,10 @@ static wt_status put_curves(const sensitivity_task *task, wt_table **table, wt_e
 /* Results of the curves that have the directions of a row. */
 typedef struct group {
     size_t n, n_units;
-    wt_interval sensitivity, factor, change, difference; /* `difference` is retract over approach */
-    double tilt, own_error; /* error of one curve alone, relative to the sensitivity */
-    double scatter;         /* standard deviation of a unit, relative to the sensitivity */
-    double ways_error; /* relative error from the difference of the directions; NaN if not known */
+    wt_interval sensitivity, factor, change, difference; /* difference: retract over approach */
+    double tilt, own_error; /* of one curve alone, of the sensitivity */
+    double scatter;         /* of a unit, of the sensitivity */
+    double direction_error; /* by the difference of the ways, of the sensitivity; NaN: not known */
     const char *verdict;
     bool refused;
 } group;
@@ -372,11 +372,11 @@ static wt_interval mean_of(const sensitivity_task *task, size_t row, collected *
     return wt_student_mean(c->values, c->units, c->n, n_units);
 }
 
-/* Standard error due to the difference of approach and retract. Friction of the tip, and hysteresis
- * and creep of the piezo, affect both directions to an unknown extent. The sensitivity therefore
- * lies anywhere between them. The standard deviation about their mean is the difference over
- * sqrt(12), about one of them over sqrt(3). A 95 % interval about the mean then includes both. */
-static double ways_error(size_t row, double retract_over_approach)
+/* What parts the ways (friction of the tip, hysteresis and creep of the piezo) is in both, and no
+ * curve tells how much in each: the sensitivity lies anywhere between them. The standard deviation
+ * of that about their mean is the difference over sqrt(12), about one of them over sqrt(3); an
+ * interval of 95 % about the mean then holds both ways. */
+static double direction_error(size_t row, double retract_over_approach)
 {
     const double of[ROWS] = {1, retract_over_approach, (1 + retract_over_approach) / 2};
     return fabs(retract_over_approach - 1) / of[row] / sqrt(row < WAYS ? 3 : 12);
@@ -399,11 +399,11 @@ static void add_ways_error(group groups[ROWS])
         group *g = &groups[row];
         const wt_interval *of = isnan(g->sensitivity.value) ? &g->factor : &g->sensitivity;
         g->scatter = of->standard_error * sqrt((double)g->n_units) / of->value;
-        g->ways_error = ways_error(row, difference);
-        if (isnan(g->ways_error))
+        g->direction_error = direction_error(row, difference);
+        if (isnan(g->direction_error))
             continue;
-        widen_interval(&g->sensitivity, g->ways_error);
-        widen_interval(&g->factor, g->ways_error);
+        widen_interval(&g->sensitivity, g->direction_error);
+        widen_interval(&g->factor, g->direction_error);
     }
 }
 
@@ -488,7 +488,7 @@ static void put_group(table_writer *t, size_t row, const group *g, double share)
     put_interval(t, SENSITIVITY_VALUE, g->sensitivity);
     put_interval(t, SENSITIVITY_FACTOR, g->factor);
     sensitivity_put(t, SENSITIVITY_SCATTER, g->scatter);
-    sensitivity_put(t, SENSITIVITY_WAYS_ERROR, g->ways_error);
+    sensitivity_put(t, SENSITIVITY_WAYS_ERROR, g->direction_error);
 }
 
 /* Writes options for other subcommands. */

@@ -60,9 +60,9 @@
       OPTIONAL)                                                                                    \
     X(INDENTATION_LACK_OF_FIT, IN(fit, lack_of_fit),                                               \
       "slow residual in contact over what the noise of the baseline explains", NUMBER, OPTIONAL)   \
-    X(INDENTATION_LACK_OF_FIT_CHANCE, IN(fit, lack_of_fit_chance),                                 \
-      "chance of more by noise alone", NUMBER, OPTIONAL)                                           \
-    X(INDENTATION_BASELINE_CHANCE, IN(fit, baseline_chance),                                       \
+    X(INDENTATION_LACK_OF_FIT_CHANCE, IN(fit, lack_of_fit_p), "chance of more by noise alone",     \
+      NUMBER, OPTIONAL)                                                                            \
+    X(INDENTATION_BASELINE_CHANCE, IN(fit, baseline_p),                                            \
       "chance that a straight baseline departs as much from a line", NUMBER, OPTIONAL)             \
     X(INDENTATION_BEND_SHIFT, IN(fit, bend_shift),                                                 \
       "what the bend of the baseline adds to the modulus if it goes on in contact; 0: straight",   \
@@ -176,7 +176,7 @@
       LABEL("Temperature of the spectrum"), OPTIONAL)                                              \
     X(INDENTATION_KEY_POOLED_MISFIT, "pooled_misfit", PLAIN,                                       \
       LABEL("Mean residual of all curves, of the largest force"), OPTIONAL)                        \
-    X(INDENTATION_KEY_POOLED_MISFIT_CHANCE, "pooled_misfit_chance", PLAIN,                         \
+    X(INDENTATION_KEY_POOLED_MISFIT_CHANCE, "pooled_misfit_p", PLAIN,                              \
       LABEL("Chance of more by scatter alone"), OPTIONAL)                                          \
     X(INDENTATION_KEY_NOT_SHOWN, "not_shown", TEXT, LABEL("What no curve shows"), OPTIONAL)        \
     X(INDENTATION_KEY_N_ACCEPTED, "n_accepted", PLAIN, LABEL("Curves with a modulus"), OPTIONAL)   \
@@ -222,19 +222,19 @@
     X(CURVES_RESIDUAL, AS(residual), "force less the fit", SI(FORCE))
 #define CURVES_KEYS(X)
 
-/* As input the table lists manual overrides; as a result it lists the applied ones. */
-#define CHOICES_COLUMNS(X)                                                                         \
-    X(CHOICES_GROUP, AS(group), "group that it is for", TEXT, LABEL("Group"), OPTIONAL)            \
-    X(CHOICES_FILE, AS(file), "file, or the end of its path", TEXT, LABEL("File"))                 \
-    X(CHOICES_CURVE, AS(curve), "number of the curve in its file; nan: all of the file", NUMBER,   \
+/* As a file: what was chosen by hand. As a result: of it what was applied. */
+#define OVERRIDES_COLUMNS(X)                                                                       \
+    X(OVERRIDES_GROUP, AS(group), "group that it is for", TEXT, LABEL("Group"), OPTIONAL)          \
+    X(OVERRIDES_FILE, AS(file), "file, or the end of its path", TEXT, LABEL("File"))               \
+    X(OVERRIDES_CURVE, AS(curve), "number of the curve in its file; nan: all of the file", NUMBER, \
       LABEL("Curve"), OPTIONAL)                                                                    \
-    X(CHOICES_CHOICE, AS(choice), "exclude, contact-point, spring-constant, sensitivity or tip",   \
+    X(OVERRIDES_CHOICE, AS(choice), "exclude, contact-point, spring-constant, sensitivity or tip", \
       TEXT, LABEL("Choice"))                                                                       \
-    X(CHOICES_VALUE, AS(value), "with its unit", TEXT, LABEL("Value"), OPTIONAL)                   \
-    X(CHOICES_NOTE, AS(note), "why, in words", TEXT, LABEL("Why"), OPTIONAL)                       \
-    X(CHOICES_APPLIED, AS(applied), "curves that it was applied to", NUMBER, LABEL("Curves"),      \
+    X(OVERRIDES_VALUE, AS(value), "with its unit", TEXT, LABEL("Value"), OPTIONAL)                 \
+    X(OVERRIDES_NOTE, AS(note), "why, in words", TEXT, LABEL("Why"), OPTIONAL)                     \
+    X(OVERRIDES_APPLIED, AS(applied), "curves that it was applied to", NUMBER, LABEL("Curves"),    \
       OPTIONAL)
-#define CHOICES_KEYS(X)
+#define OVERRIDES_KEYS(X)
 
 /* The rows of a group have equal numbers of curves and units. */
 #define MODULUS_DEPTH_COLUMNS(X)                                                                   \
@@ -252,8 +252,7 @@
     X(MODULUS_DEPTH_KEY_CHANGES, "changes_", TEXT, SHOWS(changes), OPTIONAL)                       \
     X(MODULUS_DEPTH_KEY_READING, "reading_", TEXT, SHOWS(reading), OPTIONAL)                       \
     X(MODULUS_DEPTH_KEY_RATIO, "ratio_", PLAIN, SHOWS(ratio), OPTIONAL)                            \
-    X(MODULUS_DEPTH_KEY_CHANCE, "chance_", PLAIN, SHOWS(chance), PRECISION(3), OPTIONAL)           \
-    X(MODULUS_DEPTH_KEY_MISFIT_CHANCE, "misfit_chance_", PLAIN, SHOWS(misfit_chance),              \
-      PRECISION(3), OPTIONAL)
+    X(MODULUS_DEPTH_KEY_CHANCE, "p_value_", PLAIN, SHOWS(chance), PRECISION(3), OPTIONAL)          \
+    X(MODULUS_DEPTH_KEY_MISFIT_CHANCE, "misfit_p_", PLAIN, SHOWS(misfit_p), PRECISION(3), OPTIONAL)
 
 #endif

@@ -44,7 +44,7 @@
                         NUMBER, "Over that of the file", .member = NULL)                           \
     X(SENSITIVITY_SCATTER, "scatter", "standard deviation of a unit, of the sensitivity", NUMBER,  \
       LABEL("Scatter"), DIGITS(2), SPARSE)                                                         \
-    X(SENSITIVITY_WAYS_ERROR, "ways_error",                                                        \
+    X(SENSITIVITY_WAYS_ERROR, "direction_error",                                                   \
       "part of the standard error by the difference of approach and retract, of the sensitivity",  \
       NUMBER, LABEL("Of it by the ways"), DIGITS(2), SPARSE)                                       \
     NUMBER_AND_INTERVAL(X, SENSITIVITY_CHANGE, "slope_change",                                     \
@@ -105,7 +105,7 @@
     X(THERMAL_POINTS, "points", "points in it", NUMBER)                                            \
     X(THERMAL_AVERAGES, "averages", "averages as the scatter about the fit tells", NUMBER, SPARSE) \
     X(THERMAL_AVERAGES_OF_FILE, "averages_of_file", "averages that the file says", NUMBER, SPARSE) \
-    X(THERMAL_CHANCE, "misfit_chance",                                                             \
+    X(THERMAL_CHANCE, "misfit_p",                                                                  \
       "chance of as much slow departure from the oscillator by scatter alone", NUMBER, DIGITS(2),  \
       SPARSE)                                                                                      \
     X(THERMAL_NOTE, "note", "why there is no spring constant, or what it lacks", TEXT,             \

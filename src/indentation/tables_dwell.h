@@ -27,7 +27,7 @@
       "mean square of what the samples are off, of the noise of the baseline; above 1 the errors " \
       "are wider by its root",                                                                     \
       NUMBER, LABEL("Misfit"), DIGITS(2), SPARSE)                                                  \
-    X(DWELL_MISFIT_CHANCE, "misfit_chance", "chance of more by noise alone", NUMBER, SPARSE)       \
+    X(DWELL_MISFIT_CHANCE, "misfit_p", "chance of more by noise alone", NUMBER, SPARSE)            \
     X(DWELL_LOAD_TIME, "load_time", "time from contact to the dwell", SI(TIME), SPARSE)            \
     X(DWELL_DURATION, "duration", "duration of the dwell", SI(TIME), SPARSE)                       \
     X(DWELL_FORCE_START, "force_start", "force at its beginning", SI(FORCE), SPARSE)               \
@@ -111,7 +111,7 @@
 #define DWELL_DMA_KEYS(X)                                                                          \
     X(DWELL_DMA_KEY_TEMPERATURE, AS(temperature), SI(TEMPERATURE))                                 \
     X(DWELL_DMA_KEY_TRACK_TEMPERATURE, AS(track_temperature), SI(TEMPERATURE), OPTIONAL)           \
-    X(DWELL_DMA_KEY_ERROR_LACKS, "standard_error_lacks", TEXT, SHOWS(lacks),                       \
+    X(DWELL_DMA_KEY_ERROR_LACKS, "standard_error_excludes", TEXT, SHOWS(lacks),                    \
       LABEL("No error known of"), OPTIONAL)                                                        \
     X(DWELL_DMA_KEY_MATERIAL_STATEMENT, AS(material_statement), TEXT, OPTIONAL)                    \
     X(DWELL_DMA_KEY_TRACK_STATEMENT, AS(track_statement), TEXT, OPTIONAL)

@@ -76,16 +76,6 @@ void cost_report(const wt_job *work, cost_summary summary)
         work->cost->rows[work->cost->n_rows - 1].said = summary;
 }
 
-enum { ZENER_CONSTANTS = 4 }; /* of the fractional Zener model */
-
-void wt_rubber_cost(const wt_rubber *rubber, const wt_job *work)
-{
-    const size_t items = rubber->kind == WT_RUBBER_TABLE   ? rubber->sweep.isotherms[0].n
-                         : rubber->kind == WT_RUBBER_ZENER ? ZENER_CONSTANTS
-                                                           : rubber->prony.n;
-    cost_report(work, (cost_summary){.items = (double)items});
-}
-
 /* ---- stages ---------------------------------------------------------------------------------- */
 
 static cost_row *add_row(wt_cost *cost, const char *stage, const char *because)

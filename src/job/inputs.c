@@ -4,6 +4,7 @@
 #include "job/cost.h"
 
 #include "core/base/array.h"
+#include "core/base/shared_params.h"
 #include "core/system/digest.h"
 #include "core/table/table_rows.h"
 
@@ -16,7 +17,7 @@ wt_job wt_job_defaults(void)
     /* The same number as the draws of a master curve. The relative uncertainty of their standard
      * deviation is 5 %, which is better than most stated errors. */
     enum { DRAWS = 200 };
-    return (wt_job){.tolerance = wt_friction_defaults().tolerance, .seed = 1, .replicates = DRAWS};
+    return (wt_job){.tolerance = DEFAULT_TOLERANCE, .seed = 1, .replicates = DRAWS};
 }
 
 static const wt_param job_rows[] = {JOB_ROWS(wt_job)};

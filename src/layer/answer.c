@@ -15,8 +15,8 @@ static double thinnest_stable(const table_view *v)
 {
     double least = (double)NAN;
     for (size_t i = 0; i < v->n_rows; i++)
-        if (strcmp(layer_balances_text(v, i, LAYER_BALANCES_STABLE), "stable") == 0)
-            least = fmin(least, layer_balances_get(v, i, LAYER_BALANCES_THICKNESS));
+        if (strcmp(layer_feedback_text(v, i, LAYER_FEEDBACK_STABLE), "stable") == 0)
+            least = fmin(least, layer_feedback_get(v, i, LAYER_FEEDBACK_THICKNESS));
     return least;
 }
 
@@ -38,16 +38,16 @@ static bool cannot_say(const char *words)
 
 static void say_balances(const answer_context *story)
 {
-    const table_view *const v = &story->layer_balances;
+    const table_view *const v = &story->layer_feedback;
     if (v->table == NULL)
         return;
-    const char *const agreement = layer_balances_words(v, LAYER_BALANCES_KEY_AGREEMENT);
+    const char *const agreement = layer_feedback_words(v, LAYER_FEEDBACK_KEY_AGREEMENT);
     char text[160];
     text_builder t = {text, sizeof text, 0};
     append_balance(&t, v);
     text[0] = (char)toupper((unsigned char)text[0]);
     answer_add_sentence(story, how_thick, "thickness", "%s: %s.", text,
-                        layer_balances_words(v, LAYER_BALANCES_KEY_WORDS));
+                        layer_feedback_words(v, LAYER_FEEDBACK_KEY_WORDS));
     if (cannot_say(agreement))
         answer_add_sentence(story, how_thick, "thickness",
                             "Whether that many balances are there, the inputs %s.", agreement);
@@ -58,17 +58,18 @@ static void say_existence(const answer_context *story)
     const table_view *const v = &story->existence;
     if (v->table == NULL)
         return;
-    const char *const known = existence_words(v, EXISTENCE_KEY_KNOWN);
+    const char *const known = layer_regime_map_words(v, LAYER_REGIME_MAP_KEY_KNOWN);
     answer_add_sentence(
         story, how_thick, "thickness", "At %s a layer exists %s.",
-        format_with_unit(existence_value(v, EXISTENCE_KEY_PRESSURE).value, "Pa").text,
-        existence_words(v, EXISTENCE_KEY_WORDS));
-    const wt_estimate from = existence_value(v, EXISTENCE_KEY_FROM_VELOCITY),
-                      to = existence_value(v, EXISTENCE_KEY_TO_VELOCITY);
-    const double begins[] = {existence_value(v, EXISTENCE_KEY_FROM_VELOCITY_LOW).value,
-                             existence_value(v, EXISTENCE_KEY_FROM_VELOCITY_HIGH).value},
-                 ends[] = {existence_value(v, EXISTENCE_KEY_TO_VELOCITY_LOW).value,
-                           existence_value(v, EXISTENCE_KEY_TO_VELOCITY_HIGH).value};
+        format_with_unit(layer_regime_map_value(v, LAYER_REGIME_MAP_KEY_PRESSURE).value, "Pa").text,
+        layer_regime_map_words(v, LAYER_REGIME_MAP_KEY_WORDS));
+    const wt_estimate from = layer_regime_map_value(v, LAYER_REGIME_MAP_KEY_FROM_VELOCITY),
+                      to = layer_regime_map_value(v, LAYER_REGIME_MAP_KEY_TO_VELOCITY);
+    const double begins[] =
+        {layer_regime_map_value(v, LAYER_REGIME_MAP_KEY_FROM_VELOCITY_LOW).value,
+         layer_regime_map_value(v, LAYER_REGIME_MAP_KEY_FROM_VELOCITY_HIGH).value},
+                 ends[] = {layer_regime_map_value(v, LAYER_REGIME_MAP_KEY_TO_VELOCITY_LOW).value,
+                           layer_regime_map_value(v, LAYER_REGIME_MAP_KEY_TO_VELOCITY_HIGH).value};
     if (isfinite(begins[0]))
         answer_add_sentence(story, how_thick, "thickness", "It begins at %s.",
                             format_estimate_interval(from, begins[0], begins[1]).text);

@@ -22,10 +22,10 @@ enum { REPLICATE_GRID = 48 };
 static const double thinnest = 1e-2; /* in units of 1/q1 */
 static const double thickest = 4;    /* in units of 1/q0 */
 
-TABLE_ROW(layer_balances, LAYER_BALANCES, const char *kind, *stable;
+TABLE_ROW(layer_feedback, LAYER_FEEDBACK, const char *kind, *stable;
           wt_estimate thickness, map_slope, eigenvalue, wear_rate, hysteresis, area_ratio,
           friction;)
-TABLE_KEYS(layer_balances, LAYER_BALANCES, wt_estimate one_way, ratio, modulus_ratio;
+TABLE_KEYS(layer_feedback, LAYER_FEEDBACK, wt_estimate one_way, ratio, modulus_ratio;
            double low, high; const char *words, *agreement, *errors, *moduli;)
 
 wt_status feedback_energy(double thickness, void *user, wt_energy_source *source,
@@ -308,7 +308,7 @@ static wt_estimate estimate_of(const place *at, const double *error, size_t k)
 static void add_place(const place *at, const double *e, const char *kind, const char *stable,
                       table_writer *t)
 {
-    TABLE_ADD(layer_balances, t, kind, stable, estimate_of(at, e, AT_THICKNESS),
+    TABLE_ADD(layer_feedback, t, kind, stable, estimate_of(at, e, AT_THICKNESS),
               estimate_of(at, e, AT_SLOPE), estimate_of(at, e, AT_EIGENVALUE),
               estimate_of(at, e, AT_WEAR), estimate_of(at, e, AT_HYSTERESIS),
               estimate_of(at, e, AT_AREA), estimate_of(at, e, AT_FRICTION));
@@ -350,9 +350,9 @@ static wt_status make_table(balances_task *task, wt_table **table, wt_error *err
                                NULL};
     say_agreement(task);
     say_errors(task);
-    table_writer t = table_begin(&layer_balances_schema, err);
+    table_writer t = table_begin(&layer_feedback_schema, err);
     add_rows(task, &t);
-    TABLE_SET(layer_balances, &t, one_way, ratio, layer_draws_ratio(&task->draws), b->loop.low,
+    TABLE_SET(layer_feedback, &t, one_way, ratio, layer_draws_ratio(&task->draws), b->loop.low,
               b->loop.high, say_loop(&b->loop), task->agreement, task->errors, task->draws.moduli);
     return table_end(&t, table);
 }

@@ -17,13 +17,14 @@ static const double with_scale = 1.15;
 
 static void caption_existence(figure_drawing *d)
 {
-    const wt_estimate from = existence_value(d->table, EXISTENCE_KEY_FROM_VELOCITY),
-                      to = existence_value(d->table, EXISTENCE_KEY_TO_VELOCITY);
-    const char *const known = existence_words(d->table, EXISTENCE_KEY_KNOWN);
-    text_append_translated(&d->caption, " At %s there is a layer %s.",
-                           VALUE(d->language, WT_Q_PRESSURE, NULL,
-                                 existence_value(d->table, EXISTENCE_KEY_PRESSURE).value),
-                           existence_words(d->table, EXISTENCE_KEY_WORDS));
+    const wt_estimate from = layer_regime_map_value(d->table, LAYER_REGIME_MAP_KEY_FROM_VELOCITY),
+                      to = layer_regime_map_value(d->table, LAYER_REGIME_MAP_KEY_TO_VELOCITY);
+    const char *const known = layer_regime_map_words(d->table, LAYER_REGIME_MAP_KEY_KNOWN);
+    text_append_translated(
+        &d->caption, " At %s there is a layer %s.",
+        VALUE(d->language, WT_Q_PRESSURE, NULL,
+              layer_regime_map_value(d->table, LAYER_REGIME_MAP_KEY_PRESSURE).value),
+        layer_regime_map_words(d->table, LAYER_REGIME_MAP_KEY_WORDS));
     if (isfinite(from.value))
         text_append_translated(&d->caption, " It begins at %s.", ESTIMATE(d->language, &from));
     if (isfinite(to.value))
@@ -35,8 +36,8 @@ static void caption_existence(figure_drawing *d)
 /* ln R, shifted by this number of standard errors of R. */
 static double log_ratio(const table_view *t, size_t row, double errors)
 {
-    const double ratio = existence_get(t, row, EXISTENCE_RATIO),
-                 error = existence_get(t, row, EXISTENCE_RATIO_STANDARD_ERROR);
+    const double ratio = layer_regime_map_get(t, row, LAYER_REGIME_MAP_RATIO),
+                 error = layer_regime_map_get(t, row, LAYER_REGIME_MAP_RATIO_STANDARD_ERROR);
     return log(ratio) + (errors == 0 ? 0 : errors * error / ratio);
 }
 
@@ -45,8 +46,8 @@ static double log_ratio(const table_view *t, size_t row, double errors)
 static double edge_between(const table_view *t, size_t row, double errors)
 {
     const double from = log_ratio(t, row, errors), to = log_ratio(t, row + 1, errors);
-    const double a = log(existence_get(t, row, EXISTENCE_VELOCITY)),
-                 b = log(existence_get(t, row + 1, EXISTENCE_VELOCITY));
+    const double a = log(layer_regime_map_get(t, row, LAYER_REGIME_MAP_VELOCITY)),
+                 b = log(layer_regime_map_get(t, row + 1, LAYER_REGIME_MAP_VELOCITY));
     if (isnan(from) || isnan(to) || (from > 0) == (to > 0) ||
         wt_table_block(t->table, row) != wt_table_block(t->table, row + 1))
         return (double)NAN;
@@ -71,7 +72,7 @@ static int edge_section(figure_drawing *d, const char *title, double errors)
         if (isnan(velocity))
             continue;
         values[2 * n] = velocity;
-        values[2 * n++ + 1] = existence_get(t, row, EXISTENCE_PRESSURE);
+        values[2 * n++ + 1] = layer_regime_map_get(t, row, LAYER_REGIME_MAP_PRESSURE);
     }
     const int section = n > 0 ? drawing_numbers(d, title, names, units, values, n) : NO_SECTION;
     free(values);
@@ -80,7 +81,7 @@ static int edge_section(figure_drawing *d, const char *title, double errors)
 
 /* Square root of the smallest ratio of two values of a column: the half width of a box of the map.
  */
-static double half_step(figure_drawing *d, existence_column column)
+static double half_step(figure_drawing *d, layer_regime_map_column column)
 {
     const size_t n = d->table->n_rows;
     double *values = malloc(n * sizeof *values), least = (double)INFINITY;
@@ -89,7 +90,7 @@ static double half_step(figure_drawing *d, existence_column column)
         return 1;
     }
     for (size_t row = 0; row < n; row++)
-        values[row] = existence_get(d->table, row, column);
+        values[row] = layer_regime_map_get(d->table, row, column);
     numbers_sort(values, n);
     for (size_t i = 1; i < n; i++)
         if (values[i - 1] > 0 && values[i] > values[i - 1] * (1 + 1e-6) &&
@@ -105,14 +106,14 @@ static void widen(value_span *span, double factor)
     span_add(span, span->high * factor, true);
 }
 
-/* Draws boxes coloured by a column, crosses without a layer, and the line in between. */
-static void draw_map(figure_drawing *d, existence_column shown, const char *label)
+/* Boxes coloured by a column, crosses where there is no layer, and the line between. */
+static void draw_map(figure_drawing *d, layer_regime_map_column shown, const char *label)
 {
-    const unsigned columns[] = {EXISTENCE_VELOCITY, EXISTENCE_PRESSURE, (unsigned)shown,
-                                EXISTENCE_RATIO};
+    const unsigned columns[] = {LAYER_REGIME_MAP_VELOCITY, LAYER_REGIME_MAP_PRESSURE,
+                                (unsigned)shown, LAYER_REGIME_MAP_RATIO};
     const schema_field *field = d->table->schema->columns;
     value_span x = SPAN_EMPTY, y = SPAN_EMPTY, colour = SPAN_EMPTY;
-    span_add_column(&y, d->table, EXISTENCE_PRESSURE, true);
+    span_add_column(&y, d->table, LAYER_REGIME_MAP_PRESSURE, true);
     if (!(y.high > y.low))
         return; /* a single pressure is no map */
     const int section =
@@ -121,14 +122,14 @@ static void draw_map(figure_drawing *d, existence_column shown, const char *labe
         return;
     span_add_section(&x, d, section, 0, true);
     span_add_section(&colour, d, section, 2, false);
-    const double half_x = half_step(d, EXISTENCE_VELOCITY),
-                 half_y = half_step(d, EXISTENCE_PRESSURE);
+    const double half_x = half_step(d, LAYER_REGIME_MAP_VELOCITY),
+                 half_y = half_step(d, LAYER_REGIME_MAP_PRESSURE);
     if (d->status != WT_OK || span_empty(&x))
         return;
     widen(&x, half_x);
     widen(&y, half_y);
-    axis_log(d, "x", "Sliding velocity", &field[EXISTENCE_VELOCITY], x);
-    axis_log(d, "y", "Nominal pressure", &field[EXISTENCE_PRESSURE], y);
+    axis_log(d, "x", "Sliding velocity", &field[LAYER_REGIME_MAP_VELOCITY], x);
+    axis_log(d, "y", "Nominal pressure", &field[LAYER_REGIME_MAP_PRESSURE], y);
     axis_linear(d, "cb", label, &field[shown], colour);
     d->width = with_scale;
     const int edge = edge_section(d, "no layer", 0),
@@ -162,39 +163,39 @@ static void draw_map(figure_drawing *d, existence_column shown, const char *labe
 
 static void draw_thickness_map(figure_drawing *d)
 {
-    draw_map(d, EXISTENCE_THICKNESS, "Layer thickness");
+    draw_map(d, LAYER_REGIME_MAP_THICKNESS, "Layer thickness");
 }
 
 static void draw_friction_map(figure_drawing *d)
 {
-    draw_map(d, EXISTENCE_CHANGE, "Relative change of friction");
+    draw_map(d, LAYER_REGIME_MAP_CHANGE, "Relative change of friction");
 }
 
 const figure_description figures_existence[] = {
-    {.name = "existence",
+    {.name = "layer_regime_map",
      .title = "Where a layer exists",
-     .table = &existence_schema,
-     .data_title = "existence",
-     .x = {EXISTENCE_POWER, AXIS_LOG, "Power that modifies the rubber"},
-     .y = {{EXISTENCE_THICKNESS, AXIS_LOG, "Layer thickness at balance"}},
-     .colour = {EXISTENCE_PRESSURE, AXIS_LOG, "Nominal pressure"},
-     .curves = {CURVE(EXISTENCE_THICKNESS, LINE, .style = 21, .above_zero = true)},
+     .table = &layer_regime_map_schema,
+     .data_title = "layer_regime_map",
+     .x = {LAYER_REGIME_MAP_POWER, AXIS_LOG, "Power that modifies the rubber"},
+     .y = {{LAYER_REGIME_MAP_THICKNESS, AXIS_LOG, "Layer thickness at balance"}},
+     .colour = {LAYER_REGIME_MAP_PRESSURE, AXIS_LOG, "Nominal pressure"},
+     .curves = {CURVE(LAYER_REGIME_MAP_THICKNESS, LINE, .style = 21, .above_zero = true)},
      .of_several = true,
      .nothing = "there is no layer at any velocity",
      .words = "Thickness at balance against the power per area that modifies the rubber, as the "
               "velocity grows along each line: where a line ends wear takes the layer away "
               "as fast as it forms, the conclusion of the source.",
      .caption = caption_existence},
-    {.name = "existence_thickness",
+    {.name = "layer_regime_map_thickness",
      .title = "Layer thickness over velocity and pressure",
-     .table = &existence_schema,
+     .table = &layer_regime_map_schema,
      .words = "Thickness of the layer at balance; crosses: no layer; the line is where formation "
               "equals wear on a bare surface, R = 1.",
      .draw = draw_thickness_map,
      .caption = caption_existence},
-    {.name = "existence_friction",
+    {.name = "layer_regime_map_friction",
      .title = "Change of friction by the layer over velocity and pressure",
-     .table = &existence_schema,
+     .table = &layer_regime_map_schema,
      .words = "Relative change of the friction coefficient by the layer at balance; crosses: no "
               "layer; the line is where R = 1.",
      .draw = draw_friction_map,

@@ -98,17 +98,18 @@ static const wt_param rows[] = {
              "the last lasts for ever"},
     {PARAM_FLAG_OF("running-in-friction", wt_layer_job, running_in),
      .help = "also friction in time while the layer grows; needs the modulus ratio"},
-    {PARAM_FLAG_OF("acts-back", wt_layer_job, acts_back),
+    {PARAM_FLAG_OF("feedback", wt_layer_job, acts_back), .former = "acts-back",
      .help = "also all balances of a layer whose own modulus changes the energy that makes it, "
              "their stability and folds; needs the modulus ratio"},
-    {PARAM_FLAG_OF("existence", wt_layer_job, existence),
+    {PARAM_FLAG_OF("regime-map", wt_layer_job, existence), .former = "existence",
      .help = "also where a layer exists: thickness against the power, at every velocity and "
              "pressure of the lists"},
     {PARAM("shear-exponent", wt_layer_job, shear.exponent, WT_Q_NONE, FROM_TO(-10, 10)),
      .value = "M",
      .help = "of the modulus ratio, whose power times the shear stress is that of the layer "
              "(reconstructed)"},
-    {PARAM("shear-reach", wt_layer_job, shear.reach, WT_Q_LENGTH, AT_LEAST(0)), .value = "D",
+    {PARAM("shear-decay-length", wt_layer_job, shear.reach, WT_Q_LENGTH, AT_LEAST(0)),
+     .former = "shear-reach", .value = "D",
      .help = "thickness over which the shear stress goes over to that of the layer, as 1 - "
              "exp(-d/D) (reconstructed); 0: at once"},
     {PARAM("crack-energy", wt_layer_job, shear.crack_energy, WT_Q_SPRING_CONSTANT, AT_LEAST(0)),

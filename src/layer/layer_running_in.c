@@ -309,7 +309,7 @@ wt_status wt_running_in_make(const wt_sliding *sliding, const wt_layer_job *job,
         wt_fail(err, WT_E_ARG, "a layer that acts back is followed from a bare surface alone");
         wt_error_place(err, "start-thickness");
         wt_error_found(err, "%g m", job->start_thickness);
-        wt_error_advice(err, "leave out start-thickness, or acts-back");
+        wt_error_advice(err, "leave out start-thickness, or feedback");
         return WT_E_ARG;
     }
     running_task task = {.n = 0};

@@ -18,9 +18,10 @@
  * scatters far more. */
 static const double edge_close = 1e-9, replicate_close = 1e-4;
 
-TABLE_ROW(existence, EXISTENCE, double pressure, velocity; wt_estimate power, ratio, thickness;
-          double share; wt_estimate friction, with_layer, change;)
-TABLE_KEYS(existence, EXISTENCE, double pressure;
+TABLE_ROW(layer_regime_map, LAYER_REGIME_MAP, double pressure, velocity;
+          wt_estimate power, ratio, thickness; double share;
+          wt_estimate friction, with_layer, change;)
+TABLE_KEYS(layer_regime_map, LAYER_REGIME_MAP, double pressure;
            wt_estimate from_velocity, to_velocity, from_power, to_power;
            double from_velocity_low, from_velocity_high, to_velocity_low, to_velocity_high,
            from_power_low, from_power_high, to_power_low, to_power_high;
@@ -29,9 +30,9 @@ TABLE_KEYS(existence, EXISTENCE, double pressure;
 /* ---- at one velocity and pressure ------------------------------------------------------------ */
 
 enum { AT_POWER, AT_RATIO, AT_THICKNESS, AT_FRICTION, AT_WITH_LAYER, AT_CHANGE, N_AT };
-typedef struct existence_at {
+typedef struct regime_map_at {
     double value[N_AT], numerical[N_AT];
-} existence_at;
+} regime_map_at;
 
 /* Computes power, R and thickness, and the friction on bare rubber unless it is NULL. */
 static wt_status balance_at(const layer_context *scene, operating_point spot,
@@ -55,7 +56,7 @@ static double known_error(const layer_friction *f)
 }
 
 static wt_status add_layer(const layer_context *scene, operating_point spot, bool total,
-                           existence_at *at, wt_error *err)
+                           regime_map_at *at, wt_error *err)
 {
     layer_friction with;
     const double thickness = at->value[AT_THICKNESS], bare = at->value[AT_FRICTION];
@@ -73,7 +74,7 @@ static wt_status add_layer(const layer_context *scene, operating_point spot, boo
     return WT_OK;
 }
 
-static wt_status look_at(const layer_context *scene, operating_point spot, existence_at *at,
+static wt_status look_at(const layer_context *scene, operating_point spot, regime_map_at *at,
                          wt_error *err)
 {
     wt_layer_balance b;
@@ -82,7 +83,7 @@ static wt_status look_at(const layer_context *scene, operating_point spot, exist
     if (status != WT_OK)
         return status;
     const double unknown = (double)NAN;
-    *at = (existence_at){
+    *at = (regime_map_at){
         {b.surface_power, b.ratio, b.thickness.value, layer_friction_known(&f), unknown, unknown},
         {unknown, fabs(b.ratio) * b.ratio_error, b.thickness.numerical_error, known_error(&f),
          unknown, unknown}};
@@ -165,17 +166,17 @@ static edges find_edges(const layer_context *scene, wt_error *err)
 
 /* ---- by one set of values -------------------------------------------------------------------- */
 
-typedef struct existence_task {
+typedef struct regime_map_task {
     layer_draws draws;
     wt_sliding sliding; /* sliding with rising velocities */
     double *velocity;   /* [n_velocity] */
     size_t blocks, n;   /* number of pressures and of rows */
     edges edges;
-    existence_at *at; /* [n] */
+    regime_map_at *at; /* [n] */
     char known[400], errors[560];
-} existence_task;
+} regime_map_task;
 
-static operating_point spot_of(const existence_task *task, size_t row)
+static operating_point spot_of(const regime_map_task *task, size_t row)
 {
     operating_point spot = operating_point_default();
     const wt_sliding *s = &task->sliding;
@@ -184,8 +185,8 @@ static operating_point spot_of(const existence_task *task, size_t row)
     return spot;
 }
 
-static wt_status look_at_rows(const existence_task *task, const layer_context *scene,
-                              existence_at *at, wt_error *err)
+static wt_status look_at_rows(const regime_map_task *task, const layer_context *scene,
+                              regime_map_at *at, wt_error *err)
 {
     wt_status status = WT_OK;
     for (size_t i = 0; status == WT_OK && i < task->n; i++)
@@ -203,12 +204,12 @@ static const double most_lost = 0.025;
 
 static wt_status one_replicate(const void *user, size_t i, double *out, wt_error *err)
 {
-    const existence_task *task = user;
+    const regime_map_task *task = user;
     wt_layer_job job;
     layer_context scene;
     edges found = {.status = WT_OK};
     const size_t rows = i < LAYER_ROW_REPLICATES ? task->n : 0;
-    existence_at *at = malloc((task->n + 1) * sizeof *at);
+    regime_map_at *at = malloc((task->n + 1) * sizeof *at);
     wt_status status = at != NULL ? layer_draws_context(&task->draws, i, &job, &scene, err)
                                   : wt_fail(err, WT_E_MEMORY, "out of memory");
     if (status == WT_OK) {
@@ -241,9 +242,9 @@ static double share_above(const replicates *r, size_t n, size_t k, double limit)
     return solved > 0 ? (double)above / (double)solved : (double)NAN;
 }
 
-/* True if enough replicates agree with the stated values on an edge for an interval. Otherwise it
- * appends the reason to the text. */
-static bool edge_known(existence_task *task, size_t end)
+/* Of the replicates that have an edge, how many are too few for an interval; words of those that
+ * have none where the values have one, or the other way round. */
+static bool edge_known(regime_map_task *task, size_t end)
 {
     const replicates *r = &task->draws.replicates;
     const double with = share_above(r, r->n, LN_VELOCITY + end, -HUGE_VAL);
@@ -262,22 +263,22 @@ static bool edge_known(existence_task *task, size_t end)
 
 /* ---- the table ------------------------------------------------------------------------------- */
 
-static wt_estimate estimate_of(const existence_at *at, const double *error, size_t k)
+static wt_estimate estimate_of(const regime_map_at *at, const double *error, size_t k)
 {
     return (wt_estimate){at->value[k], error[k], at->numerical[k], NULL};
 }
 
-static void add_rows(const existence_task *task, table_writer *t)
+static void add_rows(const regime_map_task *task, table_writer *t)
 {
     const replicates *r = &task->draws.replicates;
     for (size_t i = 0; i < task->n; i++) {
-        const existence_at *at = &task->at[i];
+        const regime_map_at *at = &task->at[i];
         const operating_point spot = spot_of(task, i);
         const size_t first = N_NUMBERS + N_AT * i;
         const double *const e = r->error + first;
         if (i % task->sliding.n_velocity == 0)
             table_block(t);
-        TABLE_ADD(existence, t, spot.pressure, spot.velocity, estimate_of(at, e, AT_POWER),
+        TABLE_ADD(layer_regime_map, t, spot.pressure, spot.velocity, estimate_of(at, e, AT_POWER),
                   estimate_of(at, e, AT_RATIO), estimate_of(at, e, AT_THICKNESS),
                   share_above(r, LAYER_ROW_REPLICATES, first + AT_RATIO, 1),
                   estimate_of(at, e, AT_FRICTION), estimate_of(at, e, AT_WITH_LAYER),
@@ -290,7 +291,7 @@ static wt_interval no_interval(double value)
     return (wt_interval){value, (double)NAN, (double)NAN, (double)NAN};
 }
 
-static wt_status make_table(existence_task *task, wt_table **table, wt_error *err)
+static wt_status make_table(regime_map_task *task, wt_table **table, wt_error *err)
 {
     const replicates *r = &task->draws.replicates;
     wt_interval velocity[ENDS], power[ENDS];
@@ -307,21 +308,21 @@ static wt_status make_table(existence_task *task, wt_table **table, wt_error *er
                  r->n > 0 ? "yes: nearly all replicates have the same edges"
                           : "not tested: no replicates are drawn");
     layer_draws_describe(&task->draws, task->errors, sizeof task->errors);
-    table_writer t = table_begin(&existence_schema, err);
+    table_writer t = table_begin(&layer_regime_map_schema, err);
     add_rows(task, &t);
-    existence_keys keys = {.pressure = task->sliding.pressure.value,
-                           .from_velocity_low = velocity[FROM].low,
-                           .from_velocity_high = velocity[FROM].high,
-                           .to_velocity_low = velocity[TO].low,
-                           .to_velocity_high = velocity[TO].high,
-                           .from_power_low = power[FROM].low,
-                           .from_power_high = power[FROM].high,
-                           .to_power_low = power[TO].low,
-                           .to_power_high = power[TO].high,
-                           .words = task->edges.words,
-                           .known = task->known,
-                           .errors = task->errors,
-                           .moduli = task->draws.moduli};
+    layer_regime_map_keys keys = {.pressure = task->sliding.pressure.value,
+                                  .from_velocity_low = velocity[FROM].low,
+                                  .from_velocity_high = velocity[FROM].high,
+                                  .to_velocity_low = velocity[TO].low,
+                                  .to_velocity_high = velocity[TO].high,
+                                  .from_power_low = power[FROM].low,
+                                  .from_power_high = power[FROM].high,
+                                  .to_power_low = power[TO].low,
+                                  .to_power_high = power[TO].high,
+                                  .words = task->edges.words,
+                                  .known = task->known,
+                                  .errors = task->errors,
+                                  .moduli = task->draws.moduli};
     wt_estimate *const ends[] = {&keys.from_velocity, &keys.to_velocity, &keys.from_power,
                                  &keys.to_power};
     const wt_interval *const of[] = {&velocity[FROM], &velocity[TO], &power[FROM], &power[TO]};
@@ -329,12 +330,12 @@ static wt_status make_table(existence_task *task, wt_table **table, wt_error *er
         *ends[k] = estimate_without_error(of[k]->value);
         ends[k]->standard_error = of[k]->standard_error;
     }
-    existence_set_keys(&t, &keys);
+    layer_regime_map_set_keys(&t, &keys);
     return table_end(&t, table);
 }
 
-/* Copies the sliding with rising velocities, because edges are searched for between neighbours. */
-static wt_status order_velocities(existence_task *task, const wt_sliding *sliding, wt_error *err)
+/* The same with its velocities from the least on, between which edges are looked for. */
+static wt_status order_velocities(regime_map_task *task, const wt_sliding *sliding, wt_error *err)
 {
     const size_t n = sliding->n_velocity;
     task->blocks = sliding->n_pressures > 0 ? sliding->n_pressures : 1;
@@ -350,13 +351,13 @@ static wt_status order_velocities(existence_task *task, const wt_sliding *slidin
     return WT_OK;
 }
 
-wt_status wt_existence_make(const wt_sliding *sliding, const wt_layer_job *job,
-                            const wt_layer_observation *known, const wt_job *work, wt_table **table,
-                            wt_error *err)
+wt_status wt_layer_regime_map_make(const wt_sliding *sliding, const wt_layer_job *job,
+                                   const wt_layer_observation *known, const wt_job *work,
+                                   wt_table **table, wt_error *err)
 {
     if (sliding == NULL || job == NULL || work == NULL || table == NULL)
         return wt_fail(err, WT_E_ARG, "no existence of a layer to make");
-    existence_task task = {.n = 0};
+    regime_map_task task = {.n = 0};
     wt_status status = order_velocities(&task, sliding, err);
     if (status == WT_OK)
         status =

@@ -21,7 +21,7 @@
     X(LAYER_BANDS_KEY_EVENTS, AS(events), TEXT, LABEL("How the modified rubber comes about"),      \
       OPTIONAL)                                                                                    \
     X(LAYER_BANDS_KEY_METHOD, AS(method), TEXT, LABEL("By"))                                       \
-    X(LAYER_BANDS_KEY_FIRST, "first_appearance", SI(TIME), SHOWS(first),                           \
+    X(LAYER_BANDS_KEY_FIRST, "onset_time", SI(TIME), SHOWS(first),                                 \
       LABEL("Time at which rubber is first modified"), OPTIONAL)                                   \
     X(LAYER_BANDS_KEY_FIRST_LOW, "first_appearance_low", SI(TIME), SHOWS(first_low),               \
       LABEL("Its 95 % interval from"), OPTIONAL)                                                   \
@@ -70,82 +70,85 @@
     X(RUNNING_IN_KEY_MODULI, "layer_moduli", TEXT, SHOWS(moduli), LABEL("Moduli of the layer"),    \
       OPTIONAL)
 
-#define LAYER_BALANCES_COLUMNS(X)                                                                  \
-    X(LAYER_BALANCES_KIND, AS(kind),                                                               \
+#define LAYER_FEEDBACK_COLUMNS(X)                                                                  \
+    X(LAYER_FEEDBACK_KIND, AS(kind),                                                               \
       "balance, or fold: where two balances meet as the specific wear rate changes", TEXT)         \
-    COLUMN_AND_NEW_ERRORS(X, LAYER_BALANCES_THICKNESS, "thickness",                                \
+    COLUMN_AND_NEW_ERRORS(X, LAYER_FEEDBACK_THICKNESS, "thickness",                                \
                           "thickness of the modified layer", SI(LENGTH), SHOWS(thickness))         \
-    X(LAYER_BALANCES_STABLE, AS(stable),                                                           \
+    X(LAYER_FEEDBACK_STABLE, AS(stable),                                                           \
       "stable or unstable; of a fold above or below: where the pair is gone", TEXT)                \
     COLUMN_AND_NEW_ERROR(                                                                          \
-        X, LAYER_BALANCES_MAP_SLOPE, "map_slope",                                                  \
+        X, LAYER_FEEDBACK_MAP_SLOPE, "map_slope",                                                  \
         "change of the balance thickness with that of the layer that the energy sees", NUMBER,     \
         SHOWS(map_slope))                                                                          \
-    COLUMN_AND_NEW_ERROR(X, LAYER_BALANCES_EIGENVALUE, "eigenvalue",                               \
+    COLUMN_AND_NEW_ERROR(X, LAYER_FEEDBACK_EIGENVALUE, "eigenvalue",                               \
                          "rate at which a deviation grows", SI(RATE), SHOWS(eigenvalue))           \
-    COLUMN_AND_NEW_ERROR(X, LAYER_BALANCES_WEAR_RATE, "wear_rate", "specific wear rate",           \
+    COLUMN_AND_NEW_ERROR(X, LAYER_FEEDBACK_WEAR_RATE, "wear_rate", "specific wear rate",           \
                          SI(WEAR_RATE), SHOWS(wear_rate))                                          \
-    COLUMN_AND_NEW_ERRORS(X, LAYER_BALANCES_HYSTERESIS, "hysteresis",                              \
+    COLUMN_AND_NEW_ERRORS(X, LAYER_FEEDBACK_HYSTERESIS, "hysteresis",                              \
                           "hysteresis friction with this layer", NUMBER, SHOWS(hysteresis))        \
-    COLUMN_AND_NEW_ERRORS(X, LAYER_BALANCES_AREA_RATIO, "area_ratio",                              \
+    COLUMN_AND_NEW_ERRORS(X, LAYER_FEEDBACK_AREA_RATIO, "area_ratio",                              \
                           "real over nominal contact area with it", NUMBER, SHOWS(area_ratio))     \
-    COLUMN_AND_NEW_ERRORS(X, LAYER_BALANCES_FRICTION, "friction",                                  \
+    COLUMN_AND_NEW_ERRORS(X, LAYER_FEEDBACK_FRICTION, "friction",                                  \
                           "friction coefficient; without a shear stress nan", NUMBER,              \
                           SHOWS(friction))
-#define LAYER_BALANCES_KEYS(X)                                                                     \
-    X(LAYER_BALANCES_KEY_ONE_WAY, "one_way_thickness", SI(LENGTH), SHOWS(one_way),                 \
+#define LAYER_FEEDBACK_KEYS(X)                                                                     \
+    X(LAYER_FEEDBACK_KEY_ONE_WAY, "one_way_thickness", SI(LENGTH), SHOWS(one_way),                 \
       LABEL("Balance if the layer did not act back"))                                              \
-    X(LAYER_BALANCES_KEY_RATIO, "bare_formation_wear_ratio", NUMBER, SHOWS(ratio),                 \
+    X(LAYER_FEEDBACK_KEY_RATIO, "bare_formation_wear_ratio", NUMBER, SHOWS(ratio),                 \
       LABEL("Formation over wear on a bare surface, R"))                                           \
-    X(LAYER_BALANCES_KEY_MODULUS_RATIO, AS(modulus_ratio), NUMBER, LABEL("Modulus ratio"),         \
+    X(LAYER_FEEDBACK_KEY_MODULUS_RATIO, AS(modulus_ratio), NUMBER, LABEL("Modulus ratio"),         \
       OPTIONAL)                                                                                    \
-    X(LAYER_BALANCES_KEY_LOW, AS(low), SI(LENGTH), LABEL("Looked for from"))                       \
-    X(LAYER_BALANCES_KEY_HIGH, AS(high), SI(LENGTH), LABEL("Looked for up to"))                    \
-    X(LAYER_BALANCES_KEY_WORDS, AS(words), TEXT, LABEL("A layer that acts back on its energy"))    \
-    X(LAYER_BALANCES_KEY_AGREEMENT, AS(agreement), TEXT,                                           \
+    X(LAYER_FEEDBACK_KEY_LOW, AS(low), SI(LENGTH), LABEL("Looked for from"))                       \
+    X(LAYER_FEEDBACK_KEY_HIGH, AS(high), SI(LENGTH), LABEL("Looked for up to"))                    \
+    X(LAYER_FEEDBACK_KEY_WORDS, AS(words), TEXT, LABEL("A layer that acts back on its energy"))    \
+    X(LAYER_FEEDBACK_KEY_AGREEMENT, AS(agreement), TEXT,                                           \
       LABEL("Whether their number is known within the errors"), OPTIONAL)                          \
-    X(LAYER_BALANCES_KEY_ERRORS, AS(errors), TEXT, LABEL("Standard errors include"), OPTIONAL)     \
-    X(LAYER_BALANCES_KEY_MODULI, "layer_moduli", TEXT, SHOWS(moduli),                              \
+    X(LAYER_FEEDBACK_KEY_ERRORS, AS(errors), TEXT, LABEL("Standard errors include"), OPTIONAL)     \
+    X(LAYER_FEEDBACK_KEY_MODULI, "layer_moduli", TEXT, SHOWS(moduli),                              \
       LABEL("Moduli of the layer"), OPTIONAL)
 
-#define EXISTENCE_COLUMNS(X)                                                                       \
-    X(EXISTENCE_PRESSURE, AS(pressure), "nominal pressure", SI(PRESSURE))                          \
-    X(EXISTENCE_VELOCITY, AS(velocity), "sliding velocity", SI(VELOCITY))                          \
-    COLUMN_AND_NEW_ERROR(X, EXISTENCE_POWER, "power", "power per area that modifies the rubber",   \
-                         UNIT("W/m^2"), SHOWS(power))                                              \
-    COLUMN_AND_NEW_ERRORS(X, EXISTENCE_RATIO, "ratio",                                             \
+#define LAYER_REGIME_MAP_COLUMNS(X)                                                                \
+    X(LAYER_REGIME_MAP_PRESSURE, AS(pressure), "nominal pressure", SI(PRESSURE))                   \
+    X(LAYER_REGIME_MAP_VELOCITY, AS(velocity), "sliding velocity", SI(VELOCITY))                   \
+    COLUMN_AND_NEW_ERROR(X, LAYER_REGIME_MAP_POWER, "power",                                       \
+                         "power per area that modifies the rubber", UNIT("W/m^2"), SHOWS(power))   \
+    COLUMN_AND_NEW_ERRORS(X, LAYER_REGIME_MAP_RATIO, "ratio",                                      \
                           "formation rate over wear rate, R; no layer at 1 and below", NUMBER,     \
                           SHOWS(ratio))                                                            \
-    COLUMN_AND_NEW_ERRORS(X, EXISTENCE_THICKNESS, "thickness",                                     \
+    COLUMN_AND_NEW_ERRORS(X, LAYER_REGIME_MAP_THICKNESS, "thickness",                              \
                           "thickness of the layer at balance", SI(LENGTH), SHOWS(thickness))       \
-    X(EXISTENCE_SHARE, AS(share), "share of the replicates that have a layer", NUMBER, OPTIONAL)   \
+    X(LAYER_REGIME_MAP_SHARE, AS(share), "share of the replicates that have a layer", NUMBER,      \
+      OPTIONAL)                                                                                    \
     COLUMN_AND_NEW_ERRORS(                                                                         \
-        X, EXISTENCE_FRICTION, "friction",                                                         \
+        X, LAYER_REGIME_MAP_FRICTION, "friction",                                                  \
         "friction without a layer: total, or hysteresis where no shear stress is known", NUMBER,   \
         SHOWS(friction))                                                                           \
-    COLUMN_AND_NEW_ERRORS(X, EXISTENCE_WITH_LAYER, "with_layer", "the same with this layer",       \
-                          NUMBER, SHOWS(with_layer))                                               \
-    COLUMN_AND_NEW_ERRORS(X, EXISTENCE_CHANGE, "change",                                           \
+    COLUMN_AND_NEW_ERRORS(X, LAYER_REGIME_MAP_WITH_LAYER, "with_layer",                            \
+                          "the same with this layer", NUMBER, SHOWS(with_layer))                   \
+    COLUMN_AND_NEW_ERRORS(X, LAYER_REGIME_MAP_CHANGE, "change",                                    \
                           "relative change of friction by the layer", NUMBER, SHOWS(change))
-#define EXISTENCE_ENDS(X, ID, name, unit)                                                          \
+#define LAYER_REGIME_MAP_ENDS(X, ID, name, unit)                                                   \
     X(ID##_LOW, AS(name##_low), unit, LABEL("Its 95 % interval from"), OPTIONAL)                   \
     X(ID##_HIGH, AS(name##_high), unit, LABEL("to"), OPTIONAL)
-#define EXISTENCE_KEYS(X)                                                                          \
-    X(EXISTENCE_KEY_PRESSURE, AS(pressure), SI(PRESSURE), LABEL("Nominal pressure"))               \
-    X(EXISTENCE_KEY_FROM_VELOCITY, AS(from_velocity), SI(VELOCITY),                                \
+#define LAYER_REGIME_MAP_KEYS(X)                                                                   \
+    X(LAYER_REGIME_MAP_KEY_PRESSURE, AS(pressure), SI(PRESSURE), LABEL("Nominal pressure"))        \
+    X(LAYER_REGIME_MAP_KEY_FROM_VELOCITY, AS(from_velocity), SI(VELOCITY),                         \
       LABEL("There is a layer from the velocity"))                                                 \
-    EXISTENCE_ENDS(X, EXISTENCE_KEY_FROM_VELOCITY, from_velocity, SI(VELOCITY))                    \
-    X(EXISTENCE_KEY_TO_VELOCITY, AS(to_velocity), SI(VELOCITY), LABEL("up to the velocity"))       \
-    EXISTENCE_ENDS(X, EXISTENCE_KEY_TO_VELOCITY, to_velocity, SI(VELOCITY))                        \
-    X(EXISTENCE_KEY_FROM_POWER, AS(from_power), UNIT("W/m^2"), LABEL("That is from the power"))    \
-    EXISTENCE_ENDS(X, EXISTENCE_KEY_FROM_POWER, from_power, UNIT("W/m^2"))                         \
-    X(EXISTENCE_KEY_TO_POWER, AS(to_power), UNIT("W/m^2"), LABEL("up to the power"))               \
-    EXISTENCE_ENDS(X, EXISTENCE_KEY_TO_POWER, to_power, UNIT("W/m^2"))                             \
-    X(EXISTENCE_KEY_WORDS, AS(words), TEXT, LABEL("Where a layer exists"))                         \
-    X(EXISTENCE_KEY_KNOWN, AS(known), TEXT,                                                        \
+    LAYER_REGIME_MAP_ENDS(X, LAYER_REGIME_MAP_KEY_FROM_VELOCITY, from_velocity, SI(VELOCITY))      \
+    X(LAYER_REGIME_MAP_KEY_TO_VELOCITY, AS(to_velocity), SI(VELOCITY),                             \
+      LABEL("up to the velocity"))                                                                 \
+    LAYER_REGIME_MAP_ENDS(X, LAYER_REGIME_MAP_KEY_TO_VELOCITY, to_velocity, SI(VELOCITY))          \
+    X(LAYER_REGIME_MAP_KEY_FROM_POWER, AS(from_power), UNIT("W/m^2"),                              \
+      LABEL("That is from the power"))                                                             \
+    LAYER_REGIME_MAP_ENDS(X, LAYER_REGIME_MAP_KEY_FROM_POWER, from_power, UNIT("W/m^2"))           \
+    X(LAYER_REGIME_MAP_KEY_TO_POWER, AS(to_power), UNIT("W/m^2"), LABEL("up to the power"))        \
+    LAYER_REGIME_MAP_ENDS(X, LAYER_REGIME_MAP_KEY_TO_POWER, to_power, UNIT("W/m^2"))               \
+    X(LAYER_REGIME_MAP_KEY_WORDS, AS(words), TEXT, LABEL("Where a layer exists"))                  \
+    X(LAYER_REGIME_MAP_KEY_KNOWN, AS(known), TEXT,                                                 \
       LABEL("Whether the edges are known within the errors"), OPTIONAL)                            \
-    X(EXISTENCE_KEY_ERRORS, AS(errors), TEXT, LABEL("Standard errors include"), OPTIONAL)          \
-    X(EXISTENCE_KEY_MODULI, "layer_moduli", TEXT, SHOWS(moduli), LABEL("Moduli of the layer"),     \
-      OPTIONAL)
+    X(LAYER_REGIME_MAP_KEY_ERRORS, AS(errors), TEXT, LABEL("Standard errors include"), OPTIONAL)   \
+    X(LAYER_REGIME_MAP_KEY_MODULI, "layer_moduli", TEXT, SHOWS(moduli),                            \
+      LABEL("Moduli of the layer"), OPTIONAL)
 
 #endif

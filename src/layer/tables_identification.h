@@ -45,6 +45,7 @@
     X(IDENTIFICATION_KEY_THICKNESS, "observed_thickness", SI(LENGTH), LABEL("Observed thickness")) \
     X(IDENTIFICATION_KEY_INCLUDES, "standard_error_includes", TEXT,                                \
       LABEL("Standard errors include"))                                                            \
-    X(IDENTIFICATION_KEY_LACKS, "standard_error_lacks", TEXT, LABEL("No error known of"), OPTIONAL)
+    X(IDENTIFICATION_KEY_LACKS, "standard_error_excludes", TEXT, LABEL("No error known of"),       \
+      OPTIONAL)
 
 #endif

@@ -249,7 +249,7 @@ static bool refuse(const run_set *all, run_verdict *w)
                       : settles;
     } else if (all->without_errors != NULL) {
         why = all->without_errors;
-        settles = "errors of the prediction, by replicates and without acts-back";
+        settles = "errors of the prediction, by replicates and without feedback";
     } else if (may_be_bare(all)) {
         why = "within the stated errors there may be no layer";
         settles = "specific wear rate and critical energy known better";

@@ -99,7 +99,8 @@
 #define VALIDATION_CHOICES_COLUMNS(X)                                                              \
     X(VALIDATION_CHOICES_CHOICE, AS(choice), "the choice that is moved; the first row: none",      \
       TEXT, LABEL("Choice"))                                                                       \
-    X(VALIDATION_CHOICES_TRIED, AS(tried), "what this row has", TEXT, LABEL("Tried"))              \
+    X(VALIDATION_CHOICES_TRIED, "alternative", "value in this row", TEXT, SHOWS(tried),            \
+      LABEL("Alternative"))                                                                        \
     X(VALIDATION_CHOICES_RATIO, AS(ratio), "mean of measured over predicted", NUMBER,              \
       LABEL("Measured over predicted"))                                                            \
     X(VALIDATION_CHOICES_TREND, AS(trend), "change of the ratio with a decade of velocity",        \

@@ -228,15 +228,15 @@ static wt_status add_group(const table_view *rows, curve_finder *f, text_buffer 
 /* Appends the earlier choices, which the page exports together with its own. */
 static void add_choices(const table_view *choices, text_buffer *to)
 {
-    static const choices_column texts[] = {CHOICES_GROUP, CHOICES_FILE, CHOICES_CHOICE,
-                                           CHOICES_VALUE, CHOICES_NOTE};
+    static const overrides_column texts[] = {OVERRIDES_GROUP, OVERRIDES_FILE, OVERRIDES_CHOICE,
+                                             OVERRIDES_VALUE, OVERRIDES_NOTE};
     for (size_t row = 0; row < choices->n_rows; row++) {
         text_add(to, row > 0 ? ",[" : "[");
         for (size_t k = 0; k < sizeof texts / sizeof texts[0]; k++) {
-            add_text(to, choices_text(choices, row, texts[k]));
+            add_text(to, overrides_text(choices, row, texts[k]));
             text_add(to, ",");
         }
-        add_exact(to, choices_get(choices, row, CHOICES_CURVE));
+        add_exact(to, overrides_get(choices, row, OVERRIDES_CURVE));
         text_add(to, "]");
     }
 }
@@ -251,7 +251,7 @@ wt_status browse_data(const figure_tables *tables, text_buffer *to, wt_error *er
         status = add_group(&tables->indentation[i], &f, to, err);
     }
     text_add(to, "],\"choices\":[");
-    add_choices(&tables->choices, to);
+    add_choices(&tables->overrides, to);
     text_add(to, "]}");
     curve_finder_clear(&f);
     return status;

@@ -38,8 +38,8 @@ void page_cost(page_writer *page)
     enum { N_TIMES = 2, STAGES = 64 };
     static const unsigned ran[] = {COST_STAGE,           COST_ITEMS,           COST_NODES,
                                    COST_TOLERANCE_ASKED, COST_ERROR_ESTIMATED, COST_STANDARD_ERROR,
-                                   COST_BECAUSE,         COST_WALL_TIME,       COST_CPU_TIME},
-                          left_out[] = {COST_STAGE, COST_BECAUSE};
+                                   COST_REASON,          COST_WALL_TIME,       COST_CPU_TIME},
+                          left_out[] = {COST_STAGE, COST_REASON};
     const table_view *table = &page->tables->cost;
     size_t rows[2][STAGES], n[2] = {0, 0};
     if (table->n_rows == 0)

@@ -264,8 +264,8 @@ static const wt_param rows[] = {
     {PARAM_FLAG_OF("map-spots", wt_compare_job, map_spots),
      .help = "each place of a map is a spot of its own; else a map whose spots are not named is "
              "one, for its places are near to each other"},
-    {PARAM("spot-scatter", wt_compare_job, spot_scatter, WT_Q_NONE, FROM_BELOW(0, 1)), .value = "X",
-     .unset = "not known",
+    {PARAM("between-spot-sd", wt_compare_job, spot_scatter, WT_Q_NONE, FROM_BELOW(0, 1)),
+     .former = "spot-scatter", .value = "X", .unset = "not known",
      .help = "relative standard deviation of the modulus from spot to spot, as known of other "
              "samples, such as 15%; for one spot against one or two, which do not tell it"},
     {PARAM("expected-thickness", wt_compare_job, expected_thickness, WT_Q_LENGTH, ABOVE(0)),

@@ -234,7 +234,7 @@ static void read_common(const table_view *t, wt_group_data *d)
     d->bend_error = shown_error(t, INDENTATION_KEY_BEND_ERROR);
     d->misfit_error = shown_error(t, INDENTATION_KEY_MISFIT_ERROR);
     d->pooled_misfit = plain_number(t, INDENTATION_KEY_POOLED_MISFIT);
-    d->pooled_misfit_chance = plain_number(t, INDENTATION_KEY_POOLED_MISFIT_CHANCE);
+    d->pooled_misfit_p = plain_number(t, INDENTATION_KEY_POOLED_MISFIT_CHANCE);
 }
 
 wt_status wt_group_from_table(const wt_table *table, bool each_place, wt_group_data *data,

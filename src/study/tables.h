@@ -198,7 +198,7 @@
     X(DMA_COMPARISON_KEY_TEMPERATURE, AS(temperature), SI(TEMPERATURE))                            \
     X(DMA_COMPARISON_KEY_TRACK_TEMPERATURE, AS(track_temperature), SI(TEMPERATURE), OPTIONAL)      \
     X(DMA_COMPARISON_KEY_RATIO_OF, AS(ratio_of), TEXT)                                             \
-    X(DMA_COMPARISON_KEY_ERROR_LACKS, "standard_error_lacks", TEXT, SHOWS(lacks),                  \
+    X(DMA_COMPARISON_KEY_ERROR_LACKS, "standard_error_excludes", TEXT, SHOWS(lacks),               \
       LABEL("No error known of"), OPTIONAL)                                                        \
     X(DMA_COMPARISON_KEY_MATERIAL_STATEMENT, "material_statement", TEXT, SHOWS(statement), OPTIONAL)
 

@@ -12,7 +12,7 @@
       "share of the trials in which the truth lies within one "                                    \
       "standard error; stated: 0.683",                                                             \
       NUMBER, SHOWS(found.one), LABEL("Within one standard error"))                                \
-    X(COVERAGE_BOTH, "within_95", "share in which it lies in the 95 % interval; stated: 0.95",     \
+    X(COVERAGE_BOTH, "covered_95", "share in which it lies in the 95 % interval; stated: 0.95",    \
       NUMBER, SHOWS(found.both), LABEL("In the 95 % interval"))                                    \
     X(COVERAGE_LOW, IN(found.known, low),                                                          \
       "lower end of the 95 % interval of that share by the number of trials", NUMBER,              \
@@ -32,7 +32,7 @@
 
 #define COVERAGE_KEYS(X)                                                                           \
     X(COVERAGE_KEY_ANSWER, "answer", TEXT, LABEL("How often the intervals hold"))                  \
-    X(COVERAGE_KEY_CAUTION, "caution", TEXT, LABEL("What this cannot tell"))                       \
+    X(COVERAGE_KEY_CAUTION, "limitations", TEXT, LABEL("What this cannot tell"))                   \
     X(COVERAGE_KEY_REGENERATED, "regenerated", TEXT, LABEL("What was drawn anew"))                 \
     X(COVERAGE_KEY_TRIALS, "trials", NUMBER, LABEL("Trials"))                                      \
     X(COVERAGE_KEY_LOST, "trials_lost", NUMBER, LABEL("Trials without an answer"))

@@ -33,6 +33,7 @@
     X(ERROR_BUDGET_KEY_WITH_LAYER, "friction_with_layer_advice", TEXT,                             \
       LABEL("Friction coefficient with layer"), OPTIONAL)                                          \
     X(ERROR_BUDGET_KEY_RATIO, "modulus_ratio_advice", TEXT, LABEL("Modulus ratio"), OPTIONAL)      \
-    X(ERROR_BUDGET_KEY_LACKS, "lacks", TEXT, LABEL("Errors that nothing states"), OPTIONAL)
+    X(ERROR_BUDGET_KEY_LACKS, "excluded_errors", TEXT, LABEL("Errors that nothing states"),        \
+      OPTIONAL)
 
 #endif

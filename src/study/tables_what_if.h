@@ -13,7 +13,7 @@
     X(WHAT_IF_CHOICE, "choice", "the choice that is moved; the first row: none", TEXT,             \
       LABEL("Choice"))                                                                             \
     X(WHAT_IF_USED, "used", "what all other tables rest on", TEXT, LABEL("Used"))                  \
-    X(WHAT_IF_TRIED, "tried", "what this row has instead", TEXT, LABEL("Tried"))                   \
+    X(WHAT_IF_TRIED, "alternative", "value in this row instead", TEXT, LABEL("Alternative"))       \
     WHAT_IF_NUMBER(X, WHAT_IF_HYSTERESIS, "hysteresis",                                            \
                    "hysteresis friction at the reference velocity", NUMBER, "Hysteresis")          \
     WHAT_IF_NUMBER(X, WHAT_IF_AREA_RATIO, "area_ratio", "real over nominal contact area there",    \

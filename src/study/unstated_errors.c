@@ -128,7 +128,7 @@ static wt_status misfit_chances(const compare_pair *p, double chance[2], wt_erro
     wt_sign_comparison lack;
     const wt_status status = wt_compare_signs(values, spots, n, &lack, err);
     for (int g = 0; status == WT_OK && g < 2; g++)
-        chance[g] = wt_combined_p_value(lack.larger_chance[g], p->data[g].pooled_misfit_chance);
+        chance[g] = wt_combined_p_value(lack.larger_chance[g], p->data[g].pooled_misfit_p);
     return status;
 }
 

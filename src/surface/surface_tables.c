@@ -32,7 +32,7 @@ TABLE_KEYS(power_spectrum, POWER_SPECTRUM, wt_estimate rms_height, rms_slope, hu
            size_t n_scans;)
 TABLE_ROW(angular_spectrum, ANGULAR_SPECTRUM, double direction; wt_interval ratio;
           double terms, modes;)
-TABLE_KEYS(angular_spectrum, ANGULAR_SPECTRUM, double chance, chance_fourth;)
+TABLE_KEYS(angular_spectrum, ANGULAR_SPECTRUM, double chance, p_value_fourth;)
 TABLE_ROW_OF(surfaces, SURFACES, surface_scan)
 TABLE_KEYS(surfaces, SURFACES, const char *form, *window;)
 TABLE_ROW(scan_spectra, SCAN_SPECTRA, wt_spectrum_bin bin; double scatter;)

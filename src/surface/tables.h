@@ -62,12 +62,12 @@
       OPTIONAL)                                                                                    \
     X(POWER_SPECTRUM_KEY_FOURTH_DIRECTION, AS(anisotropy_fourth_direction), SI(ANGLE),             \
       LABEL("Roughest direction of order 4 from x"), OPTIONAL)                                     \
-    X(POWER_SPECTRUM_KEY_DIRECTIONS, "directions_verdict", TEXT, SHOWS(directions),                \
+    X(POWER_SPECTRUM_KEY_DIRECTIONS, "transverse_isotropy_verdict", TEXT, SHOWS(directions),       \
       LABEL("Directions"))                                                                         \
     X(POWER_SPECTRUM_KEY_PROFILES, AS(profiles), TEXT, LABEL("What the profiles add"), OPTIONAL)   \
     X(POWER_SPECTRUM_KEY_INCLUDES, "standard_error_includes", TEXT, SHOWS(includes),               \
       LABEL("Standard errors include"))                                                            \
-    X(POWER_SPECTRUM_KEY_LACKS, "standard_error_lacks", TEXT, SHOWS(lacks),                        \
+    X(POWER_SPECTRUM_KEY_LACKS, "standard_error_excludes", TEXT, SHOWS(lacks),                     \
       LABEL("No error known of"), OPTIONAL)                                                        \
     X(POWER_SPECTRUM_KEY_OPTION, "roughness_option", TEXT, SHOWS(option), OPTIONAL)                \
     X(POWER_SPECTRUM_KEY_ANISOTROPY_OPTION, AS(anisotropy_option), TEXT,                           \
@@ -100,8 +100,8 @@
       NUMBER)                                                                                      \
     X(ANGULAR_SPECTRUM_MODES, AS(modes), "modes of the full plane there", NUMBER)
 #define ANGULAR_SPECTRUM_KEYS(X)                                                                   \
-    X(ANGULAR_SPECTRUM_KEY_CHANCE, AS(chance), NUMBER)                                             \
-    X(ANGULAR_SPECTRUM_KEY_CHANCE_FOURTH, AS(chance_fourth), NUMBER)
+    X(ANGULAR_SPECTRUM_KEY_CHANCE, "p_value", NUMBER, SHOWS(chance))                               \
+    X(ANGULAR_SPECTRUM_KEY_CHANCE_FOURTH, AS(p_value_fourth), NUMBER)
 
 /* Heights without their form, thinned for a figure. Scans are counted from 1 in the order of the
  * table surfaces. */
@@ -158,7 +158,7 @@
       NUMBER, SHOWS(directions.amplitude), LABEL("Anisotropy"), SPARSE)                            \
     X(SURFACES_DIRECTION, "anisotropy_direction", "where it is roughest, from x", SI(ANGLE),       \
       SHOWS(directions.direction), SPARSE)                                                         \
-    X(SURFACES_CHANCE, "anisotropy_chance", "chance of as much by scatter alone", NUMBER,          \
+    X(SURFACES_CHANCE, "anisotropy_p", "chance of as much by scatter alone", NUMBER,               \
       SHOWS(directions.chance), DIGITS(2), SPARSE)
 #define SURFACES_KEYS(X)                                                                           \
     X(SURFACES_KEY_FORM, AS(form), TEXT)                                                           \

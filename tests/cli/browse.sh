@@ -110,7 +110,7 @@ has '"byhand":"1 of 24 curves"'
 printf '%b' "$(printf '%s' "$told" | sed 's/.*"file":"\([^"]*\)".*/\1/')" >choices.tsv
 grep -q "contact-point" choices.tsv || fail "a contact point was moved: $(cat choices.tsv)"
 # shellcheck disable=SC2086
-"$program" indent $fit --curves all --choices choices.tsv "$case"/bulk-1.jpk-force-map \
+"$program" indent $fit --curves all --overrides choices.tsv "$case"/bulk-1.jpk-force-map \
   "$case"/bulk-2.jpk-force-map -o again.h5 2>words.txt || fail "the choices: $(cat words.txt)"
 "$program" table again.h5 choices >applied.txt
 [ "$(grep -c bulk-1.jpk-force-map applied.txt)" -eq 2 ] || fail "two were applied: $(cat applied.txt)"

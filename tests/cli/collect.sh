@@ -60,7 +60,7 @@ needed=$(awk -F '\t' '$1 == "severe" { half = (log($6) - log($5)) / 2; off = log
   n = (half / (off < 0 ? -off : off)) ^ 2; if (n < 2) n = 2; printf "%.0f", int(n) + (n > int(n)) }' fine.tsv)
 "$program" table --keys fine.h5 ratio_pairs | grep -q "about $needed times as many spots"
 # every row of the cases, and a figure that draws them
-"$program" table study.h5 collection --as csv | cut -d , -f 1,2,6 >cases.csv
+"$program" table study.h5 collection --format csv | cut -d , -f 1,2,6 >cases.csv
 printf 'sample,condition,differs\nHC,mild,yes\nHC,severe,yes\nHS,mild,no\nHS,severe,yes\n' | diff - cases.csv
 "$program" report study.h5 -o page >/dev/null 2>&1
 test -s page/plots/collected_modulus.tsv

@@ -19,6 +19,6 @@ offer weartrack help la; has layer
 offer weartrack indent --; has --tip; has --spring-constant; has --strict; hasnt --pressure
 offer weartrack friction --p; has --pressure; has --poisson-ratio; hasnt --tip
 offer weartrack friction -; has -p; has -o
-offer weartrack table --as ''; has csv; has json; hasnt --as
+offer weartrack table --format ''; has csv; has json; hasnt --format
 offer weartrack master --vertical-shift f; has free; hasnt none
 offer weartrack convert so; [[ $offered == "  " ]] || fail "files are left to bash:$offered"

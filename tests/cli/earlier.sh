@@ -34,3 +34,25 @@ done
 "$weartrack" master -q "$fixtures/case/dma.txt" -o m.h5
 "$weartrack" friction -q -m m.h5 --roughness psd.tsv -p 0.4MPa -v 1m/s -o friction.tsv
 "$weartrack" validate -q "$fixtures/case/stated-road.xml" record.tsv -o validation.tsv
+
+# Results of versions before 0.9, which named tables, columns and keys otherwise.
+"$weartrack" master -q "$fixtures/dma/two_materials.csv" --shared-shift-law same -o law.tsv
+sed -e 's/^## table: shared_shift_law/## table: common_law/' -e 's/^## largest_deviation:/## furthest:/' \
+  -e 's/^## sample_shifts:/## each_moved:/' -e 's/^## valid_from:/## holds_from:/' law.tsv >former.tsv
+grep -q '^## table: common_law' former.tsv
+grep -q '^## furthest:' former.tsv
+"$weartrack" table -q former.tsv shared_shift_law --format stream | grep -q '^## largest_deviation:'
+"$weartrack" table -q former.tsv common_law --as stream | grep -q '^## sample_shifts:'
+
+# Options and case elements of these versions.
+"$weartrack" master -q "$fixtures/dma/two_materials.csv" --common-law same -o again.tsv
+"$weartrack" table -q law.tsv shared_shift_law >one.tsv
+"$weartrack" table -q again.tsv shared_shift_law >other.tsv
+cmp one.tsv other.tsv
+mkdir -p layer case
+cp "$fixtures/case/dma.txt" case/
+sed -e 's,<\(/*\)regime-map>,<\1existence>,g' -e 's,<\(/*\)feedback>,<\1acts-back>,g' \
+  -e 's,<figure>layer_regime_map,<figure>existence,' "$fixtures/layer/case.xml" >layer/case.xml
+grep -q '<existence>' layer/case.xml
+grep -q '<acts-back>' layer/case.xml
+"$weartrack" run -q --plan layer/case.xml | grep -q '^run  *Where a layer exists'

@@ -44,7 +44,7 @@ expect "awk, table" "$(awk -F'\t' 'NR > 1 && $2 > m {m = $2} END {printf "%.6g",
 expect "awk, one number of fields" "$(awk -F'\t' '{print NF}' t.tsv | sort -u | wc -l)" 1
 expect "awk, no comments" "$(grep -c '#' t.tsv || true)" 0
 for t in $("$weartrack" table --list stream.tsv | awk 'NR > 1 {print $1}'); do
-  "$weartrack" table stream.tsv "$t" --as stream
+  "$weartrack" table stream.tsv "$t" --format stream
 done > again.tsv
 grep -v '^## \(weartrack\|command\|input\): ' stream.tsv | cmp - again.tsv || fail "split and joined it differs"
 

@@ -53,6 +53,6 @@ grep -q 'set TMPDIR' said || fail "that TMPDIR is no folder is said"
 # A terminal, where there is a program that makes one.
 command -v script >/dev/null || exit 0
 for output in '' '-o -'; do
-  script -qec "'$program' summary --as sqlite $output all.h5" /dev/null </dev/null >said 2>&1 && fail "no failure"
+  script -qec "'$program' summary --format sqlite $output all.h5" /dev/null </dev/null >said 2>&1 && fail "no failure"
   grep -q 'a terminal cannot show a database' said || fail "a database goes to a terminal"
 done

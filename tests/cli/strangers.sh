@@ -49,9 +49,9 @@ done
 
 # cells that a spreadsheet would obey
 printf '## table: t\n# a[text]\tb[1]\n=1+2\t-1\n@x,y\t1\n-5\t1\n+\t1\n-x\t1\nplain\t1\n##\n' > cells.tsv
-"$weartrack" table cells.tsv --as csv > out 2> said || fail "table"
+"$weartrack" table cells.tsv --format csv > out 2> said || fail "table"
 printf "a,b\n'=1+2,-1\n\"'@x,y\",1\n-5,1\n+,1\n'-x,1\nplain,1\n" | cmp - out || fail "cells that begin with a sign"
-"$weartrack" table cells.tsv --as csv --formulas > out 2> said || fail "table --formulas"
+"$weartrack" table cells.tsv --format csv --formulas > out 2> said || fail "table --formulas"
 grep -q '^=1+2,' out || fail "--formulas"
 
 # an archive of one text is not that text

@@ -219,7 +219,7 @@ static void read_collected(const collection_scene *s, const study_prepared *p,
 /* A table of a result; to be freed. NULL if there is none. */
 static stream *take_table(const char *result, const char *name, const char *path, trial *t)
 {
-    const char *const arguments[] = {"table", result, name, "--as", "stream", "-o", path, NULL};
+    const char *const arguments[] = {"table", result, name, "--format", "stream", "-o", path, NULL};
     return trial_run(t, arguments) ? stream_read(path) : NULL;
 }
 

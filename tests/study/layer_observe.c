@@ -222,7 +222,7 @@ static bool run_command(const layer_context *s, const words *w, const char *mate
                                     "-o",
                                     grown,
                                     "--no-provenance",
-                                    s->severity > 0 ? "--existence" : slope,
+                                    s->severity > 0 ? "--regime-map" : slope,
                                     s->severity > 0 ? NULL : w->slope,
                                     "--ratio-frequency",
                                     w->reference,

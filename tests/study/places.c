@@ -86,9 +86,9 @@ const place place_shared = {"shared_constants", "value", NULL, "value_low", "val
 const place place_pair = {"ratio_pairs", "ratio", NULL, "ratio_low", "ratio_high"};
 static const char bands[] = "layer_bands", grown[] = "running_in";
 const place place_last_thickness = {bands, "last_thickness", "standard_error", NULL, NULL};
-const place place_first_appearance = {bands, "first_appearance", NULL, "first_appearance_low",
+const place place_first_appearance = {bands, "onset_time", NULL, "first_appearance_low",
                                       "first_appearance_high"};
-const place place_edge_velocity = {"existence", "to_velocity", NULL, "to_velocity_low",
+const place place_edge_velocity = {"layer_regime_map", "to_velocity", NULL, "to_velocity_low",
                                    "to_velocity_high"};
 const place place_settled = {grown, "settled", NULL, "settled_low", "settled_high"};
 const place place_end_friction = {grown, "balance_friction", "standard_error", NULL, NULL};

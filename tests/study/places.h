@@ -85,10 +85,10 @@ extern const place place_needed_wear, place_needed_energy;
 #define PLACE_CURVE "verdict" /* in `place_modulus.table`, of a curve: */
 #define PLACE_ACCEPTED "accepted"
 #define PLACE_DOUBTFUL "doubtful"
-#define PLACE_POOLED_CHANCE "pooled_misfit_chance" /* in `place_modulus.table` */
+#define PLACE_POOLED_CHANCE "pooled_misfit_p" /* in `place_modulus.table` */
 #define PLACE_DEPTH "modulus_depth"
 #define PLACE_DEPTH_CHANGES "changes_bulk" /* begins with yes, no or cannot say */
-#define PLACE_DEPTH_MISFIT_CHANCE "misfit_chance_bulk"
+#define PLACE_DEPTH_MISFIT_CHANCE "misfit_p_bulk"
 #define PLACE_TEMPERATURE "temperature"     /* [K], beside shift and law */
 #define PLACE_FREQUENCY "angular_frequency" /* [rad/s], beside the moduli */
 #define PLACE_VELOCITY "velocity"

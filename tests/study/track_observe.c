@@ -230,7 +230,7 @@ static bool run_compare(const track_scene *s, const char *const *files, const ch
     char scatter[32];
     snprintf(scatter, sizeof scatter, "%g", s->spot_scatter[0]);
     if (s->scatter_given)
-        say(&w, "--spot-scatter", scatter);
+        say(&w, "--between-spot-sd", scatter);
     if (s->warmth == WARMER_UNSAID) {
         const char *rubber = trial_file(t, "rubber.tsv");
         if (write_rubber(s, rubber) != 0)

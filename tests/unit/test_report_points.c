@@ -153,8 +153,8 @@ static void test_groups(void **state)
         {"modulus_rate", "group", {"bulk", "track"}},
         {"track_layer", "curve", {"bulk", "track", "thinnest layer", "layer of the theory"}},
         {"materials", "material", {"soft", FIXTURE_EVIL}},
-        {"common_law", "sample", {"NR", "SBR 10%"}},
-        {"directions", "factors", {"none", "loss", "storage", "both"}}};
+        {"shared_shift_law", "sample", {"NR", "SBR 10%"}},
+        {"transverse_isotropy", "factors", {"none", "loss", "storage", "both"}}};
     for (size_t i = 0; i < sizeof by_group / sizeof *by_group; i++) {
         sections s = begin_sections(by_group[i].figure);
         for (size_t k = 0; k < 4 && by_group[i].group[k] != NULL; k++)
@@ -359,7 +359,7 @@ static void add_tics(char *tics, size_t size, size_t place_of, const wt_table *t
         if (strcmp(text_cell(t, row, "choice"), choice) != 0 ||
             !isfinite(number_cell(t, row, column)))
             continue;
-        const char *words = text_cell(t, row, "tried"), *unit = strrchr(words, ' ');
+        const char *words = text_cell(t, row, "alternative"), *unit = strrchr(words, ' ');
         const size_t used = strlen(tried), length = unit == NULL ? 0 : strlen(unit);
         if (length > 0 && used > length && strcmp(tried + used - length, unit) == 0)
             tried[used - length] = '\0';

@@ -151,9 +151,9 @@ static void answer_in_short(const answer_context *story)
     t.used = 0;
     if (story->found.layer.table != NULL) {
         append_thickness(&t, &story->found);
-        if (story->layer_balances.table != NULL) {
+        if (story->layer_feedback.table != NULL) {
             text_append(&t, "; ");
-            append_balance(&t, &story->layer_balances);
+            append_balance(&t, &story->layer_feedback);
         }
         say_short(story, thickness, text);
     } else
@@ -553,8 +553,8 @@ static wt_status bind_tables(const wt_result *result, answer_context *story, wt_
         {&validation_sources_schema, "", &story->validation_sources},
         {&validation_running_in_schema, "", &story->validation_running_in},
         {&layer_bands_schema, "", &story->layer_bands},
-        {&layer_balances_schema, "", &story->layer_balances},
-        {&existence_schema, "", &story->existence},
+        {&layer_feedback_schema, "", &story->layer_feedback},
+        {&layer_regime_map_schema, "", &story->existence},
         {&running_in_schema, "", &story->running_in},
         {&track_layer_schema, "", &story->track_layer},
         {&identification_schema, "", &story->identification},

@@ -36,7 +36,7 @@ typedef struct answer_context {
     table_view power_spectrum, surfaces; /* of a measured counter surface */
     table_view record, wear;
     table_view validation, validation_sources, validation_running_in;
-    table_view layer_bands, layer_balances, existence, running_in, track_layer, identification;
+    table_view layer_bands, layer_feedback, existence, running_in, track_layer, identification;
     table_writer *answer;
     caveat *caveats;
     size_t n_caveats;

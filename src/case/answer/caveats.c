@@ -427,7 +427,7 @@ static void layer_caveats(answer_context *story)
                 "measured thicknesses. ",
                 closure != NULL ? "activated" : "energy");
     const char *const but =
-        story->layer_balances.table != NULL ? " but in the table layer_balances" : "";
+        story->layer_feedback.table != NULL ? " but in the table layer_feedback" : "";
     if (energy_from != NULL)
         text_append(&t, "What modifies the rubber is %s; the layer does not act back on it%s.",
                     energy_from, but);

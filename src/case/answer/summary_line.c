@@ -89,19 +89,19 @@ static void say_common_law(sentence *s, const table_view *v)
 {
     if (v->table == NULL)
         return;
-    const char *settled = common_law_words(v, COMMON_LAW_KEY_SETTLED_BY);
-    const char *without = common_law_words(v, COMMON_LAW_KEY_LEFT_OUT);
-    const wt_estimate c1 = common_law_value(v, COMMON_LAW_KEY_WLF_C1);
+    const char *settled = shared_shift_law_words(v, SHARED_SHIFT_LAW_KEY_SETTLED_BY);
+    const char *without = shared_shift_law_words(v, SHARED_SHIFT_LAW_KEY_LEFT_OUT);
+    const wt_estimate c1 = shared_shift_law_value(v, SHARED_SHIFT_LAW_KEY_WLF_C1);
     next(s);
-    say(s, "one law: %s", common_law_words(v, COMMON_LAW_KEY_AGREE));
+    say(s, "one law: %s", shared_shift_law_words(v, SHARED_SHIFT_LAW_KEY_AGREE));
     if (settled != NULL)
         say(s, "; what would settle it: %s", settled);
     if (without != NULL)
         say(s, "; left out: %s", without);
     if (!isnan(c1.value))
         say(s, "; WLF C1 = %s, C2 = %s, reference temperature %s", format_estimate(c1).text,
-            format_estimate(common_law_value(v, COMMON_LAW_KEY_WLF_C2)).text,
-            common_law_words(v, COMMON_LAW_KEY_MOVED));
+            format_estimate(shared_shift_law_value(v, SHARED_SHIFT_LAW_KEY_WLF_C2)).text,
+            shared_shift_law_words(v, SHARED_SHIFT_LAW_KEY_MOVED));
 }
 
 static void say_material(sentence *s, const table_view *v)
@@ -434,7 +434,7 @@ size_t wt_result_sentence(const wt_result *result, char *buffer, size_t size)
                  {&modulus_groups_schema, say_groups},
                  {&comparison_schema, say_ratio},
                  {&material_ratio_schema, say_materials},
-                 {&common_law_schema, say_common_law},
+                 {&shared_shift_law_schema, say_common_law},
                  {&shift_factors_schema, say_material},
                  {&glass_transition_schema, say_transition},
                  {&payne_schema, say_payne},
@@ -442,7 +442,7 @@ size_t wt_result_sentence(const wt_result *result, char *buffer, size_t size)
                  {&wear_schema, say_wear},
                  {&friction_schema, say_friction},
                  {&layer_schema, say_layer},
-                 {&layer_balances_schema, say_balance},
+                 {&layer_feedback_schema, say_balance},
                  {&identification_schema, say_identification},
                  {&shared_pairs_schema, say_shared_pairs},
                  {&validation_schema, say_validation},

@@ -251,9 +251,9 @@ wt_status wt_plan(const wt_case *c, wt_table **result, wt_error *err)
         plan_put_text(&t, PLAN_STAGE, flow_stages[i].id);
         plan_put_text(&t, PLAN_TITLE, title);
         plan_put(&t, PLAN_RUNS, plan.chosen[i]);
-        plan_put_text(&t, PLAN_BECAUSE, plan.because[i]);
+        plan_put_text(&t, PLAN_REASON, plan.because[i]);
         plan_put_text(&t, PLAN_NEEDS, needs);
-        plan_put_text(&t, PLAN_GIVES, gives);
+        plan_put_text(&t, PLAN_PRODUCES, gives);
     }
     return table_end(&t, result);
 }

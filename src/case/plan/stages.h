@@ -85,9 +85,9 @@ typedef enum flow_optional_output {
     X(CONTACT_AREA, contact_area, "Contact area against magnification",                            \
       B(RUBBER) | B(SURFACE) | B(CONDITIONS), 0, FLOW_NO_MORE, B(CONTACT_AREA),                    \
       flow_step_contact_area)                                                                      \
-    X(DIRECTIONS, directions, "What the directions of the material do",                            \
+    X(TRANSVERSE_ISOTROPY, transverse_isotropy, "What the directions of the material do",          \
       B(RUBBER) | B(SURFACE) | B(CONDITIONS) | B(GIVEN_DIRECTIONS), 0, FLOW_NO_MORE,               \
-      B(DIRECTIONS), flow_step_directions)                                                         \
+      B(TRANSVERSE_ISOTROPY), flow_step_directions)                                                \
     X(SOFTENING_EFFECT, softening_effect, "What softening with strain does",                       \
       B(RUBBER) | B(SURFACE) | B(CONDITIONS) | B(SOFTENING), 0, FLOW_NO_MORE, B(SOFTENING_EFFECT), \
       flow_step_softening_effect)                                                                  \
@@ -107,13 +107,13 @@ typedef enum flow_optional_output {
       B(RUBBER) | B(SURFACE) | B(CONDITIONS) | B(LAYER_PARAMETERS) | B(MODULUS_RATIO) |            \
           B(ASKED_RUNNING_IN),                                                                     \
       0, FLOW_NO_MORE, B(RUNNING_IN), flow_step_running_in)                                        \
-    X(LAYER_BALANCES, layer_balances, "Balances of a layer that acts back on its energy",          \
+    X(LAYER_FEEDBACK, layer_feedback, "Balances of a layer that acts back on its energy",          \
       B(RUBBER) | B(SURFACE) | B(CONDITIONS) | B(LAYER_PARAMETERS) | B(MODULUS_RATIO) |            \
           B(ASKED_FEEDBACK),                                                                       \
-      0, FLOW_NO_MORE, B(LAYER_BALANCES), flow_step_layer_balances)                                \
-    X(EXISTENCE, existence, "Where a layer exists",                                                \
-      B(RUBBER) | B(SURFACE) | B(CONDITIONS) | B(LAYER_PARAMETERS) | B(ASKED_EXISTENCE), 0,        \
-      FLOW_AND_RATIO, B(EXISTENCE), flow_step_existence)                                           \
+      0, FLOW_NO_MORE, B(LAYER_FEEDBACK), flow_step_layer_feedback)                                \
+    X(LAYER_REGIME_MAP, layer_regime_map, "Where a layer exists",                                  \
+      B(RUBBER) | B(SURFACE) | B(CONDITIONS) | B(LAYER_PARAMETERS) | B(ASKED_REGIME_MAP), 0,       \
+      FLOW_AND_RATIO, B(LAYER_REGIME_MAP), flow_step_existence)                                    \
     X(IDENTIFICATION, identification, "Critical energy and wear rate of the layer that is seen",   \
       B(RUBBER) | B(SURFACE) | B(CONDITIONS) | B(ASKED_IDENTIFICATION), 0, FLOW_AND_WEAR,          \
       B(IDENTIFICATION), flow_step_identification)                                                 \

@@ -210,7 +210,7 @@ static wt_status publish_stages(run_execution *d, wt_error *err)
         const table_schema *schema;
         flow_things things;
         wt_table **table;
-    } of_both[] = {{&choices_schema, fits, &r->curves.choices},
+    } of_both[] = {{&overrides_schema, fits, &r->curves.choices},
                    {&curves_schema, fits, &r->curves.curves},
                    {&force_displacement_schema, curves, &r->curves.force_displacement},
                    {&force_indentation_schema, curves, &r->curves.force_indentation},

@@ -424,7 +424,8 @@ wt_status flow_step_friction(flow_run *run, wt_error *err)
 wt_status flow_step_directions(flow_run *run, wt_error *err)
 {
     const wt_sliding sliding = flow_run_sliding(run);
-    return wt_directions_make(&sliding, &run->job, &run->table[FLOW_DIRECTIONS], err);
+    return wt_transverse_isotropy_make(&sliding, &run->job, &run->table[FLOW_TRANSVERSE_ISOTROPY],
+                                       err);
 }
 
 wt_status flow_step_softening_effect(flow_run *run, wt_error *err)

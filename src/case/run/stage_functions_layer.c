@@ -21,13 +21,13 @@ wt_status flow_step_running_in(flow_run *run, wt_error *err)
                            : status;
 }
 
-wt_status flow_step_layer_balances(flow_run *run, wt_error *err)
+wt_status flow_step_layer_feedback(flow_run *run, wt_error *err)
 {
     const wt_sliding sliding = flow_run_sliding(run);
     wt_layer_observation known;
     const wt_status status = flow_run_known_layer(run, &known, err);
     return status == WT_OK ? wt_layer_balances_make(&sliding, &run->layer, &known, &run->job,
-                                                    &run->table[FLOW_LAYER_BALANCES], err)
+                                                    &run->table[FLOW_LAYER_FEEDBACK], err)
                            : status;
 }
 
@@ -37,8 +37,8 @@ wt_status flow_step_existence(flow_run *run, wt_error *err)
     wt_layer_observation known;
     const wt_status status = run->level > 0 ? flow_run_known_layer(run, &known, err) : WT_OK;
     return status == WT_OK
-               ? wt_existence_make(&sliding, &run->layer, run->level > 0 ? &known : NULL, &run->job,
-                                   &run->table[FLOW_EXISTENCE], err)
+               ? wt_layer_regime_map_make(&sliding, &run->layer, run->level > 0 ? &known : NULL,
+                                          &run->job, &run->table[FLOW_LAYER_REGIME_MAP], err)
                : status;
 }
 

@@ -43,12 +43,19 @@ const wt_param *wt_params_get(const wt_params *params, size_t i)
     return param_at(params, i, &offset);
 }
 
-/* Returns the index of a parameter in the table; the number of parameters if there is none. */
+/* True if this is the name of the parameter, or its name in an earlier version. */
+static bool is_named(const wt_param *param, const char *name)
+{
+    return strcmp(param->name, name) == 0 ||
+           (param->former != NULL && strcmp(param->former, name) == 0);
+}
+
+/* Its number in the table; that of all if there is none. */
 static size_t param_number(const wt_params *params, const char *name)
 {
     const size_t n = wt_params_count(params);
     size_t i = 0;
-    while (i < n && strcmp(wt_params_get(params, i)->name, name) != 0)
+    while (i < n && !is_named(wt_params_get(params, i), name))
         i++;
     return i;
 }

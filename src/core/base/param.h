@@ -2,7 +2,7 @@
  * next to its function of defaults. The default of a member is the value that this function sets.
  *
  *     static const wt_param rows[] = {
- *         {PARAM("duty", wt_layer_job, duty, WT_Q_NONE, ABOVE_TO(0, 1)), .value = "X",
+ *         {PARAM("duty-cycle", wt_layer_job, duty, WT_Q_NONE, ABOVE_TO(0, 1)), .value = "X",
  *          .help = "share of the time in contact"},
  *     };
  *     PARAM_TABLE(wt_layer_job_params, wt_layer_job, rows, wt_layer_job_defaults, NO_PARTS)
@@ -58,8 +58,8 @@ struct wt_param {
     wt_quantity quantity;
     param_limits limits;
     size_t offset, count_offset, size;
-    const char *value; /* placeholder of the value in the help, or the names of the choices
-                          separated by '|' */
+    const char *former; /* name in an earlier version: accepted, but not shown; NULL for most */
+    const char *value;  /* what stands for the value in the help, or the choices parted by '|' */
     const char *help;
     const char
         *unset; /* text for NaN, NULL or an empty list, which are then allowed; "" without a text */

@@ -5,7 +5,10 @@
 
 #include "core/base/param.h"
 
-/* clang-format off: one record in each line */
+/* Default relative numerical error of a job and of the friction kernel. */
+#define DEFAULT_TOLERANCE 1e-10
+
+/* clang-format off: one a line */
 
 #define FRICTION_TOLERANCE(type)                                                                   \
     {                                                                                              \
@@ -111,8 +114,8 @@
      .value = "K", .unset = (wear_unset), .help = "k, such as \"1e-3mm^3/(N m)\""},                \
         {PARAM("damage", type, damage, WT_Q_NONE, ABOVE(0)), .value = "L",                         \
          .help = "Lambda, at which the rubber counts as modified"},                                \
-        {PARAM("duty", type, duty, WT_Q_NONE, ABOVE_TO(0, 1)), .value = "X",                       \
-         .help = "share of the time in contact; with 1, times are contact times"},                 \
+        {PARAM("duty-cycle", type, duty, WT_Q_NONE, ABOVE_TO(0, 1)), .former = "duty",             \
+         .value = "X", .help = "share of the time in contact; with 1, times are contact times"},   \
         {PARAM("start-thickness", type, start_thickness, WT_Q_LENGTH, AT_LEAST(0)), .value = "D",  \
          .help = "of the layer at time 0"},                                                        \
     {                                                                                              \

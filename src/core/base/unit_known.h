@@ -6,8 +6,9 @@
 #include <stdbool.h>
 #include <stddef.h>
 
-/* Reading the UDUNITS database takes as long as fitting several force curves. Most runs need only
- * these units. The test unit_base_units compares every factor with UDUNITS bit by bit. */
+/* Reading the database of UDUNITS takes as long as fitting several force curves, and most runs need
+ * nothing of it but these. unit_core_units holds each of them against UDUNITS for every quantity,
+ * bit by bit. */
 typedef struct known_unit {
     const char *text, *si;
     double factor, offset;

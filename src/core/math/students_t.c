@@ -5,6 +5,7 @@
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #include "core/math/students_t.h"
 #include "core/base/array.h"
+#include "weartrack/base.h"
 
 #include <gsl/gsl_cdf.h>
 #include <math.h>
@@ -35,7 +36,12 @@ double students_t_quantile(double df)
     return isinf(df) ? gsl_cdf_ugaussian_Pinv(p) : gsl_cdf_tdist_Pinv(p, df);
 }
 
-/* The upper tail keeps the significant digits. */
+double wt_student(double freedom)
+{
+    return students_t_quantile(freedom);
+}
+
+/* From the side of the tail, which keeps its digits. */
 double students_t_of_normal(double z, double df)
 {
     return copysign(gsl_cdf_tdist_Qinv(gsl_cdf_ugaussian_Q(fabs(z)), df), z);

@@ -7,10 +7,10 @@
 #include "core/system/file_signatures.h"
 #include "core/table/table.h"
 
-/* Version of the layout in the root attribute "weartrack_format". A file with a map of force curves
- * has a separate version. A program without support for maps then rejects the file instead of
- * losing the curves. */
-enum { STORE_FORMAT = 3, STORE_FORMAT_MAP };
+/* Version of the layout, in the root attribute "weartrack_format". A file with a map of force
+ * curves has one of its own, so that a program that knows none does not lose the curves. Layouts 3
+ * and 4 differ from 5 and 6 by names of tables and columns alone (former_names.h). */
+enum { STORE_FORMAT_OLDEST = 3, STORE_FORMAT = 5, STORE_FORMAT_MAP };
 
 #define STORE_VERSION_ATTRIBUTE "weartrack_version"
 #define STORE_COMMAND_ATTRIBUTE "command"

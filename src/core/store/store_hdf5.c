@@ -417,9 +417,9 @@ static bool check_format(reader *r)
         H5Aread(attribute, H5T_NATIVE_INT, &format) < 0) {
         r->status = wt_fail(r->err, WT_E_FORMAT, "not a result file of weartrack");
         wt_error_expected(r->err, "the attribute \"%s\"", STORE_FORMAT_ATTRIBUTE);
-    } else if (format < STORE_FORMAT || format > STORE_FORMAT_MAP) {
+    } else if (format < STORE_FORMAT_OLDEST || format > STORE_FORMAT_MAP) {
         r->status = wt_fail(r->err, WT_E_UNSUPPORTED, "result file of another version");
-        wt_error_expected(r->err, "layout %d or %d", STORE_FORMAT, STORE_FORMAT_MAP);
+        wt_error_expected(r->err, "layout %d to %d", STORE_FORMAT_OLDEST, STORE_FORMAT_MAP);
         wt_error_found(r->err, "%d", format);
         wt_error_advice(
             r->err,

@@ -1,6 +1,7 @@
 /* Reads results from the HDF5 store. The data from the sandbox must be complete and agree with
  * their digests. SPDX-License-Identifier: GPL-3.0-or-later */
 #include "core/store/store.h"
+#include "core/table/former_names.h"
 #include "core/table/table_bytes.h"
 
 #include "core/base/provenance.h"
@@ -82,7 +83,11 @@ static wt_status take_tables(const store_parts *p, wt_result *result, wt_error *
             status = check_digest(from, at, digest, table->name, err);
         digest += STORE_DIGEST_SIZE;
         if (status == WT_OK && i < p->tail.n_tables) {
-            status = wt_result_add(result, table, err);
+            status = table_use_current_names(table, err);
+            if (status == WT_OK)
+                status = wt_result_add(result, table, err);
+            else
+                wt_table_free(table);
             continue;
         }
         if (status == WT_OK)

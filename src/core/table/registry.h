@@ -84,7 +84,7 @@
     X(force_indentation, FORCE_INDENTATION, "force_indentation", "Force against indentation",      \
       "indent")                                                                                    \
     X(curves, CURVES, "curves", "Curves to look at", "indent")                                     \
-    X(choices, CHOICES, "choices", "What was chosen by hand", "indent")                            \
+    X(overrides, OVERRIDES, "overrides", "What was chosen by hand", "indent")                      \
     X(modulus_depth, MODULUS_DEPTH, "modulus_depth", "Modulus against depth", "indent")            \
     X(dwell, DWELL, "dwell", "Dwells", "dwell")                                                    \
     X(dwell_points, DWELL_POINTS, "dwell_points", "Modulus against time in the dwells", "dwell")   \
@@ -124,7 +124,8 @@
     X(ratio_pairs, RATIO_PAIRS, "ratio_pairs", "Modulus ratios of cases against one another",      \
       "collect")                                                                                   \
     X(shift_factors, SHIFT_FACTORS, "shift_factors", "Shift factors", "master")                    \
-    X(common_law, COMMON_LAW, "common_law", "One law for several samples", "master")               \
+    X(shared_shift_law, SHARED_SHIFT_LAW, "shared_shift_law", "One law for several samples",       \
+      "master")                                                                                    \
     X(master_curve, MASTER_CURVE, "master_curve", "Master curve", "master")                        \
     X(prony, PRONY, "prony", "Prony series", "master")                                             \
     X(relaxation_spectrum, RELAXATION_SPECTRUM, "relaxation_spectrum", "Relaxation spectrum",      \
@@ -156,7 +157,8 @@
     X(friction, FRICTION, "friction", "Friction against velocity", "friction")                     \
     X(contact_area, CONTACT_AREA, "contact_area", "Contact area against magnification",            \
       "friction")                                                                                  \
-    X(directions, DIRECTIONS, "directions", "What the directions of the material do", "friction")  \
+    X(transverse_isotropy, TRANSVERSE_ISOTROPY, "transverse_isotropy",                             \
+      "What the directions of the material do", "friction")                                        \
     X(softening, SOFTENING, "softening", "What softening with strain does", "friction")            \
     X(anisotropy, ANISOTROPY, "anisotropy", "What the direction of sliding does", "friction")      \
     X(friction_map, FRICTION_MAP, "friction_map",                                                  \
@@ -170,9 +172,9 @@
       "Critical energy and wear rate of a layer", "identify")                                      \
     X(layer_bands, LAYER_BANDS, "layer_bands", "Modified bands in time", "layer")                  \
     X(running_in, RUNNING_IN, "running_in", "Friction with the layer in running-in", "layer")      \
-    X(layer_balances, LAYER_BALANCES, "layer_balances",                                            \
+    X(layer_feedback, LAYER_FEEDBACK, "layer_feedback",                                            \
       "Balances of a layer that acts back on its energy", "layer")                                 \
-    X(existence, EXISTENCE, "existence", "Where a layer exists", "layer")                          \
+    X(layer_regime_map, LAYER_REGIME_MAP, "layer_regime_map", "Where a layer exists", "layer")     \
     X(what_if, WHAT_IF, "what_if", "What if a choice of the model were another", "friction")       \
     X(validation, VALIDATION, "validation", "Measured friction against predicted friction",        \
       "validate")                                                                                  \

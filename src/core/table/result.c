@@ -1,5 +1,5 @@
-/* Results: the tables of one run with their provenance. SPDX-License-Identifier:
- * GPL-3.0-or-later */
+/* Results: the tables of one run. SPDX-License-Identifier: GPL-3.0-or-later */
+#include "core/table/former_names.h"
 #include "core/table/table.h"
 
 #include "core/base/array.h"
@@ -90,8 +90,9 @@ const wt_table *wt_result_table(const wt_result *result, size_t i)
 
 const wt_table *wt_result_find(const wt_result *result, const char *name)
 {
+    const char *current = table_current_name(name);
     for (size_t i = 0; i < result->n; i++) {
-        if (strcmp(result->tables[i]->name, name) == 0)
+        if (strcmp(result->tables[i]->name, current) == 0)
             return result->tables[i];
     }
     return NULL;

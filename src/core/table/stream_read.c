@@ -1,5 +1,6 @@
-/* Reads tables from a text stream. All input is validated, because a stream may have been edited by
- * hand or by another program. SPDX-License-Identifier: GPL-3.0-or-later */
+/* The text stream to tables. Nothing is taken on trust: a stream may have been edited by hand or by
+ * another program. SPDX-License-Identifier: GPL-3.0-or-later */
+#include "core/table/former_names.h"
 #include "core/table/stream.h"
 #include "core/table/table.h"
 
@@ -300,6 +301,8 @@ wt_status wt_stream_read(FILE *in, const char *name, wt_table **table, wt_error 
     if (status == WT_OK && !header)
         status = corrupt(&r, 0, "a table without a header line",
                          "a header line \"# name[unit]<TAB>name[unit]...\"", NULL, err);
+    if (status == WT_OK && r.named)
+        status = table_use_current_names(r.table, err);
     if (status == WT_OK) {
         *table = r.table;
         r.table = NULL;

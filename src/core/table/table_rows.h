@@ -6,10 +6,10 @@
  *               double indentation, force, fitted_force;)
  *     TABLE_ADD(force_indentation, &writer, group, delta[i], shown[i], model[i]);
  *
- * TABLE_ADD begins a row and sets all cells that a member shows; other cells are set afterwards.
- * TABLE_KEYS and TABLE_SET do the same for keys; an optional key is omitted if it is NaN, NULL or
- * "". An estimate or an interval also fills the columns of its errors and limits, if they exist.
- * The test unit_tables_shown checks all of them.
+ * TABLE_ADD begins a row and puts all that its members show; what none shows is put behind it.
+ * TABLE_KEYS and TABLE_SET do the same for keys: those that are optional are left out if they are
+ * NaN, NULL or "". A column that is an estimate or an interval fills the columns of its errors and
+ * ends, as far as it has them. unit_case_tables_members looks at all of them.
  *
  * SPDX-License-Identifier: GPL-3.0-or-later */
 #ifndef WT_CORE_TABLE_TABLE_ROWS_H

@@ -193,7 +193,7 @@ void master_notes(const master_work *work, const wt_sweep *sweep, wt_master *m, 
         m->superposition != WT_SUPERPOSITION_HOLDS)
         wt_log_add(log, WT_WARNING, NULL, NULL, "time-temperature superposition %s%s%s",
                    m->superposition == WT_SUPERPOSITION_FAILS ? "fails" : "cannot be judged",
-                   isnan(m->holds_from) ? ": " : " ", m->because);
+                   isnan(m->valid_from) ? ": " : " ", m->because);
     if (m->law.kind != WT_LAW_NONE && m->law_rms > master_largest_sigma)
         wt_log_add(log, WT_WARNING, NULL, NULL,
                    "the law of the shift factors is %.2g decade off them (rms): it is none of "

@@ -426,7 +426,7 @@ wt_status master_report(master_work *work, const wt_sweep *sweep, wt_log *log, w
         return status;
     }
     m.superposition = WT_SUPERPOSITION_CANNOT_SAY;
-    m.holds_from = m.holds_to = (double)NAN;
+    m.valid_from = m.valid_to = (double)NAN;
     m.lack_of_fit_p = (double)NAN;
     if (!work->options.series_only)
         master_assess(work, &m);

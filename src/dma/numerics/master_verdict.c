@@ -7,9 +7,10 @@
 #include <math.h>
 #include <string.h>
 
-/* Significance level of the lack of fit, including the uncertainty of the noise, for both tests
- * of superposition.c together. At most one valid sweep in a hundred fails. A lower level misses
- * second processes (unit_fit_master); at 0.05 one valid sweep of twenty fails. */
+/* Lack of fit is real below this probability, with what is not known of the noise. The customary
+ * level, one wrong "fails" in a hundred sweeps at most, of the two counts of superposition.c
+ * together. A smaller one misses second processes (unit_dma_master_fit); at 0.05 one sound sweep of
+ * twenty would fail. */
 static const double significant = 0.01;
 /* Level below which superposition is not reported to hold, with the noise as estimated. The
  * estimated noise factors make small probabilities a few times too small. */
@@ -78,15 +79,15 @@ static void because_gross(const master_work *work, wt_master *m)
     const double *missed = work->part ? work->missed_whole : work->missed;
     if (work->part) {
         const bool cold = work->first > 0, warm = work->last + 1 < work->set.n;
-        m->holds_from = c[work->first].temperature;
-        m->holds_to = c[work->last].temperature;
+        m->valid_from = c[work->first].temperature;
+        m->valid_to = c[work->last].temperature;
         if (cold)
             at += clocale_print(at, 32, "up to %.1f °C%s", c[work->first - 1].temperature - zero,
                                 warm ? " and " : "");
         if (warm)
             at += clocale_print(at, 32, "from %.1f °C on", c[work->last + 1].temperature - zero);
-        clocale_print(at, 64, ", holds from %.1f to %.1f °C: ", m->holds_from - zero,
-                      m->holds_to - zero);
+        clocale_print(at, 64, ", holds from %.1f to %.1f °C: ", m->valid_from - zero,
+                      m->valid_to - zero);
     }
     clocale_print(
         m->because, sizeof m->because,
@@ -113,7 +114,7 @@ void master_assess(const master_work *work, wt_master *m)
     m->loss_factor = tested ? lack->factor : (double)NAN;
     m->loss_factor_error = tested ? lack->factor_error : (double)NAN;
     m->superposition = WT_SUPERPOSITION_CANNOT_SAY;
-    m->holds_from = m->holds_to = (double)NAN;
+    m->valid_from = m->valid_to = (double)NAN;
     if (!both) {
         clocale_print(m->because, sizeof m->because,
                       "%s alone does not tell; storage and loss modulus together would",

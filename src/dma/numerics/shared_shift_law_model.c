@@ -107,9 +107,9 @@ static double middle_temperature(const law_member *m)
     return sum / (double)m->n;
 }
 
-/* Returns the difference of the separate law of a sample from the shared one, relative to its
- * mean temperature. The error is that of the separate law. The reduction by the shared law
- * (Hausman 1978) is not known well enough for few isotherms (tests/unit/test_fit_common_law.c). */
+/* What a sample's own law has more than the common one, from the middle of its isotherms on, with
+ * the error of its own law: what the common one takes away from it (Hausman 1978) is not known well
+ * enough of so few isotherms (tests/unit/test_dma_shared_shift_law_fit.c). */
 static wt_interval own_less_common(const law_samples *c, size_t k, const solution one[LAW_SPREADS],
                                    const solution own[LAW_SPREADS], double temperature)
 {

@@ -1,20 +1,16 @@
-/* Anisotropic roughness: its check, and its weight in the angular integrals as polynomials in cos^2
- * phi.
+/* Weight of an anisotropic roughness in the angular integrals, as polynomials in cos^2 phi.
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
 #include "friction/numerics/angular_weight.h"
+
+#include "surface/law/anisotropy.h"
 
 #include <float.h>
 #include <math.h>
 #include <string.h>
 
 /* ---- anisotropy ------------------------------------------------------------------------------ */
-
-static double order_of(size_t k)
-{
-    return 2 * (double)(k + 1);
-}
 
 bool anisotropy_is_any(const wt_anisotropy *a)
 {
@@ -27,12 +23,12 @@ bool anisotropy_is_any(const wt_anisotropy *a)
 /* Amplitudes of cos(m phi) and of sin(m phi). */
 static void split_order(const wt_anisotropy *a, size_t k, double *even, double *odd)
 {
-    /* whole turns are removed, so that grooves across and along the sliding are exact */
-    const double turn = remainder(order_of(k) * a->angle[k], 2 * M_PI);
+    /* a whole number of turns off, so that grooves across and along are exact */
+    const double turn = remainder(anisotropy_order(k) * a->angle[k], 2 * M_PI);
     *even = a->amplitude[k] * cos(turn);
     *odd = a->amplitude[k] * sin(turn);
-    /* pi is rounded: the residual of m chi = pi is set to 0 */
-    if (fabs(*odd) <= 4 * DBL_EPSILON * (1 + fabs(order_of(k) * a->angle[k])) * fabs(*even))
+    /* pi is rounded: what m chi = pi leaves is nothing */
+    if (fabs(*odd) <= 4 * DBL_EPSILON * (1 + fabs(anisotropy_order(k) * a->angle[k])) * fabs(*even))
         *odd = 0;
 }
 
@@ -45,43 +41,6 @@ bool anisotropy_is_aside(const wt_anisotropy *a)
             return true;
     }
     return false;
-}
-
-double wt_anisotropy_density(const wt_anisotropy *anisotropy, double angle)
-{
-    double density = 1;
-    for (size_t k = 0; k < WT_ANISOTROPY_ORDERS; k++)
-        density += anisotropy->amplitude[k] * cos(order_of(k) * (angle - anisotropy->angle[k]));
-    return density;
-}
-
-/* Number of directions tested: sixteen in a period of the highest order. Between two of them the
- * density changes by at most 1 - cos(pi / 16), 2 % of the amplitude. */
-enum { DIRECTIONS = 16 * WT_ANISOTROPY_ORDERS };
-
-wt_status wt_anisotropy_check(const wt_anisotropy *anisotropy, wt_error *err)
-{
-    double least = (double)INFINITY, where = 0;
-    for (size_t k = 0; k < WT_ANISOTROPY_ORDERS; k++)
-        if (!isfinite(anisotropy->amplitude[k]) || !isfinite(anisotropy->angle[k]))
-            return wt_fail(err, WT_E_RANGE, "an anisotropy of the roughness must be finite");
-    for (size_t i = 0; i < DIRECTIONS; i++) {
-        const double angle = M_PI * (double)i / DIRECTIONS;
-        const double density = wt_anisotropy_density(anisotropy, angle);
-        if (density < least) {
-            least = density;
-            where = angle;
-        }
-    }
-    if (least >= -8 * WT_ANISOTROPY_ORDERS * DBL_EPSILON)
-        return WT_OK;
-    wt_fail(err, WT_E_RANGE, "the anisotropy makes the power spectrum negative");
-    wt_error_place(err, "%s", anisotropy->amplitude[0] != 0 ? "anisotropy" : "anisotropy-fourth");
-    wt_error_expected(err, "a density of at least 0 in every direction");
-    wt_error_found(err, "%.3g of the mean at %.0f deg from the velocity", least,
-                   where * 180 / M_PI);
-    wt_error_advice(err, "an anisotropy of one order alone is at most 1");
-    return WT_E_RANGE;
 }
 
 /* ---- weights --------------------------------------------------------------------------------- */
@@ -161,7 +120,7 @@ angular_weight weight_aside(const wt_anisotropy *a, double *shift)
         split_order(a, k, &even, &odd);
         for (size_t j = 0; j < WEIGHT_POWERS; j++)
             w.power[0][j] += 2 * odd * (now[j] - (j > 0 ? now[j - 1] : 0));
-        *shift += order_of(k) * fabs(odd);
+        *shift += anisotropy_order(k) * fabs(odd);
         next_chebyshev(before, now);
     }
     w.power[0][0] += *shift;

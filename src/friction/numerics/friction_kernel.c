@@ -32,7 +32,7 @@ wt_flash wt_flash_defaults(void)
 
 wt_friction_options wt_friction_defaults(void)
 {
-    return (wt_friction_options){.tolerance = 1e-10,
+    return (wt_friction_options){.tolerance = DEFAULT_TOLERANCE,
                                  .gamma = 1,
                                  .layer = {.thickness = 0, .modulus_ratio = 1},
                                  .threads = 1,

@@ -8,7 +8,6 @@
 #include "core/base/param.h"
 #include "weartrack/fit.h"
 
-#include <gsl/gsl_cdf.h>
 #include <math.h>
 #include <stdlib.h>
 
@@ -33,9 +32,7 @@ static const double baseline_share = 0.6;
 /* Smallest rise of the signal in standard deviations of the noise. It determines a slope to some
  * per cent. */
 static const double least_rise = 20;
-/* Probability for intervals of 95 %. */
-static const double level = 0.975;
-/* Standard deviation of a normal distribution over its median absolute deviation. */
+/* Standard deviation of a normal distribution over its median distance from the median. */
 static const double mad_to_deviation = 1.4826;
 
 wt_slope_options wt_slope_defaults(void)
@@ -345,11 +342,6 @@ static size_t count_units(const double *values, const long *units, size_t n, dou
     for (size_t at = 0; at < n; n_units++)
         *sum += unit_mean(values, units, n, &at);
     return n_units;
-}
-
-double wt_student(double freedom)
-{
-    return gsl_cdf_tdist_Pinv(level, freedom);
 }
 
 wt_interval wt_student_mean(const double *values, const long *units, size_t n, size_t *n_units)

@@ -212,8 +212,8 @@ enum { CURVE_E, CURVE_C, CURVE_F0, CURVE_T, CURVE_W, CURVE_N_PARAMETERS };
  * NaN if the baseline is too short. */
 enum { CURVE_WAVES = WT_CURVE_WAVES };
 typedef struct curve_lack {
-    double statistic, chance; /* F statistic of the contact part and its p value */
-    double baseline_chance;   /* p value of a straight baseline */
+    double statistic, chance; /* of the contact part, and of more than that by noise alone */
+    double baseline_p;        /* that a straight baseline departs as much from a line */
     double wave[CURVE_WAVES]; /* cosines over the contact [N] */
     double window;            /* length of the window of the cosines, up to the end [m] */
     double flat_chance;       /* p value of the flattening of the force at its top */

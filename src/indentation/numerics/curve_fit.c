@@ -46,15 +46,17 @@ static const wt_param rows[] = {
            FROM_BELOW(0, 1)),
      .value = "X",
      .help = "of the contact fit forces from this share of the largest on; the baseline stays"},
-    {PARAM("least-chance", wt_indent_options, least_chance, WT_Q_NONE, FROM_BELOW(0, 1)),
-     .value = "P",
+    {PARAM("misfit-p-threshold", wt_indent_options, least_chance, WT_Q_NONE, FROM_BELOW(0, 1)),
+     .former = "least-chance", .value = "P",
      .help = "residuals that noise makes with a smaller chance are called a misfit; larger calls "
              "more curves so, moduli stay; 0: no misfit is looked for, errors are those of noise "
              "alone"},
-    {PARAM("doubtful-error", wt_indent_options, doubtful_error, WT_Q_NONE, ABOVE(0)), .value = "X",
+    {PARAM("warn-relative-error", wt_indent_options, doubtful_error, WT_Q_NONE, ABOVE(0)),
+     .former = "doubtful-error", .value = "X",
      .help = "mark a modulus as doubtful to which a misfit gives a larger error, as a share of it; "
              "it stays in all means; larger marks fewer"},
-    {PARAM("largest-error", wt_indent_options, largest_error, WT_Q_NONE, ABOVE(0)), .value = "X",
+    {PARAM("max-relative-error", wt_indent_options, largest_error, WT_Q_NONE, ABOVE(0)),
+     .former = "largest-error", .value = "X",
      .help = "leave a modulus with a larger standard error, as a share of it, out of all means; at "
              "0.5 its 95 % interval reaches twice the modulus; smaller keeps fewer, surer curves"},
     {PARAM("fixed-contact-point", wt_indent_options, fixed_contact_point, WT_Q_LENGTH, ANY_NUMBER),
@@ -152,8 +154,8 @@ void curve_fit_empty(wt_indent_fit *fit)
                            .noise = nan_,
                            .correlation_length = nan_,
                            .lack_of_fit = nan_,
-                           .lack_of_fit_chance = nan_,
-                           .baseline_chance = nan_,
+                           .lack_of_fit_p = nan_,
+                           .baseline_p = nan_,
                            .bend_shift = nan_,
                            .max_force = nan_,
                            .max_indentation = nan_,
@@ -301,8 +303,8 @@ static void report(curve_fitting *f, wt_indent_fit *fit)
     fit->loss_error = f->loss_error;
     fit->baseline_curvature = s->curvature;
     fit->lack_of_fit = s->lack.statistic;
-    fit->lack_of_fit_chance = s->lack.chance;
-    fit->baseline_chance = s->lack.baseline_chance;
+    fit->lack_of_fit_p = s->lack.chance;
+    fit->baseline_p = s->lack.baseline_p;
     fit->bend_shift = reduced * s->bend_shift;
     fit->max_indentation = s->max_indentation;
     fit->sensitivity_gain = s->sensitivity_gain;

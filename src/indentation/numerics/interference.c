@@ -216,7 +216,7 @@ static bool find_wave(const curve_fitting *f, curve_wave *wave, bool *slow)
     if (!average(f, &b))
         return false;
     double peak = find_peak(&b);
-    if (f->solution.lack.baseline_chance < bent) { /* searches sines of few cycles */
+    if (f->solution.lack.baseline_p < bent) { /* by few cycles? */
         double most = peak > 0.0 ? fit_sine(&b, peak, wave, NULL) : 0.0;
         for (double number = b.lowest; number < few_cycles * b.cycle && number < b.highest;
              number += 0.25 * b.cycle) {
@@ -263,7 +263,7 @@ bool curve_fit_interference(curve_fitting *f)
     curve_begin_wave(f, &wave);
     if (curve_scan_and_refine(f) && f->solution.converged &&
         curve_wave_amplitude(&f->solution.wave) < wave_again * curve_wave_amplitude(&wave) &&
-        (!slow || !(f->solution.lack.baseline_chance < bent)))
+        (!slow || !(f->solution.lack.baseline_p < bent)))
         return true;
     s->force = f->workspace->force;
     f->kind.wave = (curve_wave){.by_height = false};

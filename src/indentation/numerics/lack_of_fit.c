@@ -153,10 +153,8 @@ curve_lack curve_lack_of_fit(const curve_law *m, const double p[N], const double
     blocks b;
     waves wave;
     const double unknown = (double)NAN;
-    curve_lack lack = {.statistic = unknown,
-                       .chance = unknown,
-                       .baseline_chance = unknown,
-                       .flat_chance = unknown};
+    curve_lack lack = {
+        .statistic = unknown, .chance = unknown, .baseline_p = unknown, .flat_chance = unknown};
     for (int j = 0; j < CURVE_WAVES; j++)
         lack.wave[j] = unknown;
     if (!residual_blocks_average(m, p, e, &b) || b.n <= b.n_columns + COSINES ||
@@ -165,7 +163,7 @@ curve_lack curve_lack_of_fit(const curve_law *m, const double p[N], const double
     const size_t history = b.n_before < MAX_ORDER ? b.n_before : MAX_ORDER;
     lack.window = b.travel;
     if (b.n_before >= BLOCKS_LEAST)
-        lack.baseline_chance = baseline_residual_chance(&b);
+        lack.baseline_p = baseline_residual_chance(&b);
     if (history == MAX_ORDER)
         find_flat_top(m, p, &b, &lack);
     make_waves(&b, wave);

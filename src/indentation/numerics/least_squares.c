@@ -197,9 +197,9 @@ WIDE_REGISTERS static void statistics(const curve_law *m, curve_solution *s)
             gain[a] += row[a] * (h * f - r);
     }
     s->lack = curve_lack_of_fit(m, p, w->scratch);
-    s->bent = s->lack.baseline_chance < bent_chance;
+    s->bent = s->lack.baseline_p < bent_chance;
     const curve_noise noise =
-        curve_noise_of(m, p, w->scratch, first, s->lack.baseline_chance < perhaps_bent);
+        curve_noise_of(m, p, w->scratch, first, s->lack.baseline_p < perhaps_bent);
     s->noise = sqrt(noise.variance);
     s->correlation_length = noise.correlation_length;
     s->effective_n = (double)(n - (samples->gap_to - samples->gap_from)) / noise.correlation_length;

@@ -143,7 +143,7 @@ static bool is_small(const wt_curve_depth *d)
 /* Sets the verdict on the change: significant, irrelevant, or inconclusive. */
 static void judge(const depth_fit *fit, wt_curve_depth *to)
 {
-    to->misfit_chance = fit->chance;
+    to->misfit_p = fit->chance;
     to->verdict = to->chance < level    ? WT_DEPTH_CHANGES
                   : fit->chance < level ? WT_DEPTH_OTHERWISE
                   : is_small(to)        ? WT_DEPTH_SAME
@@ -199,7 +199,7 @@ wt_status wt_curve_depth_make(const wt_contact_table *table, double poisson_rati
                            .by_spot = d.by_spot,
                            .n_lossy = d.n_lossy,
                            .chance = unknown,
-                           .misfit_chance = unknown,
+                           .misfit_p = unknown,
                            .change = nothing,
                            .layer_modulus = nothing,
                            .ground_modulus = nothing,

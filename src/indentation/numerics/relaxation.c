@@ -340,8 +340,8 @@ static void errors_of(const dwell_task *t, const gsl_matrix *covariance, const d
 static void tell_moduli(dwell_task *t, const double *p, const gsl_matrix *covariance, double scale,
                         wt_dwell *to)
 {
-    /* No error is known if the model does not describe the data. */
-    const double known = to->misfit_chance >= least_chance ? 1 : (double)NAN;
+    /* No error is known of what the model does not describe. */
+    const double known = to->misfit_p >= least_chance ? 1 : (double)NAN;
     const double low = ceil(-log10(to->load_time + to->duration) * PER_DECADE),
                  high = floor(-log10(to->load_time) * PER_DECADE);
     for (double at = low; at <= high && to->n < WT_DWELL_FREQUENCIES; at++) {
@@ -373,7 +373,7 @@ static void tell_place(const dwell_task *t, const double *p, const gsl_matrix *c
     const dwell_nodes *n = &t->nodes;
     const size_t last = n->first_free - 1;
     const double k = t->history->spring_constant;
-    const bool described = to->misfit_chance >= least_chance;
+    const bool described = to->misfit_p >= least_chance;
     double gradient[N_PARAMETERS] = {0}, all;
     to->contact_point = t->history->contact_point + p[POINT] * t->unit[POINT];
     to->baseline_offset = p[OFFSET] * t->unit[OFFSET];
@@ -457,7 +457,7 @@ static void tell_relaxation(dwell_task *t, const double *p, double cost,
     }
     to->duration = n->to[n->first_free - 1] - n->from[n->first_held];
     to->misfit = cost / freedom;
-    to->misfit_chance =
+    to->misfit_p =
         chance_of_two(gsl_cdf_chisq_Q(cost, freedom), ripple_chance(t, p, &matrix.matrix));
     tell_points(t, p, to);
     if (to->why_not[0] != '\0')

@@ -50,7 +50,7 @@ static loop_point point_at(loop_search *s, double thickness)
     if (s->status == WT_OK && rates.background > 0) {
         s->status = wt_fail(s->err, WT_E_ARG, "a layer that ages has no balance to act back on");
         wt_error_place(s->err, "ageing");
-        wt_error_advice(s->err, "leave out ageing, or acts-back");
+        wt_error_advice(s->err, "leave out ageing, or feedback");
         layer_rates_clear(&rates);
     }
     if (s->status == WT_OK) {
@@ -242,8 +242,7 @@ wt_status wt_layer_loop_history(wt_layer_energy_fn energy, void *user, const wt_
         wt_fail(err, WT_E_RANGE, "a layer that acts back grows beyond the longest waves");
         wt_error_expected(err, "a balance below %.3g um", 1e6 * loop->high);
         wt_error_found(err, "none, with R = %.3g on a bare surface", loop->ratio);
-        wt_error_advice(err,
-                        "without wear, or with little, it has no balance: leave out acts-back");
+        wt_error_advice(err, "without wear, or with little, it has no balance: leave out feedback");
         return WT_E_RANGE;
     }
     feedback_rate *own = calloc(1, sizeof *own);

@@ -1,0 +1,1479 @@
+/* Every column and key that is declared is put by some run, job or conversion, and none is put that
+ * is not declared. SPDX-License-Identifier: GPL-3.0-or-later */
+#include "report_fixture.h"
+#include "sliding.h"
+#include "truth.h"
+
+#include "case/case.h"
+#include "core/base/array.h"
+#include "core/table/registry.h"
+#include "weartrack/flow.h"
+#include "writers/jpk_writer.h"
+#include "writers/nid_writer.h"
+
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#define CASE WT_SOURCE_DIR "/fixtures/case/"
+#define FORMATS WT_SOURCE_DIR "/fixtures/formats/"
+
+/* What was seen of each schema. */
+typedef struct seen {
+    bool table;
+    uint64_t columns, cells, keys; /* columns, those with a number or text, keys */
+} seen;
+
+enum { MOST = 128 };
+static seen found[MOST];
+static wt_formats *formats;
+
+static bool is_called(const wt_table *table, const table_schema *schema)
+{
+    const size_t length = strlen(schema->name);
+    const char *name = wt_table_name(table);
+    return schema->name[length - 1] == '/' ? strncmp(name, schema->name, length) == 0
+                                           : strcmp(name, schema->name) == 0;
+}
+
+static bool has_all(const wt_table *table, const table_schema *schema)
+{
+    for (size_t i = 0; i < schema->n_columns; i++)
+        if (!schema->columns[i].optional && wt_table_find(table, schema->columns[i].name) < 0)
+            return false;
+    return true;
+}
+
+static bool is_filled(const wt_table *table, size_t column)
+{
+    for (size_t row = 0; row < wt_table_n_rows(table); row++)
+        if (wt_table_column_kind(table, column) == WT_COLUMN_TEXT
+                ? wt_table_text(table, row, column)[0] != '\0'
+                : !isnan(wt_table_number(table, row, column)))
+            return true;
+    return false;
+}
+
+/* Key of a schema that a key of a table is. */
+static size_t key_of(const table_schema *schema, const char *name)
+{
+    for (size_t i = 0; i < schema->n_keys; i++) {
+        const char *declared = schema->keys[i].name;
+        const size_t length = strlen(declared);
+        if (declared[length - 1] == '_' ? strncmp(name, declared, length) == 0
+                                        : strcmp(name, declared) == 0)
+            return i;
+    }
+    return SIZE_MAX;
+}
+
+static void see(const wt_table *table)
+{
+    size_t at = 0;
+    while (at < table_n_schemas &&
+           !(is_called(table, table_schemas[at]) && has_all(table, table_schemas[at])))
+        at++;
+    if (at == table_n_schemas)
+        fail_msg("table %s is not declared", wt_table_name(table));
+    const table_schema *schema = table_schemas[at];
+    found[at].table = true;
+    for (size_t i = 0; i < wt_table_n_columns(table); i++) {
+        size_t k = 0;
+        wt_quantity quantity;
+        while (k < schema->n_columns &&
+               strcmp(schema->columns[k].name, wt_table_column_name(table, i)) != 0)
+            k++;
+        if (k < schema->n_columns) {
+            found[at].columns |= SCHEMA_BIT(k);
+            found[at].cells |= is_filled(table, i) ? SCHEMA_BIT(k) : 0;
+        } else if (schema != &force_curve_schema ||
+                   !wt_quantity_find(wt_table_column_name(table, i), &quantity)) {
+            fail_msg("%s: column %s is not declared", wt_table_name(table),
+                     wt_table_column_name(table, i));
+        }
+    }
+    for (size_t i = 0; i < wt_table_n_keys(table); i++) {
+        const size_t k = key_of(schema, wt_table_key_name(table, i));
+        if (k == SIZE_MAX)
+            fail_msg("%s: key %s is not declared", wt_table_name(table),
+                     wt_table_key_name(table, i));
+        found[at].keys |= SCHEMA_BIT(k);
+    }
+}
+
+static wt_status see_and_free(void *user, wt_table *table, wt_error *err)
+{
+    (void)user;
+    (void)err;
+    see(table);
+    wt_table_free(table);
+    return WT_OK;
+}
+
+/* ---- where tables come from ------------------------------------------------------------------ */
+
+/* What costs more, of a case that can tell it. */
+static void run_errors(wt_case *c, wt_run_options options)
+{
+    wt_result *result = NULL;
+    assert_int_equal(wt_case_request(c, "error_budget work_precision", NULL), WT_OK);
+    assert_int_equal(wt_run(c, &options, NULL, &result, NULL, NULL), WT_OK);
+    if (wt_result_find(result, "error_budget") != NULL)
+        see(wt_result_find(result, "error_budget"));
+    if (wt_result_find(result, "work_precision") != NULL)
+        see(wt_result_find(result, "work_precision"));
+    wt_result_free(result);
+    options.trials = 2;
+    assert_int_equal(wt_case_request(c, "coverage", NULL), WT_OK);
+    assert_int_equal(wt_run(c, &options, NULL, &result, NULL, NULL), WT_OK);
+    if (wt_result_find(result, "coverage") != NULL)
+        see(wt_result_find(result, "coverage"));
+    wt_result_free(result);
+}
+
+/* A bundled case with one text in the place of another. */
+static void run_case_of(const char *path, bool errors, double tolerance, const char *text,
+                        const char *instead)
+{
+    FILE *in = fopen(path, "rb");
+    char xml[8192], changed[9000];
+    assert_non_null(in);
+    xml[fread(xml, 1, sizeof xml - 1, in)] = '\0';
+    fclose(in);
+    const char *at = strstr(xml, text);
+    assert_non_null(at);
+    (void)snprintf(changed, sizeof changed, "%.*s%s%s", (int)(at - xml), xml, instead,
+                   at + strlen(text));
+    wt_case *c = NULL;
+    wt_result *result = NULL;
+    wt_table *plan = NULL;
+    wt_log *log = wt_log_new();
+    wt_run_options options = wt_run_defaults();
+    options.replicates = 3;
+    options.tolerance = tolerance;
+    wt_log_add(log, WT_WARNING, "file", "line 1", "a warning");
+    wt_error err = WT_ERROR_INIT;
+    if (case_from_bytes(changed, strlen(changed), path, &c, &err) != WT_OK ||
+        wt_run(c, &options, log, &result, NULL, &err) != WT_OK)
+        fail_msg("%s: %s", err.place, err.message);
+    assert_int_equal(wt_plan(c, &plan, NULL), WT_OK);
+    see(plan);
+    for (size_t i = 0; i < wt_result_n_tables(result); i++)
+        see(wt_result_table(result, i));
+    wt_table_free(plan);
+    assert_int_equal(wt_result_contents(result, &plan, NULL), WT_OK);
+    see(plan);
+    wt_table_free(plan);
+    assert_int_equal(wt_table_keys(wt_result_find(result, "friction"), &plan, NULL), WT_OK);
+    see(plan);
+    wt_table_free(plan);
+    wt_result_free(result);
+    if (errors)
+        run_errors(c, options);
+    wt_log_free(log);
+    wt_case_free(c);
+}
+
+/* Incompressible, the isotropic solid is no transversely isotropic one. */
+static void test_directions(void **state)
+{
+    (void)state;
+    static const double velocity = 0.1;
+    sliding_set_up(&velocity, 1);
+    rubber.is_transverse = true;
+    rubber.transverse = wt_transverse_defaults();
+    rubber.transverse.axial_storage = rubber.transverse.axial_loss = 2.5;
+    for (int i = 0; i < 2; i++) {
+        wt_table *table = NULL;
+        rubber.poisson_ratio = i == 0 ? 0.49 : 0.5;
+        assert_int_equal(wt_transverse_isotropy_make(&sliding, &work, &table, NULL), WT_OK);
+        see(table);
+        wt_table_free(table);
+    }
+}
+
+static void test_accuracy(void **state)
+{
+    (void)state;
+    wt_accuracy_job job = wt_accuracy_job_defaults();
+    const wt_job common = wt_job_defaults();
+    wt_table *table = NULL;
+    job.part = "layer-history";
+    assert_int_equal(wt_accuracy_make(&job, &common, &table, NULL), WT_OK);
+    see(table);
+    wt_table_free(table);
+}
+
+static void run_case(const char *text, const char *instead)
+{
+    run_case_of(CASE "case.xml", false, wt_run_defaults().tolerance, text, instead);
+}
+
+static void test_cases(void **state)
+{
+    (void)state;
+    run_case_of(CASE "case.xml", true, wt_run_defaults().tolerance, "", "");
+    run_case_of(CASE "case.xml", false, 1e-16, "<temperature>30degC", /* which nothing reaches */
+                "<temperatures>20degC,40degC</temperatures><temperature>30degC");
+    run_case("<end>2e6rad/m", "<end>2e7rad/m"); /* beyond what the maps resolve */
+    run_case_of(CASE "stated-road.xml", false, wt_run_defaults().tolerance, "", "");
+    run_case("<temperature>23degC", "<temperature>90degC");
+    run_case("<temperature>23degC", "<track-temperature>24degC</track-temperature>"
+                                    "<cantilevers>two</cantilevers>"
+                                    "<sensitivity-error>0.3</sensitivity-error>"
+                                    "<temperature>23degC");
+    run_case("<temperature>30degC", "<temperature>90degC");
+    run_case("<temperature>30degC</temperature>",
+             "<strain-softening><file>softening.txt</file></strain-softening>"
+             "<temperature>30degC</temperature>"
+             "<anisotropy>0.6</anisotropy><decades>yes</decades>"
+             "<texture-angle>30deg</texture-angle>"
+             "<temperatures>20degC,90degC</temperatures>");
+    run_case("<temperature>30degC",
+             "<shear-law>log-normal</shear-law><area-law>yp08</area-law>"
+             "<sensitivities>yes</sensitivities><flash-temperature>yes</flash-temperature>"
+             "<temperature>30degC");
+    run_case("</dma>", "<transverse><axial-storage>1.2</axial-storage></transverse></dma>");
+    run_case("<critical-energy>2e10J/m^3 +- 10%</critical-energy>",
+             "<observed-thickness>3um</observed-thickness>");
+    run_case("<critical-energy>2e10J/m^3 +- 10%</critical-energy>", /* wear takes what was there */
+             "<critical-energy>1e14J/m^3</critical-energy><start-thickness>1um</start-thickness>");
+    run_case("<files>dma.txt", "<files>absent.txt</files><files>dma.txt");
+    run_case("<vertical-shift>tied</vertical-shift>\n"
+             "    <files>dma.txt</files>", /* a material without draws */
+             "<prony deformation=\"tension\"><equilibrium>5MPa</equilibrium>"
+             "<term time=\"1e-4s\" modulus=\"20MPa\"/></prony><wlf><c1>5</c1><c2>100K</c2></wlf>");
+}
+
+/* A melt whose shifts go over to Arrhenius in the cold. Up to `odd` its loss modulus is another one
+ * at each temperature. */
+static void write_melt(char *path, double odd)
+{
+    const wt_shift_law law = {.kind = WT_LAW_JOINED,
+                              .wlf = {293.15, 9, 110},
+                              .activation_energy = 1.2e5,
+                              .joint = 253.15};
+    uint64_t seed = 3;
+    FILE *out = truth_file(path);
+    fputs("## table: sweep\n# angular_frequency[rad/s]\tstorage_modulus[Pa]\tloss_modulus[Pa]\t"
+          "temperature[K]\n",
+          out);
+    for (double t = 213.15; t < 340; t += 10) {
+        const double log_a = wt_shift_law_log_a(&law, t);
+        for (double x = -1; x < 2.1; x += 0.2) {
+            double storage = 0, loss = 0;
+            for (double l = -9; l <= 0; l += 0.25) {
+                const double z = pow(10, x + log_a + l);
+                storage += 1e6 * pow(10, -0.3 * l) * z * z / (1 + z * z);
+                loss += 1e6 * pow(10, -0.3 * l) * z / (1 + z * z);
+            }
+            loss *= t < odd ? exp(0.8 * sin(t)) : 1;
+            fprintf(out, "%.17g\t%.17g\t%.17g\t%.17g\n", pow(10, x),
+                    storage * exp(0.005 * truth_normal(&seed)),
+                    loss * exp(0.005 * truth_normal(&seed)), t);
+        }
+        fputs("\n", out);
+    }
+    fclose(out);
+}
+
+/* No equilibrium modulus, two laws. */
+static void test_joined_law(void **state)
+{
+    (void)state;
+    static char path[] = "/tmp/weartrack-put-XXXXXX";
+    const char *const patterns[] = {path};
+    const wt_file_set set = {.patterns = patterns, .n_patterns = 1, .read = wt_read_defaults()};
+    wt_master_job job = wt_master_job_defaults();
+    wt_job common = wt_job_defaults();
+    wt_master_tables tables = {0};
+    wt_error err = WT_ERROR_INIT;
+    write_melt(path, 0);
+    common.formats = formats;
+    job.sets = &set;
+    job.n_sets = 1;
+    job.fit.reference_temperature = 293.15;
+    if (wt_master_make(&job, &common, &tables, NULL, &err) != WT_OK)
+        fail_msg("%s %s", err.message, err.found);
+    assert_string_equal(wt_table_key(tables.shift_factors, "law"), "joined");
+    see(tables.shift_factors);
+    see(tables.prony);
+    see(tables.prony_reduced);
+    see(tables.relaxation_spectrum);
+    see(tables.material_draws);
+    wt_master_tables_clear(&tables);
+    job.fit.shift_by = WT_BY_STORAGE;
+    assert_int_equal(wt_master_make(&job, &common, &tables, NULL, NULL), WT_OK);
+    see(tables.shift_factors);
+    wt_master_tables_clear(&tables);
+    unlink(path);
+}
+
+/* After a step of strain, and of stress. */
+static void step_jobs(void **state)
+{
+    (void)state;
+    static const char *const files[] = {FORMATS "table-step/relaxation-two-temperatures.txt",
+                                        FORMATS "table-step/creep-two-temperatures.txt"};
+    for (size_t i = 0; i < COUNT_OF(files); i++) {
+        const wt_file_set set = {
+            .patterns = &files[i], .n_patterns = 1, .read = wt_read_defaults()};
+        wt_master_job job = wt_master_job_defaults();
+        wt_job common = wt_job_defaults();
+        wt_master_tables tables = {0};
+        common.formats = formats;
+        job.sets = &set;
+        job.n_sets = 1;
+        assert_int_equal(wt_master_make(&job, &common, &tables, NULL, NULL), WT_OK);
+        assert_string_equal(wt_table_key(tables.shift_factors, "shifted_by"),
+                            i == 0 ? "relaxation modulus" : "creep compliance");
+        see(tables.master_curve);
+        wt_master_tables_clear(&tables);
+    }
+}
+
+/* One spectrum fails in the cold, or everywhere: of a part, or shifts by overlaps. */
+static void test_no_superposition(void **state)
+{
+    (void)state;
+    static char path[] = "/tmp/weartrack-put-XXXXXX";
+    const char *const patterns[] = {path};
+    const wt_file_set set = {.patterns = patterns, .n_patterns = 1, .read = wt_read_defaults()};
+    static const double odd[] = {265, 400};
+    for (int i = 0; i < 2; i++) {
+        wt_master_job job = wt_master_job_defaults();
+        wt_job common = wt_job_defaults();
+        wt_master_tables tables = {0};
+        memcpy(path + strlen(path) - 6, "XXXXXX", 6);
+        write_melt(path, odd[i]);
+        common.formats = formats;
+        job.sets = &set;
+        job.n_sets = 1;
+        job.fit.reference_temperature = 303.15;
+        assert_int_equal(wt_master_make(&job, &common, &tables, NULL, NULL), WT_OK);
+        assert_true((wt_table_key(tables.shift_factors, "route") != NULL) == (i == 1));
+        assert_true((wt_table_key(tables.shift_factors, "valid_from") != NULL) == (i == 0));
+        assert_true(strncmp(wt_table_key(tables.shift_factors, "superposition"),
+                            i == 0 ? "fails up to" : "fails: ", i == 0 ? 11 : 7) == 0);
+        see(tables.shift_factors);
+        wt_master_tables_clear(&tables);
+        unlink(path);
+    }
+}
+
+/* Cases with names, and one pair without any. */
+static void test_collection(void **state)
+{
+    (void)state;
+    wt_collection_tables tables = {0};
+    wt_case *read = NULL;
+    wt_run_options options = wt_run_defaults();
+    options.replicates = 3;
+    assert_int_equal(wt_case_read(WT_SOURCE_DIR "/fixtures/case/case.xml", &read, NULL), WT_OK);
+    assert_int_equal(wt_run(read, &options, NULL, &fixture_case, NULL, NULL), WT_OK);
+    wt_case_free(read);
+    fixture_of_case("layer", "identification");
+    fixture_collect(&tables);
+    see(tables.collection);
+    see(tables.collected_modulus);
+    see(tables.collected_friction);
+    see(tables.collected_force);
+    see(tables.ratio_pairs);
+    see(tables.shared_constants);
+    see(tables.shared_members);
+    see(tables.collected_constants);
+    see(tables.shared_pairs);
+    wt_collection_tables_clear(&tables);
+    wt_collect_job job = wt_collect_job_defaults();
+    job.constant_margin = 1e-9; /* which nothing meets */
+    wt_result *labelled = fixture_labelled("HC", "mild", 0.6, 0.02);
+    see(wt_result_find(labelled, "answer"));
+    const wt_collected cases[] = {{labelled, "a.h5"}, {fixture_case, "b.h5"}};
+    assert_int_equal(wt_collect(cases, 2, &job, &tables, NULL), WT_OK);
+    assert_null(tables.ratio_pairs);
+    see(tables.shared_constants);
+    wt_collection_tables_clear(&tables);
+    wt_result_free(labelled);
+    fixture_free();
+}
+
+/* One law of two samples and of one that has none; of one sample twice where it is Arrhenius. */
+static void test_common_law(void **state)
+{
+    (void)state;
+    static const char *const patterns[] = {WT_SOURCE_DIR "/fixtures/dma/two_materials.csv"};
+    static const char *const names[] = {"NR", "SBR 10%", "none"};
+    static const char *const warm[] = {"temperature:..15degC"};
+    wt_file_set set = {.patterns = patterns, .n_patterns = 1, .read = wt_read_defaults()};
+    wt_job common = wt_job_defaults();
+    wt_master_job job = wt_master_job_defaults();
+    wt_master_tables made[2] = {{0}}, few = {0};
+    common.formats = formats;
+    job.sets = &set;
+    job.n_sets = 1;
+    for (size_t i = 0; i < 2; i++) {
+        set.read.sample = names[i];
+        assert_int_equal(wt_master_make(&job, &common, &made[i], NULL, NULL), WT_OK);
+    }
+    job.leave_out = warm;
+    job.n_leave_out = 1;
+    assert_int_equal(wt_master_make(&job, &common, &few, NULL, NULL), WT_OK);
+    const wt_master *const fits[2][3] = {{made[0].fit, made[1].fit, NULL},
+                                         {few.fit, few.fit, NULL}};
+    for (size_t i = 0; i < 2; i++) {
+        wt_shared_shift_law_job law = wt_shared_shift_law_job_defaults();
+        wt_table *table = NULL;
+        law.names = names;
+        law.fits = fits[i];
+        law.n = 3;
+        law.common = i == 0 ? WT_COMMON_MOVED : WT_COMMON_SAME;
+        law.margin = i == 0 ? 0.1 : 1e-9;
+        assert_int_equal(wt_shared_shift_law_make(&law, &table, NULL), WT_OK);
+        assert_string_equal(wt_table_key(table, "law"), i == 0 ? "WLF" : "Arrhenius");
+        assert_true(strncmp(wt_table_key(table, "agree"), i == 0 ? "no: " : "cannot say: ", 4) ==
+                    0);
+        assert_string_equal(wt_table_key(table, "left_out"), "none: it could not be fitted");
+        see(table);
+        wt_table_free(table);
+    }
+    for (size_t i = 0; i < 2; i++)
+        wt_master_tables_clear(&made[i]);
+    wt_master_tables_clear(&few);
+}
+
+/* The bundled material, one measured less widely, and one of another deformation. */
+static void test_materials(void **state)
+{
+    (void)state;
+    const char *const patterns[] = {CASE "dma.txt"};
+    const wt_file_set set = {.patterns = patterns, .n_patterns = 1, .read = wt_read_defaults()};
+    wt_job common = wt_job_defaults();
+    wt_error err = WT_ERROR_INIT;
+    wt_master_job job = wt_master_job_defaults();
+    wt_master_tables fitted = {0};
+    wt_rubber made[2] = {0};
+    common.formats = formats;
+    job.sets = &set;
+    job.n_sets = 1;
+    if (wt_master_make(&job, &common, &fitted, &made[0], &err) != WT_OK)
+        fail_msg("%s %s", err.message, err.found);
+    see(fitted.prony_reduced);
+    wt_master_tables_clear(&fitted);
+    assert_int_equal(wt_master_make(&job, &common, &fitted, &made[1], NULL), WT_OK);
+    const wt_compared two[] = {
+        {.name = "as it is", .rubber = &made[0], .shift_factors = fitted.shift_factors},
+        {.name = "less widely", .rubber = &made[1], .shift_factors = fitted.shift_factors}};
+    wt_materials_job compared = wt_materials_job_defaults();
+    compared.materials = two;
+    compared.n_materials = 2;
+    made[1].prony.frequency_max /= 10;
+    for (int i = 0; i < 2; i++) {
+        wt_materials_tables tables = {0};
+        compared.sample_error = i == 0 ? 0.5 : 0;
+        assert_int_equal(wt_compare_materials(&compared, &common, &tables, NULL), WT_OK);
+        see(tables.materials);
+        see(tables.material_ratio);
+        wt_materials_tables_clear(&tables);
+    }
+    wt_master_tables_clear(&fitted);
+    for (int k = 0; k < 2; k++)
+        wt_rubber_clear(&made[k]);
+}
+
+static void shift_waves(wt_table *copy, size_t row)
+{
+    /* of a fifth of the residual on a soft layer of 100 nm */
+    static const double wave[] = {1.513e-4, 6.242e-4, -5.172e-4, -1.915e-4, -3.442e-4, -8.22e-5};
+    for (size_t i = 0; i < COUNT_OF(wave); i++) {
+        char name[32];
+        snprintf(name, sizeof name, "misfit_wave_%zu", i + 1);
+        const size_t column = (size_t)wt_table_find(copy, name);
+        fixture_put(copy, name, wt_table_number(copy, row, column) + wave[i]);
+    }
+}
+
+/* The bundled case with the residual of a layer in its track, of which the curves tell the
+ * thickness. */
+static void test_layer_by_curves(void **state)
+{
+    (void)state;
+    const fixture_change layered = {.table = "indentation/track", .edit = shift_waves};
+    wt_case *read = NULL;
+    wt_result *result = NULL;
+    wt_table *table = NULL;
+    wt_compare_job job = wt_compare_job_defaults();
+    const wt_job common = wt_job_defaults();
+    assert_int_equal(wt_case_read(CASE "case.xml", &read, NULL), WT_OK);
+    assert_int_equal(wt_case_request(read, "track_layer indentation/bulk indentation/track", NULL),
+                     WT_OK);
+    assert_int_equal(wt_run(read, NULL, NULL, &result, NULL, NULL), WT_OK);
+    wt_table *const track = fixture_copy(wt_result_find(result, "indentation/track"), &layered);
+    job.bulk = wt_result_find(result, "indentation/bulk");
+    job.track = track;
+    job.expected_thickness = (wt_estimate){3e-7, 2e-8, 0, "m"};
+    assert_int_equal(wt_track_layer_make(&job, NULL, &common, &table, NULL), WT_OK);
+    see(table);
+    wt_table_free(table);
+    wt_table_free(track);
+    wt_result_free(result);
+    wt_case_free(read);
+}
+
+/* One spot of each, whose scatter is given. */
+static void test_one_spot_of_each(void **state)
+{
+    (void)state;
+    static const char *const files[] = {CASE "bulk-1.jpk-force-map", CASE "track-1.jpk-force-map"};
+    wt_indent_job job = wt_indent_job_defaults();
+    wt_compare_job compared = wt_compare_job_defaults();
+    wt_job common = wt_job_defaults();
+    wt_indent_tables tables[2] = {{0}};
+    wt_compare_tables both = {0};
+    common.formats = formats;
+    job.tip = (wt_tip){.sides = 4, .half_angle = M_PI / 9, .radius = 20e-9};
+    job.tip.transition_radius = wt_tip_tangent_transition(job.tip.radius, job.tip.half_angle);
+    for (int g = 0; g < 2; g++) {
+        const wt_file_set set = {&files[g], 1, NULL, wt_read_defaults(), NULL};
+        job.sets = &set;
+        job.n_sets = 1;
+        assert_int_equal(wt_indent_group(&job, &common, &tables[g], NULL), WT_OK);
+    }
+    compared.bulk = tables[0].indentation;
+    compared.track = tables[1].indentation;
+    compared.spot_scatter = 0.1;
+    assert_int_equal(wt_compare_groups(&compared, &common, &both, NULL), WT_OK);
+    see(both.comparison);
+    wt_compare_tables_clear(&both);
+    for (int g = 0; g < 2; g++)
+        wt_indent_tables_clear(&tables[g]);
+}
+
+/* A group whose cantilevers differ, and a tip that makes the modulus change with depth. */
+static void test_spring_constants(void **state)
+{
+    (void)state;
+    static const char *const files[] = {CASE "bulk-1.jpk-force-map", CASE "bulk-2.jpk-force-map"};
+    wt_file_set sets[2] = {{&files[0], 1, NULL, wt_read_defaults(), NULL},
+                           {&files[1], 1, NULL, wt_read_defaults(), NULL}};
+    sets[1].read.spring_constant = 0.2;
+    wt_indent_job job = wt_indent_job_defaults();
+    wt_job common = wt_job_defaults();
+    wt_indent_tables tables = {0};
+    wt_error err = WT_ERROR_INIT;
+    common.formats = formats;
+    job.sets = sets;
+    job.n_sets = 2;
+    job.tip = (wt_tip){.sides = 4, .half_angle = M_PI / 9, .radius = 30e-9}; /* it was 20 nm */
+    job.tip.transition_radius = wt_tip_tangent_transition(job.tip.radius, job.tip.half_angle);
+    if (wt_indent_group(&job, &common, &tables, &err) != WT_OK)
+        fail_msg("%s", err.message);
+    see(tables.indentation);
+    see(tables.modulus_depth);
+    wt_indent_tables_clear(&tables);
+    static const char *const looked_at[] = {"worst:2"};
+    FILE *by_hand = fopen("put-choices.tsv", "w");
+    assert_non_null(by_hand);
+    (void)fputs("# file[text]\tcurve[1]\tchoice[text]\tvalue[text]\tnote[text]\n"
+                "bulk-1.jpk-force-map\t0\texclude\t-\tan edge\n"
+                "bulk-2.jpk-force-map\tnan\tsensitivity\t58nm/V\t-\n",
+                by_hand);
+    assert_int_equal(fclose(by_hand), 0);
+    job.curves = looked_at;
+    job.n_curves = 1;
+    job.choices = "put-choices.tsv";
+    if (wt_indent_group(&job, &common, &tables, &err) != WT_OK)
+        fail_msg("%s", err.message);
+    see(tables.indentation);
+    see(tables.curves);
+    see(tables.choices);
+    wt_indent_tables_clear(&tables);
+    assert_int_equal(unlink("put-choices.tsv"), 0);
+    job.n_curves = 0;
+    job.choices = NULL;
+    job.options.fit_force_fraction = 0.9;
+    job.options.contact_estimators = true;
+    job.options.fit_retract = true;
+    job.tip.radius_error = 3e-9;
+    job.tip.half_angle_error = 0.02;
+    job.sensitivity = (wt_estimate){60e-9, 2e-9, 0, "m/V"};
+    job.lever_error = 0.1;
+    sets[1].read.spring_constant = (double)NAN; /* two spots then */
+    if (wt_indent_group(&job, &common, &tables, &err) != WT_OK)
+        fail_msg("%s", err.message);
+    see(tables.indentation);
+    wt_table *budget = NULL;
+    const wt_table *const listed[] = {tables.indentation};
+    assert_int_equal(wt_modulus_budget(listed, 1, &budget, NULL), WT_OK);
+    see(budget);
+    wt_table_free(budget);
+    wt_indent_tables_clear(&tables);
+}
+
+static void convert_with(const char *path, unsigned kind, wt_table_sink sink)
+{
+    wt_convert_job job = wt_convert_job_defaults();
+    wt_job common = wt_job_defaults();
+    wt_error err = WT_ERROR_INIT;
+    common.formats = formats;
+    job.kind = kind;
+    if (wt_convert_file(&job, path, &common, sink, NULL, NULL, &err) != WT_OK)
+        fail_msg("%s: %s", path, err.message);
+}
+
+static void convert(const char *path, unsigned kind)
+{
+    convert_with(path, kind, see_and_free);
+}
+
+static wt_status take_curve(void *user, const wt_force_curve *curve, wt_error *err)
+{
+    curve->segments[0].setpoint = 1e-9; /* the files of the case say none */
+    return wt_map_put(user, curve, err);
+}
+
+/* Curves of which a map is made. */
+static void convert_map(const char *path)
+{
+    static const char made[] = "test_tables_put.h5";
+    wt_convert_job job = wt_convert_job_defaults();
+    wt_job common = wt_job_defaults();
+    wt_error err = WT_ERROR_INIT;
+    wt_map_writer *map = NULL;
+    wt_result *const result = wt_result_new();
+    common.formats = formats;
+    if (wt_map_begin(made, &map, &err) != WT_OK ||
+        wt_convert_file(&job, path, &common, NULL, take_curve, map, &err) != WT_OK ||
+        wt_map_end(map, result, true, &err) != WT_OK)
+        fail_msg("%s: %s", path, err.message);
+    for (size_t i = 0; i < wt_result_n_tables(result); i++)
+        see(wt_result_table(result, i));
+    wt_result_free(result);
+    (void)remove(made);
+}
+
+/* A column has no width to be divided by. */
+static wt_status one_column(void *user, wt_table *table, wt_error *err)
+{
+    const long x = wt_table_find(table, "x");
+    assert_true(x >= 0);
+    for (size_t row = 0; row < wt_table_n_rows(table); row++)
+        assert_true(isfinite(wt_table_number(table, row, (size_t)x)));
+    return see_and_free(user, table, err);
+}
+
+static void test_conversions(void **state)
+{
+    (void)state;
+    static const char path[] = "test_tables_put.nid";
+    const double values[4] = {0, 1, 0, 1};
+    const nid_writer_channel channel = {0, "Z-Axis", "m", 0, 2, 16, values};
+    nid_writer_group group = {.name = "Scan forward",
+                              .points = 2,
+                              .lines = 2,
+                              .x_name = "X",
+                              .x_unit = "m",
+                              .y_name = "Y",
+                              .y_unit = "m",
+                              .x_range = 1,
+                              .y_range = 1,
+                              .n_channels = 1,
+                              .channels = &channel};
+    nid_writer_file file = nid_writer_defaults();
+    file.path = path;
+    file.groups = &group;
+    file.n_groups = 1;
+    assert_int_equal(nid_write(&file), 0);
+    convert(path, WT_KIND_IMAGE);
+    group.points = 1;
+    group.lines = 4;
+    assert_int_equal(nid_write(&file), 0);
+    convert_with(path, WT_KIND_IMAGE, one_column);
+    (void)remove(path);
+    convert(CASE "bulk-1.jpk-force-map", WT_KIND_FORCE);
+    convert_map(CASE "bulk-1.jpk-force-map");
+    convert(CASE "dma.txt", WT_KIND_SWEEP);
+    convert(FORMATS "stare/isotherm.txt", WT_KIND_SWEEP);
+    convert(FORMATS "table-units/loss-factor-only.csv", WT_KIND_SWEEP);
+    convert(FORMATS "table-step/relaxation.csv", WT_KIND_SWEEP);
+    convert(FORMATS "table-step/tensile-creep.csv", WT_KIND_SWEEP);
+    convert(FORMATS "table-step/relaxation-two-temperatures.txt", WT_KIND_SWEEP);
+    convert(FORMATS "table-step/creep-two-temperatures.txt", WT_KIND_SWEEP);
+    convert(FORMATS "table-spectrum/surface.txt", WT_KIND_SPECTRUM);
+    convert(FORMATS "table-spectrum/line.csv", WT_KIND_SPECTRUM);
+}
+
+/* A temperature sweep with peaks, and isotherms without one. */
+static void test_ramps(void **state)
+{
+    (void)state;
+    static const char *const files[] = {FORMATS "table-units/ramp.csv", CASE "dma.txt",
+                                        FORMATS "table-units/ramp-with-strain.csv",
+                                        FORMATS "table-units/ramp-frequencies-in-turn.txt"};
+    static const double at[] = {290, 500};
+    wt_job common = wt_job_defaults();
+    common.formats = formats;
+    for (size_t i = 0; i < COUNT_OF(files); i++) {
+        const wt_file_set set = {
+            .patterns = &files[i], .n_patterns = 1, .read = wt_read_defaults()};
+        wt_ramp_job job = wt_ramp_job_defaults();
+        wt_ramp_tables tables = {0};
+        wt_error err = WT_ERROR_INIT;
+        job.sets = &set;
+        job.n_sets = 1;
+        job.temperature = at;
+        job.n_temperatures = COUNT_OF(at);
+        if (wt_ramp_make(&job, &common, &tables, &err) != WT_OK)
+            fail_msg("%s %s", err.message, err.found);
+        see(tables.ramp);
+        see(tables.glass_transition);
+        see(tables.moduli_at);
+        wt_ramp_tables_clear(&tables);
+    }
+}
+
+/* A layer between two velocities, with stated errors. */
+static void see_both_edges(void)
+{
+    enum { LIST = 9 };
+    double velocity[LIST], tau[] = {1e-3}, term[] = {3e8};
+    wt_layer_job job = wt_layer_job_defaults();
+    wt_table *table = NULL;
+    wt_error err = WT_ERROR_INIT;
+    for (size_t i = 0; i < LIST; i++)
+        velocity[i] = pow(10, (double)i - 5);
+    sliding_set_up(velocity, LIST);
+    rubber.prony.n = 1;
+    rubber.prony.relaxation_time = tau;
+    rubber.prony.modulus = term;
+    surface.q1 = 2e4;
+    work.replicates = 8;
+    job.critical_energy.value = 2e10;
+    job.specific_wear_rate = (wt_estimate){1e-12, 1e-14, 0, "m^2/N"};
+    for (int with_edges = 0; with_edges < 2; with_edges++) {
+        assert_int_equal(wt_layer_regime_map_make(&sliding, &job, NULL, &work, &table, &err),
+                         WT_OK);
+        if (with_edges)
+            see(table);
+        double most = 0;
+        for (size_t i = 0; i < LIST; i++)
+            most = fmax(most, wt_table_number(table, i, (size_t)wt_table_find(table, "ratio")));
+        job.specific_wear_rate.value *= 0.5 * most; /* R goes with 1/k, to 2 at most */
+        job.specific_wear_rate.standard_error *= 0.5 * most;
+        wt_table_free(table);
+    }
+}
+
+/* A layer with everything that it can say. */
+static void test_layer_models(void **state)
+{
+    (void)state;
+    static const double velocity[] = {1e-3, 0.1, 10}, pressures[] = {0.1e6, 1e6};
+    const wt_layer_observation known = {.modulus_ratio = {0.6, 0, 0, "1"},
+                                        .ratio_slope = {0.05, 0.01, 0, "1"},
+                                        .ratio_frequency = 1e3,
+                                        .ratio_lowest = 10,
+                                        .ratio_highest = 1e5,
+                                        .ratio_temperature = (double)NAN};
+    wt_layer_job job = wt_layer_job_defaults();
+    wt_layer_tables tables = {0};
+    wt_table *table[4] = {NULL};
+    wt_error err = WT_ERROR_INIT;
+    sliding_set_up(velocity, 3);
+    sliding.pressures = pressures;
+    sliding.n_pressures = 2;
+    job.specific_wear_rate.value = 1e-12;
+    job.energy = WT_LAYER_BOTH;
+    job.severity_power = 25e3;
+    job.closure = WT_CLOSURE_ACTIVATED;
+    job.barrier.value = 1.4 * 1.602e-19;
+    job.activation.volume = 1e-27;
+    assert_int_equal(wt_layer_make(&sliding, &job, &work, &tables, &err), WT_OK);
+    see(tables.layer);
+    wt_layer_tables_clear(&tables);
+    job.closure = WT_CLOSURE_ENERGY;
+    job.critical_energy = (wt_estimate){2e10, 1e9, 0, "J/m^3"};
+    work.replicates = 2;
+    assert_int_equal(wt_layer_bands_make(&sliding, &job, &work, &table[0], &err), WT_OK);
+    assert_int_equal(wt_running_in_make(&sliding, &job, &known, &work, &table[1], &err), WT_OK);
+    assert_int_equal(wt_layer_balances_make(&sliding, &job, &known, &work, &table[2], &err), WT_OK);
+    assert_int_equal(wt_layer_regime_map_make(&sliding, &job, &known, &work, &table[3], &err),
+                     WT_OK);
+    for (size_t i = 0; i < 4; i++) {
+        see(table[i]);
+        wt_table_free(table[i]);
+    }
+    see_both_edges();
+    sliding_set_up(velocity, 3);
+    const wt_layer_shear shear = {2, 1e-7, 1, 1e-5};
+    wt_layer_observation sheared = known;
+    sheared.thickness = (wt_estimate){1e-6, 0, 0, "m"};
+    sheared.shear = &shear;
+    wt_friction_tables friction = {0};
+    assert_int_equal(wt_friction_make(&sliding, &sheared, &work, &friction, &err), WT_OK);
+    see(friction.friction);
+    wt_friction_tables_clear(&friction);
+}
+
+/* So slow that nothing is lost: of no friction there is no share. */
+static void test_no_hysteresis(void **state)
+{
+    (void)state;
+    static double slow[] = {1e-323, 1}, tau[] = {1e-9}, term[] = {3e8}, strain[] = {1e-3, 1e-2},
+                  ratio[] = {1, 0.7};
+    const wt_strain_softening s = {
+        .table = {.n = 2, .strain = strain, .storage = ratio, .loss = ratio},
+        .temperature = (double)NAN};
+    wt_table *table = NULL;
+    wt_error err = WT_ERROR_INIT;
+    sliding_set_up(slow, 2);
+    rubber.prony.n = 1;
+    rubber.prony.relaxation_time = tau;
+    rubber.prony.modulus = term;
+    sliding.softness = &s;
+    if (wt_softening_make(&sliding, &work, &table, &err) != WT_OK)
+        fail_msg("%s %s", err.message, err.found);
+    assert_true(wt_table_number(table, 0, (size_t)wt_table_find(table, "hysteresis")) <= 0);
+    for (size_t row = 0; row < 2; row++) {
+        const size_t below = (size_t)wt_table_find(table, "share_below"),
+                     above = (size_t)wt_table_find(table, "share_above");
+        assert_int_equal(isnan(wt_table_number(table, row, below)), row == 0);
+        assert_int_equal(isnan(wt_table_number(table, row, above)), row == 0);
+    }
+    assert_string_equal(wt_table_key(table, "shares_unknown"),
+                        "1 of 2 velocities have no hysteresis friction, of which there could be a "
+                        "share");
+    see(table);
+    wt_table_free(table);
+}
+
+/* Rubber in its glassy state, of which a contact that was hot stays hot, and that burns where it
+ * slides fast. */
+static void test_flash(void **state)
+{
+    (void)state;
+    static double velocity[] = {1e-3, 10, 1e4},
+                  tau[] = {1, 1e-1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9, 1e-10, 1e-11},
+                  term[] = {1e6, 1.2e6, 1.6e6, 2.4e6, 4e6, 8e6, 2e7, 6e7, 2e8, 5e8, 7e8, 4e8};
+    wt_table *table = NULL;
+    wt_error err = WT_ERROR_INIT;
+    sliding_set_up(velocity, 3);
+    rubber.prony.n = COUNT_OF(tau);
+    rubber.prony.relaxation_time = tau;
+    rubber.prony.modulus = term;
+    rubber.prony.equilibrium_modulus = 5e6;
+    rubber.law = (wt_shift_law){.kind = WT_LAW_WLF,
+                                .wlf = {.c1 = 7.4, .c2 = 121.6, .reference_temperature = 293.15}};
+    rubber.temperature_min = 210;
+    rubber.temperature_max = 230;
+    surface = (wt_surface){.self_affine = true, .q0 = 500, .qr = 2000, .q1 = 1e6, .hurst = 0.8};
+    surface.c0 = (wt_estimate){6e-16, 0, 0, "m^4"};
+    sliding.temperature.value = 213.15;
+    sliding.pressure.value = 10e6;
+    sliding.flash.on = true;
+    sliding.flash.contact_size = 5e-3;
+    sliding.flash.macroscopic = 0.1;
+    sliding.reference_velocity = 1e-3;
+    if (wt_flash_make(&sliding, &work, &table, &err) != WT_OK)
+        fail_msg("%s %s", err.message, err.found);
+    assert_non_null(strstr(wt_table_key(table, "branches"), "stays hot at "));
+    assert_non_null(strstr(wt_table_key(table, "law_range"), "above the isotherms"));
+    see(table);
+    wt_table_free(table);
+    sliding.temperature.value = 293.15;
+    sliding.pressure.value = 30e6;
+    sliding.flash.contact_size = 1;
+    sliding.flash.macroscopic = 0.01;
+    velocity[1] = 100;
+    if (wt_flash_make(&sliding, &work, &table, &err) != WT_OK)
+        fail_msg("%s %s", err.message, err.found);
+    assert_non_null(strstr(wt_table_key(table, "unsettled"), "no temperature below 300 degC"));
+    see(table);
+    wt_table_free(table);
+    static const double temperature = 293.15;
+    sliding.temperatures = &temperature;
+    sliding.n_temperatures = 1;
+    if (wt_friction_map_make(&sliding, NULL, &work, &table, &err) != WT_OK)
+        fail_msg("%s %s", err.message, err.found);
+    assert_non_null(
+        strstr(wt_table_key(table, "material_statement"), "no flash temperature is found"));
+    see(table);
+    wt_table_free(table);
+}
+
+/* Strain sweeps that reach half of the fall and its double. */
+static void test_strain_sweeps(void **state)
+{
+    (void)state;
+    static const char *const file[] = {FORMATS "tidy/strain-sweeps.csv"};
+    const wt_file_set set = {.patterns = file, .n_patterns = 1, .read = wt_read_defaults()};
+    wt_job common = wt_job_defaults();
+    wt_payne_job job = wt_payne_job_defaults();
+    wt_payne_tables tables = {0};
+    wt_error err = WT_ERROR_INIT;
+    common.formats = formats;
+    job.sets = &set;
+    job.n_sets = 1;
+    if (wt_payne_make(&job, &common, &tables, &err) != WT_OK)
+        fail_msg("%s %s", err.message, err.found);
+    assert_int_equal(wt_table_n_rows(tables.payne), 3);
+    see(tables.payne);
+    see(tables.payne_sweep);
+    wt_payne_tables_clear(&tables);
+    wt_file_set named = set;
+    named.read.sample_by = WT_SAMPLE_BY_FILE;
+    job.sets = &named;
+    assert_int_equal(wt_payne_make(&job, &common, &tables, NULL), WT_OK);
+    see(tables.payne);
+    see(tables.payne_sweep);
+    wt_payne_tables_clear(&tables);
+    convert(file[0], WT_KIND_SWEEP);
+}
+
+/* Curves on a hard surface, of a file that says its sensitivity. */
+static void test_calibration(void **state)
+{
+    (void)state;
+    enum { N = 200, CURVES = 2 };
+    static const char path[] = "test_tables_put.jpk-force-map";
+    static double height[2][N], force[3][N];
+    const jpk_writer_segment there = {"extend", N, 1, height[0], force[0], NULL},
+                             back = {"retract", N, 1, height[1], force[1], NULL},
+                             back_again = {"retract", N, 1, height[1], force[2], NULL};
+    const jpk_writer_segment segments[CURVES][2] = {{there, back}, {there, back_again}};
+    const jpk_writer_curve curves[CURVES] = {{0, 0, 0, 2, segments[0]},
+                                             {1, 1e-6, 0, 2, segments[1]}};
+    const char *const patterns[] = {path};
+    const wt_file_set set = {.patterns = patterns, .n_patterns = 1, .read = wt_read_defaults()};
+    wt_job common = wt_job_defaults();
+    jpk_writer_file file = jpk_writer_defaults();
+    for (size_t i = 0; i < N; i++) {
+        height[0][i] = height[1][N - 1 - i] = 1e-6 - 1e-9 * (double)i;
+        force[0][i] = i > 150 ? 1e-9 * (double)(i - 150) * 0.1 : 0;
+        force[1][N - 1 - i] = 1.01 * force[0][i];
+        force[2][N - 1 - i] = 1.02 * force[0][i];
+    }
+    file.path = path;
+    file.map = true;
+    file.n_curves = CURVES;
+    file.curves = curves;
+    file.spring_constant = 0.1;
+    file.sensitivity = 50e-9;
+    assert_int_equal(jpk_write(&file), 0);
+    common.formats = formats;
+    wt_sensitivity_job job = wt_sensitivity_job_defaults();
+    wt_sensitivity_tables tables = {0};
+    wt_error err = WT_ERROR_INIT;
+    job.sets = &set;
+    job.n_sets = 1;
+    if (wt_sensitivity_make(&job, &common, &tables, &err) != WT_OK)
+        fail_msg("%s %s", err.message, err.found);
+    see(tables.sensitivity);
+    see(tables.sensitivity_curves);
+    wt_sensitivity_tables_clear(&tables);
+    (void)remove(path);
+}
+
+/* Spectra of a table and of a thermal tune; three of one kind scatter. */
+static void test_thermal(void **state)
+{
+    (void)state;
+    enum { N = 400 };
+    static double density[N];
+    static const char path[] = "test_tables_put_tune.nid";
+    const nid_writer_channel channel = {
+        0, "Amplitude Spectral Density", "m/sqrt(Hz)", 0, 4e-11, 32, density};
+    const nid_writer_group group = {.name = "Spectrum FFT",
+                                    .points = N,
+                                    .lines = 1,
+                                    .x_name = "Frequency",
+                                    .x_unit = "Hz",
+                                    .x_range = 40e3,
+                                    .n_channels = 1,
+                                    .channels = &channel};
+    nid_writer_file file = nid_writer_defaults();
+    uint64_t seed = 3;
+    for (size_t i = 0; i < N; i++) {
+        const double x = (double)i / 200, d = pow(1 - x * x, 2) + x * x / 400;
+        density[i] = 1e-13 * sqrt(1 / d + 0.5) * (1 + 0.05 * truth_normal(&seed));
+    }
+    file.path = path;
+    file.groups = &group;
+    file.n_groups = 1;
+    file.info = "Cantilever temperature=30\r\nAverages=100\r\nFrequency:=20.0kHz\r\n"
+                "Q Factor:=20\r\nSpring Constant:=0.5 N/m\r\n";
+    assert_int_equal(nid_write(&file), 0);
+    const char *const patterns[] = {path, FORMATS "table-noise/deflection.csv",
+                                    FORMATS "table-noise/detector.txt"};
+    wt_job common = wt_job_defaults();
+    wt_thermal_job job = wt_thermal_job_defaults();
+    common.formats = formats;
+    job.n_sets = 1;
+    job.sensitivity_error = 0.01;
+    /* of a lever far from it: a contradiction, but not of the fixtures in the second call */
+    job.length = (wt_estimate){200e-6, 2e-6, 0, "m"};
+    job.width = (wt_estimate){40e-6, 1e-6, 0, "m"};
+    for (size_t n = 1; n <= 3; n += 2) {
+        if (n > 1)
+            job.length = job.width = wt_thermal_job_defaults().length;
+        const wt_file_set set = {.patterns = patterns, .n_patterns = n, .read = wt_read_defaults()};
+        wt_table *table = NULL;
+        wt_error err = WT_ERROR_INIT;
+        job.sets = &set;
+        if (wt_thermal_make(&job, &common, &table, &err) != WT_OK)
+            fail_msg("%s %s", err.message, err.found);
+        assert_int_equal(wt_table_n_rows(table), n);
+        see(table);
+        wt_table_free(table);
+    }
+    (void)remove(path);
+}
+
+/* There and back with all channels, then a disc that sticks and slips, once with all that is known
+ * of its wear and once with nothing. */
+static void test_record(void **state)
+{
+    (void)state;
+    static const char strokes[] = "test_tables_put_strokes.csv",
+                      disc[] = "test_case_tables_written_disc.csv";
+    uint64_t seed = 4;
+    FILE *out = fopen(strokes, "w");
+    assert_non_null(out);
+    fprintf(out, "time (s),distance (m),cycle,position (mm),v (mm/s),rotation (rad/s),T (degC),"
+                 "pressure (MPa),Ff (N),Fn (N),mu,wear depth (um)\n");
+    for (int i = 0; i < 40 * 60; i++) {
+        const double phase = 2 * M_PI * (i + 0.5) / 40, way = sin(phase) > 0 ? 1 : -1,
+                     lap = i / 40.0, force = (lap < 20 ? 6 : 5) + 0.1 * truth_normal(&seed);
+        fprintf(out, "%g,%g,%g,%g,%g,2,%g,%g,%g,10,%g,%g\n", 0.02 * i, 5e-4 * i, lap,
+                -5 * cos(phase), 25.0, 23.0, 0.4, way * force + 0.3, 0.1 * force + 0.001,
+                1 + 0.01 * i);
+    }
+    fclose(out);
+    out = fopen(disc, "w");
+    assert_non_null(out);
+    fprintf(out, "time (s),laps,mu\n");
+    for (int i = 0; i < 50 * 60; i++)
+        fprintf(out, "%g,%g,%g\n", 0.02 * i, i / 50.0,
+                0.5 + 0.01 * (i % 25) + 0.001 * truth_normal(&seed));
+    fclose(out);
+    for (int known = 0; known < 2; known++) {
+        const char *const patterns[] = {known ? strokes : disc};
+        const wt_file_set set = {.patterns = patterns, .n_patterns = 1, .read = wt_read_defaults()};
+        wt_job common = wt_job_defaults();
+        wt_record_job job = wt_record_job_defaults();
+        wt_record_tables tables = {0};
+        wt_error err = WT_ERROR_INIT;
+        common.formats = formats;
+        job.sets = &set;
+        job.n_sets = 1;
+        job.ball_radius.value = 3e-3;
+        if (known) {
+            job.track_length = (wt_estimate){10e-3, 0, 0, "m"};
+            job.track_radius = (wt_estimate){12e-3, 0, 0, "m"};
+            job.track_area = (wt_estimate){1e-10, 1e-11, 0, "m^2"};
+            job.mass_loss = (wt_estimate){1e-6, 1e-7, 0, "kg"};
+            job.density = (wt_estimate){1150, 0, 0, "kg/m^3"};
+            job.modulus.value = 20e6;
+        }
+        if (wt_record_make(&job, &common, &tables, &err) != WT_OK)
+            fail_msg("%s %s", err.message, err.found);
+        see(tables.record);
+        see(tables.record_cycles);
+        see(tables.wear);
+        wt_record_tables_clear(&tables);
+    }
+    (void)remove(strokes);
+    (void)remove(disc);
+}
+
+/* Curves that are held at their end. */
+static void test_dwell(void **state)
+{
+    (void)state;
+    enum { N = 300, CURVES = 2 };
+    static const char path[] = "test_tables_put_dwell.jpk-force-map";
+    static double height[2][N], force[CURVES][2][N];
+    jpk_writer_segment segments[CURVES][2];
+    jpk_writer_curve curves[CURVES];
+    const char *const patterns[] = {path};
+    const wt_file_set set = {.patterns = patterns, .n_patterns = 1, .read = wt_read_defaults()};
+    wt_job common = wt_job_defaults();
+    jpk_writer_file file = jpk_writer_defaults();
+    uint64_t seed = 2;
+    for (size_t c = 0; c < CURVES; c++) {
+        for (size_t i = 0; i < N; i++) {
+            const double at = 2e-9 * ((double)i - 150), deep = 2e-9 * 149, g = 3e-3 / 0.75;
+            const double noise = 1e-9 * truth_normal(&seed);
+            force[c][0][i] = at > 0 ? 1e6 * g * pow(at, 1.5) + noise : noise;
+            force[c][1][i] = 1e6 * g * pow(deep, 1.5) + noise;
+            height[0][i] = 5e-6 - at - force[c][0][i] / 10;
+            const double sine = 2e-9 * sin(0.8 * (double)i);
+            force[c][1][i] += 1e6 * 1.5 * g * sqrt(deep) * sine;
+            height[1][i] = 5e-6 - deep - sine * (1 + 1e5 * 1.5 * g * sqrt(deep)) -
+                           1e6 * g * pow(deep, 1.5) / 10;
+        }
+        segments[c][0] = (jpk_writer_segment){"extend", N, 1, height[0], force[c][0], NULL};
+        segments[c][1] = (jpk_writer_segment){"pause", N, 5, height[1], force[c][1], NULL};
+        curves[c] = (jpk_writer_curve){c, 1e-6 * (double)c, 0, 2, segments[c]};
+    }
+    file.path = path;
+    file.map = true;
+    file.n_curves = CURVES;
+    file.curves = curves;
+    file.spring_constant = 10;
+    file.sensitivity = 50e-9;
+    assert_int_equal(jpk_write(&file), 0);
+    common.formats = formats;
+    wt_indent_job job = wt_indent_job_defaults();
+    wt_dwell_tables tables = {0};
+    wt_error err = WT_ERROR_INIT;
+    job.sets = &set;
+    job.n_sets = 1;
+    job.tip = (wt_tip){.shape = WT_TIP_PARABOLOID, .radius = 5e-6};
+    if (wt_dwell_make(&job, &common, &tables, &err) != WT_OK)
+        fail_msg("%s %s", err.message, err.found);
+    see(tables.dwell);
+    see(tables.dwell_points);
+    see(tables.dwell_moduli);
+    const char *const dma[] = {WT_SOURCE_DIR "/fixtures/case/dma.txt"};
+    const wt_file_set measured = {.patterns = dma, .n_patterns = 1, .read = wt_read_defaults()};
+    wt_master_job master = wt_master_job_defaults();
+    wt_master_tables fitted = {0};
+    wt_rubber made = {0};
+    wt_compare_job compared = wt_compare_job_defaults();
+    wt_table *table = NULL;
+    master.sets = &measured;
+    master.n_sets = 1;
+    if (wt_master_make(&master, &common, &fitted, &made, &err) != WT_OK)
+        fail_msg("%s %s", err.message, err.found);
+    compared.bulk = compared.track = tables.dwell_moduli;
+    compared.rubber = &made;
+    const size_t n_draws = made.n_draws;
+    if (wt_compare_dwells(&compared, &common, &table, &err) != WT_OK)
+        fail_msg("%s %s", err.message, err.found);
+    see(table);
+    wt_table_free(table);
+    made.n_draws = 0; /* no error, and a temperature out of reach */
+    compared.temperature.value = compared.track_temperature.value = 100;
+    assert_int_equal(wt_compare_dwells(&compared, &common, &table, NULL), WT_OK);
+    see(table);
+    wt_table_free(table);
+    made.n_draws = n_draws;
+    wt_master_tables_clear(&fitted);
+    wt_rubber_clear(&made);
+    wt_dwell_tables_clear(&tables);
+    (void)remove(path);
+}
+
+static void test_files(void **state)
+{
+    (void)state;
+    wt_input *input = NULL;
+    wt_table *table = NULL;
+    assert_int_equal(wt_input_open(FORMATS "tidy/two-runs.csv", &input, NULL), WT_OK);
+    assert_int_equal(wt_describe(formats, input, NULL, NULL, &table, NULL), WT_OK);
+    see(table);
+    wt_table_free(table);
+    assert_int_equal(
+        wt_description_check(WT_SOURCE_DIR "/formats/tidy.xml", input, NULL, NULL, &table, NULL),
+        WT_OK);
+    see(table);
+    wt_table_free(table);
+    wt_input_close(input);
+}
+
+/* An image before and after, of a wave that noise does not hide. */
+static void test_spot(void **state)
+{
+    (void)state;
+    enum { SIDE = 128 };
+    static const char *const paths[2] = {"test_tables_before.nid", "test_tables_after.nid"};
+    static double z[2][SIDE * SIDE];
+    uint64_t noise = 1;
+    for (size_t i = 0; i < 2 * SIDE * SIDE; i++) {
+        const double x = (double)(i % SIDE), y = (double)(i / SIDE % SIDE);
+        noise = noise * 6364136223846793005u + 1442695040888963407u;
+        z[i / (SIDE * SIDE)][i % (SIDE * SIDE)] =
+            1e-9 * (sin(0.7 * x) + cos(0.5 * y + 0.2 * x)) + 1e-11 * (double)(noise >> 60);
+    }
+    for (size_t i = 0; i < 2; i++) {
+        const nid_writer_channel channel = {1, "Z-Axis", "m", -1e-6, 2e-6, 32, z[i]};
+        const nid_writer_group group = {"Scan forward", SIDE, SIDE, 0,    NULL, "X*",    "m",
+                                        "Y*",           "m",  1e-6, 1e-6, 1,    &channel};
+        nid_writer_file file = nid_writer_defaults();
+        file.path = paths[i];
+        file.n_groups = 1;
+        file.groups = &group;
+        assert_int_equal(nid_write(&file), 0);
+    }
+    wt_spot_job job = wt_spot_job_defaults();
+    wt_job common = wt_job_defaults();
+    wt_spot_tables tables = {0};
+    wt_error err = WT_ERROR_INIT;
+    common.formats = formats;
+    job.tip = (wt_tip){.shape = WT_TIP_CONE, .half_angle = M_PI / 4};
+    job.depth = 60e-9;
+    job.after = paths[1];
+    job.map = true;
+    if (wt_spot_make(&job, paths[0], &common, &tables, &err) != WT_OK)
+        fail_msg("%s %s", err.message, err.found);
+    see(tables.spot);
+    see(tables.spot_map);
+    wt_spot_tables_clear(&tables);
+    (void)remove(paths[0]);
+    (void)remove(paths[1]);
+}
+
+/* Two places and a smaller window, the spectrum of which goes on to a slope. Profiles that make the
+ * line density are columns of another file. */
+static void see_surfaces(const char *const *files, size_t n)
+{
+    const wt_file_set set = {.patterns = files, .n_patterns = n, .read = wt_read_defaults()};
+    wt_topography_job job = wt_topography_job_defaults();
+    wt_job common = wt_job_defaults();
+    wt_topography_tables tables = {0};
+    wt_error err = WT_ERROR_INIT;
+    common.formats = formats;
+    job.sets = &set;
+    job.n_sets = 1;
+    job.scans = job.heights = true;
+    job.end_slope = n > 1 ? 1.3 : (double)NAN;
+    if (wt_topography_make(&job, &common, &tables, &err) != WT_OK)
+        fail_msg("%s %s", err.message, err.found);
+    see(tables.power_spectrum);
+    if (tables.place_errors != NULL)
+        see(tables.place_errors);
+    if (tables.angular_spectrum != NULL)
+        see(tables.angular_spectrum);
+    if (tables.height_map != NULL)
+        see(tables.height_map);
+    see(tables.height_profile);
+    see(tables.surfaces);
+    see(tables.scan_spectra);
+    wt_topography_tables_clear(&tables);
+}
+
+static void test_surface(void **state)
+{
+    (void)state;
+    static const char *const files[] = {WT_SOURCE_DIR "/fixtures/surface/place-1.gsf",
+                                        WT_SOURCE_DIR "/fixtures/surface/place-2.gsf",
+                                        WT_SOURCE_DIR "/fixtures/surface/near-by.gsf"};
+    static const char *const profile[] = {WT_SOURCE_DIR "/fixtures/surface/profile-*.gsf"};
+    /* of two sizes, whose places scatter, for they are of two surfaces */
+    static const char *const sizes[] = {WT_SOURCE_DIR "/fixtures/surface/road.gsf",
+                                        WT_SOURCE_DIR "/fixtures/surface/place-*.gsf",
+                                        WT_SOURCE_DIR "/fixtures/case/road-*-near.gsf"};
+    static const char *const both[] = {WT_SOURCE_DIR "/fixtures/surface/place-*.gsf",
+                                       WT_SOURCE_DIR "/fixtures/surface/profile-*.gsf"};
+    see_surfaces(files, COUNT_OF(files));
+    see_surfaces(both, COUNT_OF(both));
+    see_surfaces(sizes, COUNT_OF(sizes));
+    see_surfaces(profile, 1);
+}
+
+/* ---- measured against predicted -------------------------------------------------------------- */
+
+/* A disc of three velocities, one of which stands still, whose friction is `friction` times a power
+ * of the velocity. */
+static void write_disc(const char *path, double friction, double power, uint64_t seed)
+{
+    FILE *const out = fopen(path, "w");
+    assert_non_null(out);
+    fprintf(out, "laps,velocity (mm/s),T (degC),Fn (N),mu\n");
+    for (int i = 0; i < 3 * 60 * 25; i++) {
+        const double velocity = pow(10, i / (60 * 25)), lap = i / 25.0;
+        fprintf(out, "%g,%g,20,%g,%.5f\n", lap, velocity, 5.0 + (i > 60 * 25),
+                friction * pow(velocity, power) * (1 + 0.01 * truth_normal(&seed)));
+    }
+    fclose(out);
+}
+
+/* Held against a record with and without what wears, with a shear stress (0: none) and a layer. */
+static void see_validation(const char *path, double shear, double wear, bool with_layer)
+{
+    static const double slow[] = {1e-3, 1e-2, 1e-1};
+    const char *const patterns[] = {path};
+    const wt_file_set set = {.patterns = patterns, .n_patterns = 1, .read = wt_read_defaults()};
+    const wt_layer_observation known = {.thickness = {1e-6, 1e-7, 0, "m"},
+                                        .modulus_ratio = {0.6, 0.05, 0, "1"},
+                                        .ratio_slope = {0.05, 0.01, 0, "1"},
+                                        .ratio_frequency = 1e3,
+                                        .ratio_lowest = 10,
+                                        .ratio_highest = 1e5,
+                                        .ratio_temperature = (double)NAN};
+    wt_layer_job layer = wt_layer_job_defaults();
+    wt_job common = wt_job_defaults();
+    wt_record_job records = wt_record_job_defaults();
+    wt_record_tables measured = {0};
+    wt_validation_job job = wt_validation_job_defaults();
+    wt_validation_tables tables = {0};
+    wt_table *what_if = NULL;
+    wt_error err = WT_ERROR_INIT;
+    common.formats = formats;
+    common.replicates = 40;
+    records.sets = &set;
+    records.n_sets = 1;
+    records.track_radius.value = 12e-3;
+    records.track_area = (wt_estimate){3e-11, wear * 3e-11, 0, "m^2"};
+    sliding_set_up(slow, 3);
+    sliding.shear_stress =
+        (wt_estimate){shear > 0 ? shear : (double)NAN, 0.1 * fmax(shear, 0), 0, "Pa"};
+    layer.specific_wear_rate = (wt_estimate){1e-12, 1e-13, 0, "m^2/N"};
+    layer.critical_energy.value = 2e10;
+    if (wt_record_make(&records, &common, &measured, &err) != WT_OK ||
+        wt_what_if_make(&sliding, &layer, with_layer ? &known : NULL, &common, &what_if, &err) !=
+            WT_OK)
+        fail_msg("%s %s", err.message, err.found);
+    job.sliding = &sliding;
+    job.layer = &layer;
+    job.known = with_layer ? &known : NULL;
+    job.record = measured.record;
+    job.wear = measured.wear;
+    job.what_if = what_if;
+    if (wt_validation_make(&job, &common, &tables, &err) != WT_OK)
+        fail_msg("%s %s", err.message, err.found);
+    see(tables.validation);
+    see(tables.sources);
+    if (tables.choices != NULL)
+        see(tables.choices);
+    wt_validation_tables_clear(&tables);
+    wt_record_tables_clear(&measured);
+    wt_table_free(what_if);
+}
+
+/* The running-in of a case against a layer that grows, or against no layer that is known. */
+static void see_running_in(const char *path)
+{
+    wt_case *read = NULL;
+    wt_result *result = NULL;
+    wt_run_options few = wt_run_defaults();
+    size_t failed = 0;
+    wt_error err = WT_ERROR_INIT;
+    few.replicates = 20;
+    if (wt_case_read(path, &read, &err) != WT_OK ||
+        wt_case_request(read, "validation_running_in validation_course wear", &err) != WT_OK ||
+        wt_run(read, &few, NULL, &result, &failed, &err) != WT_OK)
+        fail_msg("%s %s", err.message, err.found);
+    see(wt_result_find(result, "validation_running_in"));
+    see(wt_result_find(result, "validation_course"));
+    wt_result_free(result);
+    wt_case_free(read);
+}
+
+static void test_validation(void **state)
+{
+    (void)state;
+    static const char path[] = "test_tables_put_validation.csv";
+    write_disc(path, 0.95, 0, 5);
+    see_validation(path, 5e6, 0.2, true);
+    see_validation(path, 0, 0, false);
+    write_disc(path, 0.05, 0.3, 6);
+    see_validation(path, 5e6, 0.2, false);
+    see_running_in(WT_SOURCE_DIR "/fixtures/growth/case.xml");
+    see_running_in(WT_SOURCE_DIR "/fixtures/growth/unsaid.xml");
+    (void)remove(path);
+}
+
+/* ---- identification -------------------------------------------------------------------------- */
+
+static void test_identification(void **state)
+{
+    (void)state;
+    static const double slow[] = {0.1};
+    wt_identify_job job = wt_identify_job_defaults();
+    wt_table *table = NULL;
+    wt_error err = WT_ERROR_INIT;
+    sliding_set_up(slow, 1);
+    work.replicates = 120;
+    sliding.pressure.standard_error = 1e4;
+    job.observed_thickness = (wt_estimate){2e-6, 3e-7, 0, "m"};
+    job.specific_wear_rate = (wt_estimate){1e-12, 1e-13, 0, "m^2/N"};
+    job.running_in_time = (wt_estimate){500, 50, 0, "s"};
+    if (wt_identify_make(&sliding, &job, &work, &table, &err) != WT_OK)
+        fail_msg("%s %s", err.message, err.found);
+    see(table);
+    assert_int_equal(wt_table_n_rows(table), 4);
+    wt_table_free(table);
+}
+
+/* ---- what was not put ------------------------------------------------------------------------ */
+
+/* Every fit of isotherms that was tried ends settled; the key warns of one that does not. */
+static bool is_never_met(const table_schema *schema, size_t key)
+{
+    return schema == &shift_factors_schema && strcmp(schema->keys[key].name, "step_left") == 0;
+}
+
+static void test_all_put(void **state)
+{
+    (void)state;
+    bool good = true;
+    for (size_t i = 0; i < table_n_schemas; i++) {
+        const table_schema *s = table_schemas[i];
+        if (!found[i].table)
+            print_error("%s: never made\n", s->name);
+        good = good && found[i].table;
+        for (size_t k = 0; found[i].table && k < s->n_columns; k++) {
+            const bool put =
+                (s->columns[k].sparse ? found[i].cells : found[i].columns) & SCHEMA_BIT(k);
+            if (!put)
+                print_error("%s: column %s is never put\n", s->name, s->columns[k].name);
+            good = good && put;
+        }
+        for (size_t k = 0; found[i].table && k < s->n_keys; k++) {
+            const bool put = (found[i].keys & SCHEMA_BIT(k)) != 0 || is_never_met(s, k);
+            if (!put)
+                print_error("%s: key %s is never put\n", s->name, s->keys[k].name);
+            good = good && put;
+        }
+    }
+    assert_true(good);
+}
+
+static int open_formats(void **state)
+{
+    (void)state;
+    return wt_formats_new(NULL, &formats, NULL, NULL) == WT_OK && table_n_schemas <= MOST ? 0 : -1;
+}
+
+static int free_formats(void **state)
+{
+    (void)state;
+    wt_formats_free(formats);
+    return 0;
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(step_jobs),
+        cmocka_unit_test(test_cases),
+        cmocka_unit_test(test_joined_law),
+        cmocka_unit_test(test_no_superposition),
+        cmocka_unit_test(test_collection),
+        cmocka_unit_test(test_common_law),
+        cmocka_unit_test(test_layer_models),
+        cmocka_unit_test(test_no_hysteresis),
+        cmocka_unit_test(test_flash),
+        cmocka_unit_test(test_materials),
+        cmocka_unit_test(test_layer_by_curves),
+        cmocka_unit_test(test_one_spot_of_each),
+        cmocka_unit_test(test_spring_constants),
+        cmocka_unit_test(test_conversions),
+        cmocka_unit_test(test_ramps),
+        cmocka_unit_test(test_strain_sweeps),
+        cmocka_unit_test(test_files),
+        cmocka_unit_test(test_calibration),
+        cmocka_unit_test(test_record),
+        cmocka_unit_test(test_validation),
+        cmocka_unit_test(test_identification),
+        cmocka_unit_test(test_dwell),
+        cmocka_unit_test(test_thermal),
+        cmocka_unit_test(test_directions),
+        cmocka_unit_test(test_spot),
+        cmocka_unit_test(test_surface),
+        cmocka_unit_test(test_accuracy),
+        cmocka_unit_test(test_all_put),
+    };
+    return cmocka_run_group_tests_name("tables put", tests, open_formats, free_formats);
+}

@@ -1,0 +1,298 @@
+/* Friction over temperature and pressure, by decades and to the side: against the friction job at
+ * each temperature and pressure, and sums.
+ * SPDX-License-Identifier: GPL-3.0-or-later */
+#include "cells.h"
+#include "sliding.h"
+
+#include "near.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+enum { VELOCITIES = 5, TEMPERATURES = 3, PRESSURES = 3 };
+static const double velocity[VELOCITIES] = {0.01, 0.03, 0.1, 0.3, 1};
+static const double temperatures[TEMPERATURES] = {273.15, 293.15, 323.15};
+static const double pressures[PRESSURES] = {0.1e6, 0.4e6, 1e6};
+static double shifted[3] = {263.15, 293.15, 333.15}, log_b[3] = {-0.08, 0, 0.05};
+
+/* Shifted both ways. */
+static void set_up(void)
+{
+    sliding_set_up(velocity, VELOCITIES);
+    rubber.law = (wt_shift_law){.kind = WT_LAW_WLF,
+                                .wlf = {.c1 = 7.4, .c2 = 121.6, .reference_temperature = 293.15}};
+    rubber.temperature_min = 263.15;
+    rubber.temperature_max = 333.15;
+    rubber.n_vertical = 3;
+    rubber.vertical_temperature = shifted;
+    rubber.vertical_log_b = log_b;
+    work.replicates = 0;
+}
+
+static const wt_layer_observation *layer; /* NULL: none */
+
+static wt_table *make_map(void)
+{
+    wt_table *table = NULL;
+    wt_error err = WT_ERROR_INIT;
+    if (wt_friction_map_make(&sliding, layer, &work, &table, &err) != WT_OK)
+        fail_msg("%s %s", err.message, err.found);
+    return table;
+}
+
+/* What the friction job says at a temperature and a pressure. */
+static wt_table *make_friction(double temperature, double pressure)
+{
+    wt_sliding there = sliding;
+    wt_friction_tables tables = {0};
+    there.temperature.value = temperature;
+    there.pressure.value = pressure;
+    assert_int_equal(wt_friction_make(&there, layer, &work, &tables, NULL), WT_OK);
+    return tables.friction;
+}
+
+static void check_line(const wt_table *map, size_t first, const char *against, double temperature,
+                       double pressure)
+{
+    static const char *const columns[] = {"friction", "hysteresis", "area_ratio"};
+    wt_table *friction = make_friction(temperature, pressure);
+    for (size_t i = 0; i < VELOCITIES; i++) {
+        const size_t row = first + i;
+        assert_string_equal(text_cell(map, row, "against"), against);
+        assert_near(number_cell(map, row, "temperature"), temperature, 0);
+        assert_near(number_cell(map, row, "pressure"), pressure, 0);
+        assert_near(number_cell(map, row, "velocity"), velocity[i], 0);
+        const double a = wt_shift_law_log_a(&rubber.law, temperature);
+        assert_near(number_cell(map, row, "shift_factor"), pow(10, a), 1e-13);
+        assert_near(number_cell(map, row, "reduced_velocity"), velocity[i] * pow(10, a), 1e-13);
+        for (size_t k = 0; k < 3; k++) {
+            char error[64];
+            snprintf(error, sizeof error, "%s_numerical_error", columns[k]);
+            const double stated = number_cell(map, row, error) + number_cell(friction, i, error);
+            assert_true(stated > 0);
+            assert_near_abs(number_cell(map, row, columns[k]), number_cell(friction, i, columns[k]),
+                            stated);
+        }
+        assert_near_abs(number_cell(map, row, "extrapolated_share"),
+                        number_cell(friction, i, "extrapolated_share"), 2e-5);
+    }
+    wt_table_free(friction);
+}
+
+static void check_map(void)
+{
+    wt_table *map = make_map();
+    assert_int_equal(wt_table_n_rows(map), (TEMPERATURES + PRESSURES) * VELOCITIES);
+    for (size_t k = 0; k < TEMPERATURES; k++)
+        check_line(map, k * VELOCITIES, "temperature", temperatures[k], 0.4e6);
+    for (size_t k = 0; k < PRESSURES; k++)
+        check_line(map, (TEMPERATURES + k) * VELOCITIES, "pressure", 303.15, pressures[k]);
+    wt_table_free(map);
+}
+
+/* One preparation at the reference temperature gives what each temperature gives. */
+static void map_is_friction(void **state)
+{
+    (void)state;
+    set_up();
+    sliding.temperature.value = 303.15;
+    sliding.temperatures = temperatures;
+    sliding.n_temperatures = TEMPERATURES;
+    sliding.pressures = pressures;
+    sliding.n_pressures = PRESSURES;
+    check_map();
+    /* opening cracks costs friction on the bare surface, too */
+    const wt_layer_shear cracks = {.exponent = 1, .crack_energy = 1, .spacing = 1e-5};
+    const wt_layer_observation cracked = {
+        .thickness = {1e-6, 0, 0, "m"}, .modulus_ratio = {0.6, 0, 0, "1"}, .shear = &cracks};
+    layer = &cracked;
+    check_map();
+    layer = NULL;
+    sliding.anisotropy.amplitude[0] = 0.6;
+    sliding.anisotropy.angle[0] = 0.5;
+    sliding.gamma = 0.5;
+    check_map();
+    rubber.kind = WT_RUBBER_ZENER;
+    rubber.zener = (wt_zener){.e0 = 5e6, .eg = 2e9, .tau = 1e-6, .alpha = 0.4};
+    check_map();
+}
+
+static void map_says_what_it_is(void **state)
+{
+    (void)state;
+    set_up();
+    sliding.temperatures = temperatures;
+    sliding.n_temperatures = TEMPERATURES;
+    wt_table *map = make_map();
+    assert_near(strtod(wt_table_key(map, "pressure"), NULL), 0.4e6, 0);
+    assert_near(strtod(wt_table_key(map, "reference_temperature"), NULL), 293.15, 0);
+    assert_null(wt_table_key(map, "material_statement"));
+    wt_table_free(map);
+    rubber.temperature_max = 300;
+    map = make_map();
+    assert_non_null(strstr(wt_table_key(map, "material_statement"), "outside the isotherms"));
+    wt_table_free(map);
+    rubber.temperature_min = 280;
+    map = make_map();
+    assert_non_null(strstr(wt_table_key(map, "material_statement"), "at 2 of 3 temperatures"));
+    wt_table_free(map);
+}
+
+static void map_that_cannot_be(void **state)
+{
+    (void)state;
+    wt_table *map = NULL;
+    wt_error err = WT_ERROR_INIT;
+    set_up();
+    assert_int_equal(wt_friction_map_make(&sliding, NULL, &work, &map, &err), WT_E_ARG);
+    static const double cold[] = {150, 293.15};
+    sliding.temperatures = cold;
+    sliding.n_temperatures = 2;
+    assert_int_equal(wt_friction_map_make(&sliding, NULL, &work, &map, &err), WT_E_RANGE);
+    assert_non_null(strstr(err.found, "-123.15"));
+    rubber.law.kind = WT_LAW_NONE;
+    assert_int_equal(wt_friction_map_make(&sliding, NULL, &work, &map, &err), WT_E_MISSING);
+    sliding.anisotropy.amplitude[0] = 0.9;
+    sliding.anisotropy.amplitude[1] = -0.9;
+    assert_int_equal(wt_friction_map_make(&sliding, NULL, &work, &map, &err), WT_E_RANGE);
+    assert_non_null(strstr(err.message, "negative"));
+    assert_null(map);
+}
+
+/* ---- decades --------------------------------------------------------------------------------- */
+
+static void decades_add_up(void **state)
+{
+    (void)state;
+    static const double edges[] = {2e3, 1e4, 1e5, 1e6, 2e6};
+    enum { DECADES = 4 };
+    set_up();
+    wt_table *table = NULL, *friction = make_friction((double)NAN, 0.4e6);
+    assert_int_equal(wt_friction_decades_make(&sliding, NULL, &work, &table, NULL), WT_OK);
+    assert_int_equal(wt_table_n_rows(table), 3 * DECADES);
+    static const size_t shown[] = {0, VELOCITIES / 2, VELOCITIES - 1};
+    for (size_t v = 0; v < 3; v++) {
+        double sum = 0, share = 0, error = 0;
+        for (size_t k = 0; k < DECADES; k++) {
+            const size_t row = v * DECADES + k;
+            assert_near(number_cell(table, row, "velocity"), velocity[shown[v]], 0);
+            assert_near(number_cell(table, row, "from"), edges[k], 1e-14);
+            assert_near(number_cell(table, row, "to"), edges[k + 1], 1e-14);
+            assert_true(number_cell(table, row, "hysteresis") > 0);
+            sum += number_cell(table, row, "hysteresis");
+            share += number_cell(table, row, "share");
+            error += number_cell(table, row, "hysteresis_numerical_error");
+        }
+        assert_near(share, 1, 1e-12);
+        assert_near_abs(sum, number_cell(friction, shown[v], "hysteresis"),
+                        error + number_cell(friction, shown[v], "hysteresis_numerical_error"));
+        assert_near_abs(number_cell(table, v * DECADES + DECADES - 1, "area_ratio"),
+                        number_cell(friction, shown[v], "area_ratio"), 1e-10);
+    }
+    const char *strongest = wt_table_key(table, "strongest");
+    assert_non_null(strstr(strongest, "at 100 mm/s: "));
+    wt_table_free(table);
+    wt_table_free(friction);
+}
+
+/* Where the roughness ends at the last decade, shearing, cracks and all of it are those of the
+ * contact; cracks are opened on the bare surface, too, and without their energy there are none. */
+static void decades_have_the_cracks(void **state)
+{
+    (void)state;
+    set_up();
+    const wt_layer_shear shear = {1, 0, 1, 1e-5};
+    const wt_layer_observation cracked = {
+        .thickness = {0, 0, 0, "m"}, .modulus_ratio = {1, 0, 0, "1"}, .shear = &shear};
+    sliding.shear_stress.value = 5e6;
+    wt_table *table = NULL, *plain = NULL, *friction = make_friction((double)NAN, 0.4e6);
+    assert_int_equal(wt_friction_decades_make(&sliding, &cracked, &work, &table, NULL), WT_OK);
+    assert_int_equal(wt_friction_decades_make(&sliding, NULL, &work, &plain, NULL), WT_OK);
+    const size_t last = wt_table_n_rows(table) - 1;
+    const double area = number_cell(table, last, "area_ratio"), pressure = sliding.pressure.value;
+    const double cracks = 2 / (1e-5 * sqrt(M_PI * area)) * area / pressure;
+    assert_near(number_cell(table, last, "crack_opening"), cracks, 1e-12);
+    assert_near(number_cell(table, last, "shearing"), cracks + 5e6 * area / pressure, 1e-12);
+    assert_near(number_cell(plain, last, "crack_opening"), 0, 0);
+    assert_near_abs(number_cell(plain, last, "friction"),
+                    number_cell(friction, VELOCITIES - 1, "hysteresis") + 5e6 * area / pressure,
+                    1e-9);
+    for (size_t row = 0; row <= last; row++) /* the area falls, and the cracks with its root */
+        assert_true(row % 4 == 0 || number_cell(table, row, "crack_opening") <
+                                        number_cell(table, row - 1, "crack_opening"));
+    wt_table_free(table);
+    wt_table_free(plain);
+    wt_table_free(friction);
+}
+
+/* A spectrum that ends at whole decades has no empty ones there. */
+static void decades_end_at_decades(void **state)
+{
+    (void)state;
+    wt_table *table = NULL;
+    set_up();
+    surface.q0 = surface.qr = 1e3;
+    surface.q1 = 1e6;
+    sliding.n_velocity = 1;
+    assert_int_equal(wt_friction_decades_make(&sliding, NULL, &work, &table, NULL), WT_OK);
+    assert_int_equal(wt_table_n_rows(table), 3);
+    wt_table_free(table);
+    table = NULL;
+    surface.q1 = 3e3;
+    assert_int_equal(wt_friction_decades_make(&sliding, NULL, &work, &table, NULL), WT_OK);
+    assert_int_equal(wt_table_n_rows(table), 1);
+    assert_near(number_cell(table, 0, "share"), 1, 1e-14);
+    wt_table_free(table);
+}
+
+/* ---- direction of sliding -------------------------------------------------------------------- */
+
+static void sides(void **state)
+{
+    (void)state;
+    wt_table *table = NULL, *plain;
+    set_up();
+    assert_int_equal(wt_anisotropy_make(&sliding, &work, &table, NULL), WT_E_ARG);
+    plain = make_friction((double)NAN, 0.4e6);
+    assert_null(wt_table_key(plain, "anisotropy"));
+    sliding.anisotropy.amplitude[0] = 0.6;
+    sliding.anisotropy.angle[0] = M_PI / 6;
+    wt_table *friction = make_friction((double)NAN, 0.4e6);
+    assert_string_equal(wt_table_key(friction, "anisotropy"), "0.6 cos 2(phi - 30 deg)");
+    assert_non_null(strstr(wt_table_key(friction, "standard_error_excludes"), "anisotropy"));
+    assert_int_equal(wt_anisotropy_make(&sliding, &work, &table, NULL), WT_OK);
+    assert_int_equal(wt_table_n_rows(table), VELOCITIES);
+    for (size_t i = 0; i < VELOCITIES; i++) {
+        assert_near(number_cell(table, i, "hysteresis"), number_cell(friction, i, "hysteresis"), 0);
+        assert_near(number_cell(table, i, "hysteresis_without"),
+                    number_cell(plain, i, "hysteresis"), 0);
+        assert_near(number_cell(table, i, "area_ratio_without"),
+                    number_cell(plain, i, "area_ratio"), 0);
+        assert_true(number_cell(table, i, "hysteresis") > number_cell(plain, i, "hysteresis"));
+        assert_true(number_cell(table, i, "side") > 0.1 * number_cell(table, i, "hysteresis"));
+        assert_true(number_cell(table, i, "side_numerical_error") <
+                    1e-9 * number_cell(table, i, "side"));
+    }
+    const double side = strtod(wt_table_key(table, "side"), NULL);
+    assert_near(side, number_cell(table, VELOCITIES / 2, "side"), 1e-10);
+    const char *effect = wt_table_key(table, "effect");
+    assert_non_null(strstr(effect, "at 100 mm/s hysteresis friction +"));
+    assert_non_null(strstr(effect, "deg to the side"));
+    wt_table_free(table);
+    wt_table_free(friction);
+    wt_table_free(plain);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(map_is_friction),
+        cmocka_unit_test(map_says_what_it_is),
+        cmocka_unit_test(map_that_cannot_be),
+        cmocka_unit_test(decades_add_up),
+        cmocka_unit_test(decades_have_the_cracks),
+        cmocka_unit_test(decades_end_at_decades),
+        cmocka_unit_test(sides),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,180 @@
+/* The error by a misfit: of the size of what it does to the modulus, next to none where the law
+ * holds.
+ *
+ * SPDX-License-Identifier: GPL-3.0-or-later
+ */
+#include "near.h"
+
+#include "indentation/numerics/curve.h"
+#include "synthetic_curve.h"
+
+static curve_data data;
+static wt_indent_workspace *workspace;
+
+static wt_tip with_radius(const curve_truth *t, double radius)
+{
+    wt_tip tip = t->tip;
+    tip.radius = radius;
+    tip.transition_radius = wt_tip_tangent_transition(radius, tip.half_angle);
+    return tip;
+}
+
+/* As if the tip were `stated`, and perhaps `moved`. */
+static wt_indent_fit fit_tip(const curve_truth *t, const wt_tip *stated, const wt_tip *moved)
+{
+    wt_contact_table *table[3] = {NULL, NULL, NULL};
+    wt_indent_fit fit;
+    wt_error err = WT_ERROR_INIT;
+    assert_int_equal(wt_contact_table_new(stated, 1e-11, 1e-4, &table[0], NULL), WT_OK);
+    for (int way = 0; way < 2 && moved != NULL; way++) {
+        const wt_tip down = with_radius(t, stated->radius * stated->radius / moved->radius);
+        assert_int_equal(
+            wt_contact_table_new(way == 0 ? &down : moved, 1e-11, 1e-4, &table[1 + way], NULL),
+            WT_OK);
+    }
+    workspace->tip_move[0] = (tip_move){table[1], table[2], 1.0};
+    if (wt_indent_fit_curve(table[0], NULL, data.height, data.force, data.time, t->n,
+                            t->spring_constant, workspace, &fit, &err) != WT_OK)
+        fail_msg("%s", err.message);
+    workspace->tip_move[0] = (tip_move){NULL, NULL, 0.0};
+    for (int i = 0; i < 3; i++)
+        wt_contact_table_free(table[i]);
+    return fit;
+}
+
+/* Errors of curves that the law describes are those of the noise, however little there is. */
+static void law_that_holds(void **state)
+{
+    (void)state;
+    const double noises[] = {0, 1e-13, 1e-12, 1e-11, 1e-10};
+    for (size_t k = 0; k < sizeof noises / sizeof noises[0]; k++) {
+        double square = 0, stated = 0;
+        enum { CURVES = 12 };
+        for (uint64_t seed = 1; seed <= CURVES; seed++) {
+            curve_truth t = curve_standard();
+            t.noise = noises[k];
+            curve_make(&t, seed, &data);
+            const wt_indent_fit fit = fit_tip(&t, &t.tip, NULL);
+            assert_int_equal(fit.verdict, WT_CURVE_ACCEPTED);
+            square += pow(fit.modulus.value / t.modulus - 1, 2) / CURVES;
+            stated += pow(fit.modulus.standard_error / t.modulus, 2) / CURVES;
+        }
+        if (!(sqrt(stated) < fmax(1.6 * sqrt(square), 5e-5)))
+            fail_msg("noise %g: errors of %g, %g stated", noises[k], sqrt(square), sqrt(stated));
+    }
+}
+
+/* A radius that is 5 and 15 % off, with next to no noise, of which little is to be seen: the
+ * interval is of the size of the error. */
+static void law_that_nearly_holds(void **state)
+{
+    (void)state;
+    const double shares[] = {0.95, 0.85};
+    for (size_t k = 0; k < sizeof shares / sizeof shares[0]; k++) {
+        curve_truth t = curve_standard();
+        t.tip = with_radius(&t, 20e-9);
+        t.noise = 2e-12;
+        curve_make(&t, 5, &data);
+        const wt_tip stated = with_radius(&t, 20e-9 / shares[k]);
+        const wt_indent_fit fit = fit_tip(&t, &stated, NULL);
+        const double off = fabs(fit.modulus.value - t.modulus),
+                     half = 1.96 * fit.modulus.standard_error;
+        assert_true(fit.lack_of_fit_p < 0.01);
+        if (!(off < 1.2 * half && half < 3 * off))
+            fail_msg("radius by %g: %g off, %g stated", 1 / shares[k], off, half);
+        assert_true(fit.misfit_error > 0.9 * fit.modulus.standard_error);
+    }
+}
+
+/* A tip of which an error is stated explains it, and then the error is that of the tip. */
+static void stated_error_of_the_tip(void **state)
+{
+    (void)state;
+    curve_truth t = curve_standard();
+    t.tip.half_angle = 35 * M_PI / 180;
+    t.tip = with_radius(&t, 45e-9);
+    t.noise = 50e-12;
+    curve_make(&t, 5, &data);
+    const wt_tip stated = with_radius(&t, 50e-9), moved = with_radius(&t, 60e-9);
+    const wt_indent_fit alone = fit_tip(&t, &stated, NULL), told = fit_tip(&t, &stated, &moved);
+    const double off = fabs(told.modulus.value - t.modulus);
+    assert_near(told.modulus.value, alone.modulus.value, 1e-12);
+    assert_true(wt_curve_usable(told.verdict));
+    assert_true(told.modulus.standard_error > alone.modulus.standard_error);
+    assert_true(off < 1.96 * told.modulus.standard_error);
+    assert_true(off > 0.2 * told.modulus.standard_error);
+    /* It is the tip's, and no misfit of the law. */
+    assert_true(told.misfit_error < 0.25 * told.modulus.standard_error);
+}
+
+/* All of it in the caps of 60 and 80 nm, which leave the same residual; one of 46 nm is not, so
+ * that the residual knows of a way to larger caps and of none to smaller ones. */
+static void tips_that_leave_as_little(void **state)
+{
+    (void)state;
+    curve_truth t = curve_standard();
+    t.tip.half_angle = 35 * M_PI / 180;
+    t.tip = with_radius(&t, 80e-9);
+    t.noise = 5e-12;
+    curve_make(&t, 5, &data);
+    const wt_tip stated = with_radius(&t, 60e-9), moved = with_radius(&t, 78e-9);
+    const wt_indent_fit fit = fit_tip(&t, &stated, &moved);
+    const double off = fabs(fit.modulus.value - t.modulus);
+    assert_true(off > 0.1 * t.modulus);
+    assert_true(fit.misfit_error < 0.1 * off);
+    assert_true(off < 1.96 * fit.modulus.standard_error);
+    assert_true(off > 0.5 * fit.modulus.standard_error);
+}
+
+/* The force of a contact of few samples rises from one to the next by more than any noise. */
+static void few_samples_in_contact(void **state)
+{
+    (void)state;
+    for (size_t in_contact = 9; in_contact < 16; in_contact++) {
+        curve_truth t = curve_standard();
+        const double beyond = t.travel - t.contact_point;
+        t.n = 200;
+        t.travel = t.contact_point + beyond;
+        t.contact_point = t.travel * (1 - ((double)in_contact - 0.5) / (double)(t.n - 1));
+        t.noise = 20e-12;
+        curve_make(&t, 3, &data);
+        const wt_indent_fit fit = fit_tip(&t, &t.tip, NULL);
+        if (fit.n_fitted != t.n)
+            fail_msg("%zu in contact: %zu of %zu samples fitted: %s", in_contact, fit.n_fitted, t.n,
+                     fit.reason);
+        assert_near(fit.modulus.value, t.modulus, 0.02);
+        assert_near(fit.max_force, curve_contact_force(&t, t.travel - t.contact_point), 0.01);
+    }
+}
+
+/* A quarter of the way before contact is baseline enough, whatever the samples are. */
+static void short_baselines(void **state)
+{
+    (void)state;
+    for (size_t n = 128; n <= 8192; n *= 4) {
+        curve_truth t = curve_standard();
+        t.n = n;
+        t.contact_point = (t.travel - t.contact_point) / 3;
+        t.travel = 4 * t.contact_point;
+        t.noise = 20e-12;
+        curve_make(&t, 3, &data);
+        const wt_indent_fit fit = fit_tip(&t, &t.tip, NULL);
+        if (fit.verdict != WT_CURVE_ACCEPTED)
+            fail_msg("%zu samples: %s", n, fit.reason);
+        assert_near_abs(fit.modulus.value, t.modulus, 3 * fit.modulus.standard_error);
+        assert_true(fit.modulus.standard_error < 0.05 * t.modulus);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(law_that_holds),          cmocka_unit_test(law_that_nearly_holds),
+        cmocka_unit_test(stated_error_of_the_tip), cmocka_unit_test(tips_that_leave_as_little),
+        cmocka_unit_test(few_samples_in_contact),  cmocka_unit_test(short_baselines),
+    };
+    workspace = wt_indent_workspace_new();
+    const int failed = cmocka_run_group_tests(tests, NULL, NULL);
+    wt_indent_workspace_free(workspace);
+    return failed;
+}
