@@ -1,4 +1,7 @@
-/* A ZIP archive of files of force curves. SPDX-License-Identifier: GPL-3.0-or-later */
+/* Reads a ZIP archive whose entries are files of force curves.
+ *
+ * SPDX-License-Identifier: GPL-3.0-or-later
+ */
 #include "read/collection.h"
 
 #include "read/bytes/input.h"
@@ -8,20 +11,21 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* A file of curves that somebody packed; nothing else ends an entry that was made to grow. */
+/* The limit on the unpacked size of an entry stops an archive that is made to expand without
+ * end. */
 #define ENTRY_MAX ((size_t)256 << 20)
 enum { NAMES_SHOWN = 5 };
 
 typedef struct entry {
     const char *name;
-    size_t number; /* in the archive */
+    size_t number; /* index in the archive */
 } entry;
 
 typedef struct collection {
     zip_archive *archive;
-    entry *entries; /* the files by name, 2 before 10 */
+    entry *entries; /* sorted by name, 2 before 10 */
     size_t n;
-    const char *name; /* of the archive */
+    const char *name; /* name of the archive */
 } collection;
 
 static void close_collection(collection *c)
@@ -38,7 +42,7 @@ static int by_name(const void *a, const void *b)
     return order != 0 ? order : (x->number > y->number) - (x->number < y->number);
 }
 
-/* Folders, and what a system hides beside its files, hold nothing. */
+/* Folders, hidden files and the metadata folder of macOS contain no data. */
 static bool is_file(const char *name)
 {
     const char *base = strrchr(name, '/');
@@ -64,7 +68,7 @@ static wt_status open_collection(wt_input *input, collection *c, wt_error *err)
     return WT_OK;
 }
 
-/* An entry unpacked, to be closed. */
+/* Unpacks entry `i` into a new input, which the caller closes. */
 static wt_status open_entry(const collection *c, size_t i, wt_input **input, wt_error *err)
 {
     char *name = NULL;
@@ -94,7 +98,7 @@ wt_status collection_each(wt_input *input, collection_look *look, void *user, wt
         if (status == WT_OK)
             status = look(content, user, &taken, err);
         else if (status != WT_E_MEMORY)
-            status = WT_OK; /* said where it is read */
+            status = WT_OK; /* the reader of the entry reports the damage */
         else
             wt_fail(err, status, "%s", damaged.message);
         wt_input_close(content);
@@ -110,8 +114,8 @@ typedef struct collection_source {
     collection files;
     const wt_formats *formats;
     collection_open *open;
-    size_t next, n_curves; /* entry, curves so far */
-    wt_input *input;       /* of the entry that is read, or NULL */
+    size_t next, n_curves; /* next entry, and number of curves read */
+    wt_input *input;       /* input of the current entry, or NULL */
     wt_force_source *inner;
 } collection_source;
 
@@ -123,7 +127,8 @@ static void close_entry(collection_source *s)
     s->input = NULL;
 }
 
-/* What is no force curve is left out with a warning; what is one and cannot be read fails. */
+/* An entry that is not a force curve is skipped with a warning. One that is a force curve but
+ * cannot be read is an error. */
 static wt_status next_entry(collection_source *s, wt_error *err)
 {
     const char *place = s->files.entries[s->next].name;

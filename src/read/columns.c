@@ -1,5 +1,5 @@
-/* Columns that the user names: the description of a plain table (table-units and its like) with
- * these names before its own.
+/* Builds a description from columns that the user names: the description of a plain table (such as
+ * table-units) with these columns in front.
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
@@ -9,7 +9,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* "NAME=QUANTITY:UNIT", the unit where the file does not say one. */
+/* An option "NAME=QUANTITY:UNIT". The unit applies where the file does not state one. */
 typedef struct given_column {
     text_span name, unit;
     wt_quantity quantity;
@@ -46,13 +46,13 @@ static wt_status parse_column(const char *text, given_column *column, wt_error *
     return WT_OK;
 }
 
-/* A plain table for each kind of data. */
+/* A kind of data and the id of its plain table. */
 typedef struct base_table {
     unsigned kind;
     const char *id;
 } base_table;
 
-/* The one that these columns belong into. */
+/* Selects the plain table that contains the quantities of the columns. */
 static const base_table *base_of(const given_column *columns, size_t n)
 {
     static const base_table bases[] = {{WT_KIND_FORCE, "table-force"},
@@ -61,7 +61,8 @@ static const base_table *base_of(const given_column *columns, size_t n)
                                        {WT_KIND_RECORD, "table-record"},
                                        {WT_KIND_SWEEP, "table-units"}};
     const size_t last = sizeof bases / sizeof *bases - 1;
-    const wt_quantity_set of_sweeps = quantities_of(bases[last].kind); /* a frequency is of both */
+    const wt_quantity_set of_sweeps =
+        quantities_of(bases[last].kind); /* a frequency belongs to sweeps and to noise */
     for (size_t i = 0; i < n; i++)
         for (size_t b = 0; b < last; b++)
             if ((quantities_of(bases[b].kind) & ~of_sweeps & WT_Q_BIT(columns[i].quantity)) != 0)
@@ -95,8 +96,9 @@ static void put_columns(FILE *out, const given_column *columns, size_t n)
     }
 }
 
-/* The description of the base with a head of its own, a score above all that know no name of a
- * maker, and the columns before those of the base. */
+/* Writes the description of the plain table with its own head. The score is above that of every
+ * description without the name of a manufacturer. The columns of the user precede those of the
+ * plain table. */
 static wt_status write_description(const base_table *base, const char *xml,
                                    const given_column *columns, size_t n, char **text,
                                    size_t *length, wt_error *err)

@@ -1,4 +1,4 @@
-/* What a file is, for `info`: the facts that all formats have, then those of its reader.
+/* Describes a file for `info`: the rows that all formats have, then those of its reader.
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */

@@ -1,7 +1,4 @@
-/* The check of a description, and its trial on a sample.
- *
- * SPDX-License-Identifier: GPL-3.0-or-later
- */
+/* Checks a description and tests it on a sample file. SPDX-License-Identifier: GPL-3.0-or-later */
 #include "core/table/registry.h"
 #include "read/force_assembler.h"
 #include "read/formats.h"
@@ -27,7 +24,7 @@ static void report_column(table_writer *report, const text_table *t, const text_
     description_put_text(report, DESCRIPTION_PROBLEM, problems[c->problem]);
 }
 
-/* All columns of the first table of each layout. */
+/* Reports the columns of each table, except for a table with the layout of the one before it. */
 static void report_tables(table_writer *report, const text_file *file)
 {
     for (size_t i = 0; i < file->n_tables; i++) {
@@ -42,7 +39,7 @@ static void report_tables(table_writer *report, const text_file *file)
     }
 }
 
-/* Reads the sample as each kind that its columns promise. */
+/* Reads the sample as each kind of data for which its columns suffice. */
 static wt_status try_kinds(const file_reader *reader, const text_file *file, wt_input *sample,
                            const wt_read_options *options, wt_log *log, wt_error *err)
 {
@@ -81,7 +78,7 @@ static wt_status try_kinds(const file_reader *reader, const text_file *file, wt_
     return status;
 }
 
-/* As reading does, of what is packed in the sample. */
+/* Reads the sample, unpacked if necessary, and reports its columns and problems. */
 static wt_status try_sample(const wt_formats *alone, wt_input *sample, wt_read_options options,
                             wt_log *log, table_writer *report, wt_error *err)
 {

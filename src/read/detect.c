@@ -1,5 +1,5 @@
-/* Detection: asks every reader, shows more of the file to those that cannot say yet, and never
- * settles a tie by the order of a list.
+/* Detects the format of a file. Every reader is queried; one that cannot decide yet sees more of
+ * the file. The order of the list never decides a tie.
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
@@ -12,15 +12,15 @@
 
 #define FIRST_PEEK ((size_t)4096)
 
-/* ---- what an unknown file looks like ------------------------------------------------------ */
+/* ---- unknown files --------------------------------------------------------------------------- */
 
 typedef struct signature {
-    size_t at; /* in the file */
+    size_t at; /* offset in the file */
     const char *bytes;
     size_t length;
     const char *words;
     const char *advice;
-    bool measured; /* may hold what an instrument measured */
+    bool measured; /* may contain measured data */
 } signature;
 
 #define SIGNATURE_AT(at, bytes, words, advice, measured)                                           \
@@ -91,13 +91,13 @@ static const signature *looks_like(const unsigned char *bytes, size_t length)
     return &text;
 }
 
-/* ---- asking the readers ------------------------------------------------------------------- */
+/* ---- querying the readers -------------------------------------------------------------------- */
 
-/* Who is asked one after the other until somebody knows the file. */
+/* Passes of the detection. A later pass runs only if no reader has recognised the file. */
 typedef enum question { ASK_SIGNATURES, ASK_TEXTS, ASK_TEXTS_OF_OTHER_KINDS, N_QUESTIONS } question;
 
-/* The answers of the readers of one kind or other: the best reader, one that ties with it, one that
- * knows the file but cannot read it. */
+/* Combined answers of a group of readers: the best reader, one with an equal score, and one that
+ * recognises the file but cannot read it. */
 typedef struct verdict {
     const file_reader *best;
     const file_reader *tied;
@@ -136,7 +136,8 @@ static bool is_asked(const file_reader *reader, question q, unsigned kinds)
     return has_kind(reader, kinds) == (q == ASK_TEXTS);
 }
 
-/* Puts one question; verdicts[1] is that of the readers of the kinds asked for, [0] of others. */
+/* Runs one pass. Element [1] collects the answers of the readers of the requested kinds, element
+ * [0] those of all others. */
 static wt_status ask_readers(const wt_formats *formats, wt_input *input, question q, unsigned kinds,
                              verdict verdicts[2], wt_error *err)
 {
@@ -155,7 +156,7 @@ static wt_status ask_readers(const wt_formats *formats, wt_input *input, questio
         file_peek peek = {.name = wt_input_name(input), .input = input};
         size_t need = 0, still_open = 0;
         for (size_t i = 0; i < n_open && status == WT_OK; i++) {
-            /* The one before may have looked elsewhere. */
+            /* the reader before may have moved the bytes of the input */
             status = wt_input_peek(input, want, &peek.bytes, &peek.length, &peek.whole, err);
             if (status != WT_OK)
                 break;
@@ -173,7 +174,7 @@ static wt_status ask_readers(const wt_formats *formats, wt_input *input, questio
         if (status != WT_OK)
             break;
         n_open = still_open;
-        /* Growing at least twofold keeps the number of questions small whatever readers ask. */
+        /* Doubling the size limits the number of iterations, whatever size the readers request. */
         size_t twice = want > SIZE_MAX / 2 ? SIZE_MAX : 2 * want;
         want = need > twice ? need : twice;
     }
@@ -246,8 +247,8 @@ static wt_status fail_ambiguous(const file_reader *a, const file_reader *b, wt_e
     return WT_E_AMBIGUOUS;
 }
 
-/* The score of descriptions that know numbers without a name: they may be of any kind, and that
- * those of another one could take them is no answer. */
+/* The score of descriptions that recognise numbers without names. Such numbers fit any kind of
+ * data, so a match of another kind is no reason to fail. */
 static const int numbers_alone = 5;
 
 static wt_status detect(const wt_formats *formats, wt_input *input, unsigned kinds,
@@ -276,8 +277,8 @@ static wt_status detect(const wt_formats *formats, wt_input *input, unsigned kin
     return fail_unknown(input, kinds, err);
 }
 
-/* A tar archive of one text would be read as that text, between its header and its zeros, and of
- * several as one that goes on. */
+/* A tar archive of a text file would be read as that text between the header and the padding. An
+ * archive of several files would be read as one text. */
 static bool is_tar(wt_input *input)
 {
     static const char mark[] = "ustar";

@@ -1,4 +1,4 @@
-/* Force curves, through the reader that the file belongs to.
+/* Opens force curves with the reader that recognises the file.
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
@@ -19,8 +19,8 @@ static wt_status open_content(const wt_formats *formats, wt_input *input,
                : status;
 }
 
-/* A file of an archive; the options are those of the archive, whose format is not that of the file.
- * An archive in it is none. */
+/* Opens an entry of an archive with the options of the archive. The format option is dropped if it
+ * names the archive itself. An archive within the archive is an error. */
 static wt_status open_entry(const wt_formats *formats, wt_input *entry,
                             const wt_read_options *options, wt_log *log, wt_force_source **source,
                             wt_error *err)

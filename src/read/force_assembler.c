@@ -1,4 +1,4 @@
-/* Force curves from what a reader finds: one place for all formats.
+/* Builds force curves from the segments and channels that a reader decodes, for all formats.
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
@@ -72,7 +72,7 @@ bool force_wants_segment(const wt_force_source *source, wt_segment_kind kind)
     return (source->options.segments & WT_SEGMENT_BIT(kind)) != 0;
 }
 
-/* ---- what a quantity is made of ----------------------------------------------------------- */
+/* ---- signals and calibration ----------------------------------------------------------------- */
 
 double force_positive(double value)
 {
@@ -101,12 +101,12 @@ void force_offer(force_metadata *facts, wt_quantity quantity)
     facts->offers[facts->n_offers++] = quantity;
 }
 
-/* From the detector to the force: the sensitivity leads from the first to the second, the spring
- * constant from there to the last. */
+/* The conversion chain of the deflection signal. The sensitivity converts the first quantity to the
+ * second, the spring constant the second to the third. */
 static const wt_quantity chain[] = {WT_Q_DEFLECTION_VOLTAGE, WT_Q_DEFLECTION, WT_Q_FORCE};
 enum { CHAIN = sizeof chain / sizeof *chain };
 
-/* Place in the chain, CHAIN if it has none. */
+/* Returns the index in the chain, or CHAIN for a quantity that is not in it. */
 static size_t chain_place(wt_quantity quantity)
 {
     size_t i = 0;
@@ -115,9 +115,10 @@ static size_t chain_place(wt_quantity quantity)
     return i;
 }
 
-/* The signal itself, else the nearest of the chain. But what the user gives replaces a link, so
- * that what comes behind it is made anew from what comes before; unless that is another channel,
- * which need not be of one measurement. */
+/* Selects the signal from which a quantity is computed: the signal itself, else the nearest in the
+ * chain. A calibration stated by the user replaces a step of the chain. The quantities after this
+ * step are then recomputed from those before it. A signal of another channel is not used for this,
+ * since it may belong to another measurement. */
 static const force_signal *origin_signal(const force_metadata *facts,
                                          const wt_read_options *options, wt_quantity wanted)
 {
@@ -152,7 +153,7 @@ static wt_cantilever cantilever_used(const wt_cantilever *file, const wt_read_op
     return used;
 }
 
-/* Fails with the options that would help. */
+/* Fails with the calibration options that the user can set. */
 static wt_status fail_uncalibrated(const force_signal *signal, const wt_cantilever *used,
                                    const char *place, wt_error *err)
 {
@@ -174,11 +175,11 @@ static wt_status fail_uncalibrated(const force_signal *signal, const wt_cantilev
 
 typedef struct force_column {
     wt_quantity quantity;
-    const force_signal *signal; /* NULL: the time, from the duration */
-    force_linear scaling;       /* from the numbers of the channel to the quantity */
+    const force_signal *signal; /* NULL if the time is computed from the duration */
+    force_linear scaling;       /* from the stored numbers of the channel to the quantity */
 } force_column;
 
-/* The columns that a segment gets. */
+/* The columns of a segment. */
 typedef struct force_plan {
     force_column columns[WT_Q_COUNT];
     size_t n;
@@ -205,7 +206,8 @@ static wt_status cannot_make(const wt_force_source *source, const force_metadata
     return status;
 }
 
-/* A given value that finds nothing to replace must not pass in silence. */
+/* Warns if a calibration stated by the user cannot be applied, because the file does not state its
+ * own value. */
 static void note_kept(const wt_force_source *source, const force_metadata *facts,
                       const force_signal *signal)
 {
@@ -226,7 +228,7 @@ static void note_kept(const wt_force_source *source, const force_metadata *facts
                    column);
 }
 
-/* Adds the column of a quantity, if there is anything that it can be made of. */
+/* Adds the column of a quantity if a signal exists from which it can be computed. */
 static wt_status plan_column(const wt_force_source *source, const force_metadata *facts,
                              wt_quantity wanted, force_plan *plan, wt_error *err)
 {
@@ -259,7 +261,7 @@ static wt_status plan_column(const wt_force_source *source, const force_metadata
     return WT_OK;
 }
 
-/* One order of the columns, whatever that of the file. */
+/* Returns the rank of a quantity in the fixed column order, which is independent of the file. */
 static size_t place_of(wt_quantity quantity)
 {
     static const wt_quantity order[] = {WT_Q_TIME,  WT_Q_HEIGHT,     WT_Q_MEASURED_HEIGHT,
@@ -282,7 +284,7 @@ static void sort_columns(force_plan *plan)
         }
 }
 
-/* Whether a given sensitivity replaces that of the file, or makes a column. */
+/* True if a stated sensitivity replaces that of the file or is used to compute a column. */
 static bool takes_sensitivity(const force_metadata *facts, const force_plan *plan)
 {
     bool takes = facts->cantilever.sensitivity > 0;
@@ -304,8 +306,8 @@ static bool is_wanted(const wt_read_options *options, const force_metadata *fact
            sensor->problem != NULL;
 }
 
-/* Of every format: what is no finite number, as it was stored or by its scaling, is missing. The
- * words are without a count, so that the log has one line for a map. */
+/* Decodes a channel. A value that is not finite counts as missing. The warning contains no count,
+ * so that the log merges the warnings of a map into one line. */
 static wt_status fill_channel(wt_force_source *source, const force_metadata *facts,
                               const force_column *column, size_t n, double *values, wt_error *err)
 {
@@ -325,7 +327,7 @@ wt_status force_add_segment(wt_force_source *source, const force_metadata *facts
     const size_t n = facts->n_points;
     force_plan plan = {.n = 0};
     wt_status status = WT_OK;
-    /* A segment that says nothing of it leaves what those before it said, and took. */
+    /* A segment without calibration leaves the calibration of the earlier segments unchanged. */
     const bool taken = curve->n_segments > 0 && curve->cantilever.sensitivity_given;
     if (!isnan(used.spring_constant) || !isnan(used.sensitivity))
         curve->cantilever = used;
@@ -382,7 +384,7 @@ bool force_place(long columns, long rows, bool back_and_forth, size_t number, wt
 
 /* ---- for info ----------------------------------------------------------------------------- */
 
-/* The signal that the quantity is made of, NULL if it cannot be made. */
+/* Returns the signal from which the quantity is computed; NULL if it cannot be computed. */
 static const force_signal *signal_made_of(const force_metadata *facts,
                                           const wt_read_options *options, wt_quantity quantity)
 {
@@ -417,7 +419,7 @@ void force_describe_calibration(const force_metadata *facts, const wt_read_optio
                  used.spring_constant_given ? given : spring_constant_source);
     facts_number(list, "deflection sensitivity", used.sensitivity, "m/V",
                  used.sensitivity_given ? given : sensitivity_source);
-    /* both are needed: the tip is at the height less the deflection */
+    /* both constants are needed, because the tip position is the height less the deflection */
     if (signal != NULL && (signal_made_of(facts, options, WT_Q_FORCE) == NULL ||
                            (isnan(used.spring_constant) && signal->quantity == WT_Q_FORCE &&
                             signal_made_of(facts, options, WT_Q_DEFLECTION) == NULL))) {

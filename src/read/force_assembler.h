@@ -1,6 +1,8 @@
-/* Force curves from what a reader finds. A reader decodes the layout of its file: which segments
- * and channels there are, in which units, with which calibration. What was asked for is made of
- * that here: force, deflection, time, and what to say of a quantity that cannot be made.
+/* Declares the assembly of force curves from decoded segments.
+ *
+ * A reader decodes the layout of its file: segments, channels, units and calibration. This module
+ * computes the requested quantities (force, deflection, time) from them. It reports each quantity
+ * that it cannot compute.
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
@@ -15,30 +17,30 @@ typedef struct force_linear {
     double multiplier, offset;
 } force_linear;
 
-/* A channel of a segment, or what the file's own calibration makes of it: a detector signal with
- * its calibration is a voltage, a deflection and a force. */
+/* A channel of a segment, or a quantity that the calibration of the file derives from it. A
+ * detector channel with its calibration is a voltage, a deflection and a force. */
 typedef struct force_signal {
     wt_quantity quantity;
     const char *name, *unit; /* as exported */
-    force_linear to_si;      /* from the numbers of the channel, as `decode` takes them */
-    const void *channel;     /* the reader's own */
-    const char *problem;     /* why it cannot be read, or NULL */
+    force_linear to_si;      /* from the stored numbers of the channel to SI units */
+    const void *channel;     /* owned by the reader */
+    const char *problem;     /* reason why it cannot be read, or NULL */
 } force_signal;
 
-/* What a reader says of a segment. */
+/* The description of a segment that a reader returns. */
 typedef struct force_metadata {
     wt_segment_kind kind;
-    size_t index;      /* number in the file */
+    size_t index;      /* number of the segment in the file */
     size_t n_points;   /* samples of every channel */
-    const char *place; /* in the file, for messages; or NULL */
+    const char *place; /* position in the file for messages, or NULL */
     double start;      /* time of the first sample [s] */
-    double duration;   /* of n_points intervals [s]; NaN if unknown */
+    double duration;   /* duration of n_points intervals [s]; NaN if unknown */
     double velocity;   /* [m/s], NaN if unknown */
-    double frequency;  /* of a modulation [Hz]; 0 or NaN if unknown */
-    double setpoint;   /* of the quantity below, NaN if unknown */
+    double frequency;  /* modulation frequency [Hz]; 0 or NaN if unknown */
+    double setpoint;   /* set point in the SI unit of setpoint_quantity; NaN if unknown */
     wt_quantity setpoint_quantity;
-    wt_cantilever cantilever; /* that the file's deflections and forces were made with */
-    /* What the format has to give; a force is made from any signal. */
+    wt_cantilever cantilever; /* calibration with which the file computed deflections and forces */
+    /* Quantities that the format can deliver. A force is computed from any signal of the chain. */
     wt_quantity offers[WT_Q_COUNT];
     size_t n_offers;
     force_signal signals[WT_Q_COUNT];
@@ -47,66 +49,70 @@ typedef struct force_metadata {
 
 struct file_reader;
 
-/* How a reader streams its curves. */
+/* The functions with which a reader delivers its curves one by one. */
 typedef struct force_stream {
-    size_t size; /* of its own struct, whose first member is a wt_force_source */
-    /* Name, options and log are set, the rest is zero. What failed is closed like any other. */
+    size_t size; /* size of the reader's struct, whose first member is a wt_force_source */
+    /* Opens the source. Name, options and log are set; all other members are zero. After a failure
+     * the caller closes the source as well. */
     wt_status (*open)(wt_force_source *source, const struct file_reader *self, wt_input *input,
                       wt_error *err);
-    /* Fills an empty curve. */
+    /* Reads the next curve into an empty curve. Returns WT_END after the last curve. */
     wt_status (*next)(wt_force_source *source, wt_force_curve *curve, wt_error *err);
-    /* values[n] = scaling of the numbers of a channel of the segment that is being read. Whether
-     * they are finite is not asked. */
+    /* Decodes n samples of a channel of the current segment: values[i] = scaling of the stored
+     * number. The values may be non-finite. */
     wt_status (*decode)(wt_force_source *source, const force_signal *signal, force_linear scaling,
                         size_t n, double *values, wt_error *err);
-    /* Goes on with the curve of this index, which is there. NULL: those before it are read. */
+    /* Continues with the curve of this index, which exists. NULL if the earlier curves have to be
+     * read. */
     void (*seek)(wt_force_source *source, size_t index);
-    void (*close)(wt_force_source *source); /* all but the struct itself; NULL: there is nothing */
+    void (*close)(wt_force_source *source); /* frees all but the struct itself; may be NULL */
 } force_stream;
 
-/* The first member of each reader's own struct. */
+/* Common state of a source. It is the first member of the struct of each reader. */
 struct wt_force_source {
     const force_stream *stream;
-    const char *name;        /* of the input */
-    wt_read_options options; /* what was asked for */
+    const char *name;        /* name of the input */
+    wt_read_options options; /* requested quantities and settings */
     wt_log *log;
-    size_t n_curves;              /* SIZE_MAX if not known before reading */
-    long grid_columns, grid_rows; /* 0 if there is no grid */
-    bool constant_checked, heights_checked, given_checked; /* force_contradiction.h */
+    size_t n_curves;                                       /* SIZE_MAX if unknown before reading */
+    long grid_columns, grid_rows;                          /* 0 if there is no grid */
+    bool constant_checked, heights_checked, given_checked; /* each check runs once */
 };
 
-/* The curves of a file, by the stream of its reader `self`; the source borrows the input until it
- * is closed. */
+/* Opens the curves of a file with the stream of its reader `self`. The source borrows the input
+ * until it is closed. */
 wt_status force_open(const force_stream *stream, const struct file_reader *self, wt_input *input,
                      const wt_read_options *options, wt_log *log, wt_force_source **source,
                      wt_error *err);
-/* Leaves out curves before that of an index that was read before, as far as the format lets it. */
+/* Skips the curves before the one with this index, which was read before. It has no effect if the
+ * format cannot skip. */
 void force_seek(wt_force_source *source, size_t index);
 bool force_wants_segment(const wt_force_source *source, wt_segment_kind kind);
 
-/* A calibration, a velocity or a time as a header says it; NaN if that is nothing. */
+/* Returns a positive finite value unchanged, else NaN. */
 double force_positive(double value);
-/* Each quantity once: what comes first counts. */
+/* Each quantity is added once; a later addition is ignored. */
 void force_add_signal(force_metadata *facts, force_signal signal);
 void force_offer(force_metadata *facts, wt_quantity quantity);
-/* NULL if there is none. */
+/* Returns NULL if there is none. */
 const force_signal *force_find_signal(const force_metadata *facts, wt_quantity quantity);
-/* Adds a segment, if it has samples, with what was asked for. What cannot be made is WT_E_MISSING
- * if it was asked for by name, a warning if simply everything was. */
+/* Adds a segment with the requested quantities, if it has samples. A quantity that cannot be
+ * computed is WT_E_MISSING if it was requested by name. It is a warning if all quantities were
+ * requested. */
 wt_status force_add_segment(wt_force_source *source, const force_metadata *facts,
                             wt_force_curve *curve, wt_error *err);
 
-/* Place of curve number `number` of a grid that is measured line by line, every other one on the
- * way back if so; false if it lies outside. */
+/* Sets the grid position of curve `number` of a grid measured line by line. With back_and_forth
+ * every other line runs backwards. Returns false if the number lies outside of the grid. */
 bool force_place(long columns, long rows, bool back_and_forth, size_t number,
                  wt_force_curve *curve);
 
 /* ---- for info ----------------------------------------------------------------------------- */
 
-/* The first quantity offered that is made of this channel, or WT_Q_NONE. */
+/* Returns the first offered quantity that is computed from this channel, or WT_Q_NONE. */
 wt_quantity force_read_as(const force_metadata *facts, const wt_read_options *options,
                           const void *channel);
-/* Rows of the calibration that is used, where the file's own values come from, and what is missing
+/* Adds rows with the calibration in use, the sources of the values of the file, and what is missing
  * for a force. */
 void force_describe_calibration(const force_metadata *facts, const wt_read_options *options,
                                 const char *spring_constant_source, const char *sensitivity_source,

@@ -1,5 +1,5 @@
-/* What a file says twice and not alike: the spring constant against force and deflection, the
- * height of the piezo against that of its sensor.
+/* Checks inconsistent metadata: the spring constant against force and deflection, and the piezo
+ * height against its sensor.
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
@@ -9,15 +9,16 @@
 #include <stdlib.h>
 
 enum { SAMPLES_MIN = 4 };
-/* Rounded constants and heights are as near as this; a piezo that creeps or bends is not. */
+/* Relative tolerances. Rounded values agree within them; a piezo with creep or hysteresis may
+ * exceed them. */
 static const double constants_agree = 0.02, heights_agree = 0.05;
-/* A calibration is not off by this; a unit is. */
+/* A ratio above this indicates a wrong unit and not another calibration. */
 static const double far_off = 3;
-/* Below it the samples tell no slope. */
+/* Minimum share of explained variance for which the slope is used. */
 static const double share_least = 0.9;
 
-/* Slope of y over x and the share of the variance of y that it explains; samples that are missing
- * in either are left out. */
+/* Returns the slope of y over x. *share is the share of the variance of y that it explains. Pairs
+ * with a missing sample are skipped. */
 static double fitted_slope(const double *x, const double *y, size_t n, double *share)
 {
     double sx = 0, sy = 0, sxx = 0, sxy = 0, syy = 0, m = 0;

@@ -1,4 +1,5 @@
-/* The set of formats: binary readers, the descriptions inside the library, those of a folder.
+/* Manages the set of formats: binary readers, descriptions embedded in the library, and those of a
+ * folder.
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
@@ -22,7 +23,7 @@ static const file_reader *const binary[] = {
 };
 #define N_BINARY (sizeof binary / sizeof *binary)
 
-/* ---- making a set ------------------------------------------------------------------------- */
+/* ---- building a set -------------------------------------------------------------------------- */
 
 static wt_status add_reader(wt_formats *f, const file_reader *reader, wt_error *err)
 {
@@ -117,7 +118,7 @@ static wt_status add_folder(wt_formats *f, const char *folder, wt_log *log, wt_e
     return status;
 }
 
-/* Those that run a description come after it and borrow it. */
+/* Adds the binary readers. Those that run a description are added after it and borrow it. */
 static wt_status add_binary(wt_formats *f, bool running, wt_error *err)
 {
     wt_status status = WT_OK;
@@ -162,7 +163,7 @@ void wt_formats_free(wt_formats *formats)
     free(formats);
 }
 
-/* ---- asking it ---------------------------------------------------------------------------- */
+/* ---- queries --------------------------------------------------------------------------------- */
 
 size_t wt_formats_count(const wt_formats *formats)
 {

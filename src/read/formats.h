@@ -1,4 +1,4 @@
-/* The set of formats as the other files of this room see it, and how a file finds its reader.
+/* Declares the set of formats for the files of this folder, and how the reader of a file is found.
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
@@ -7,31 +7,32 @@
 
 #include "read/reader.h"
 
-/* The i-th reader of a set, in the order of wt_formats_get; borrowed. */
+/* Returns the i-th reader of a set, in the order of wt_formats_get; borrowed. */
 const file_reader *formats_reader(const wt_formats *formats, size_t i);
-/* Takes the description, also on failure; one of the same id is replaced, with a note. */
+/* Adds a description and takes ownership of it, also on failure. A description with the same id is
+ * replaced, with a note in the log. */
 wt_status formats_add_text(wt_formats *formats, struct text_description *description, wt_log *log,
                            const char *path, wt_error *err);
-/* A set of this one alone, taken also on failure. */
+/* Creates a set with this description alone. Ownership passes to the function, also on failure. */
 wt_status formats_of(struct text_description *description, const char *path, wt_formats **formats,
                      wt_error *err);
-/* The reader of that id, or NULL. */
+/* Returns the reader with this id, or NULL. */
 const file_reader *formats_find_reader(const wt_formats *formats, const char *id);
 
-/* detect.c: the reader that the bytes belong to as they are: the one of that format, or with NULL
- * the one that recognises them. `kinds` limits the question (0 = any); what is recognised but has
- * none of them is WT_E_EMPTY and says so. */
+/* detect.c: finds the reader of the bytes as they are: the reader of `format`, or with NULL the one
+ * that recognises them. `kinds` limits the search (0: any). A recognised file without any of these
+ * kinds is WT_E_EMPTY. */
 wt_status detect_reader(const wt_formats *formats, wt_input *input, const char *format,
                         unsigned kinds, const file_reader **reader, wt_error *err);
 
-/* content.c: the same of what is packed in the input, which *content is then; the input keeps it.
- * It is the input itself if nothing is packed there. */
+/* unpack.c: unpacks the input and finds the reader of its content. *content is the unpacked input,
+ * which `input` owns. It is `input` itself if nothing is packed. */
 wt_status find_reader(const wt_formats *formats, wt_input *input, const wt_read_options *options,
                       unsigned kinds, const file_reader **reader, wt_input **content,
                       wt_error *err);
 
-/* start.c: what each kind of reading begins with: `given` or the defaults, checked, the reader and
- * what it is to read. */
+/* reader_select.c: begins every kind of read. It checks `given` (NULL: the defaults), and finds the
+ * reader and the unpacked content. */
 typedef struct reading {
     wt_read_options options;
     const file_reader *reader;
@@ -39,8 +40,8 @@ typedef struct reading {
 } reading;
 wt_status read_start(const wt_formats *formats, wt_input *input, const wt_read_options *given,
                      unsigned kind, reading *begun, wt_error *err);
-/* And ends with: the name of the file in the error, if there is one; memory that failed a library.
- */
+/* Ends every kind of read: adds the file name to an error and reports a resource error of a
+ * library. */
 wt_status read_end(wt_input *input, wt_status status, wt_error *err);
 
 #endif

@@ -1,4 +1,5 @@
-/* Heights that stand out alone, of which a damaged file has some: they rule every number of slopes.
+/* Warns of isolated spikes in a height image. A damaged file has some, and they dominate every
+ * slope statistic.
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
@@ -6,17 +7,17 @@
 
 #include <math.h>
 
-/* How many times the rms step from point to point: noise does not stand so far beyond all its
- * neighbours, nor does an edge beyond those along it. */
+/* Minimum height of a spike above all its neighbours, in rms steps between points. Noise and edges
+ * stay below it. */
 static const double spike_steps = 4.0;
-/* Of the mean square step, which those few make: less does not rule the slopes. */
+/* Minimum share of the spikes in the mean square step. Below it they do not dominate the slopes. */
 static const double spike_share = 0.5;
-/* Fewer points have no usual step. */
+/* Minimum number of points for a meaningful rms step. */
 enum { POINTS_LEAST = 64 };
 
 typedef struct neighbours {
     double low, high;
-    size_t n; /* that are not missing */
+    size_t n; /* number of valid neighbours */
 } neighbours;
 
 static void add_neighbour(neighbours *all, double height)
@@ -43,14 +44,15 @@ static neighbours neighbours_of(const wt_image *image, size_t column, size_t row
     return all;
 }
 
-/* How far a height lies beyond all of its neighbours; 0: between them, or there are too few. */
+/* Returns the distance of a height beyond the range of its neighbours. It is 0 within the range or
+ * with less than two neighbours. */
 static double excess_of(double height, const neighbours *all)
 {
     return all->n < 2 || isnan(height) ? 0 : fmax(0, fmax(height - all->high, all->low - height));
 }
 
-/* Sum of the squares of all steps to the next point, in units of `scale`, which no square leaves
- * the range of numbers for; *n: how many. */
+/* Returns the sum of the squared steps between adjacent points, in units of `scale`, which prevents
+ * overflow. *n is the number of steps. */
 static double sum_steps(const wt_image *image, double scale, size_t *n)
 {
     double sum = 0;
@@ -73,7 +75,7 @@ static double largest_of(const wt_image *image)
 {
     double largest = 0;
     for (size_t i = 0; i < image->n_columns * image->n_rows; i++)
-        largest = fmax(largest, fabs(image->values[i])); /* of one that is missing the other */
+        largest = fmax(largest, fabs(image->values[i])); /* fmax ignores a NaN */
     return largest;
 }
 

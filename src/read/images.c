@@ -1,4 +1,7 @@
-/* The list of images that a reader makes of a file. SPDX-License-Identifier: GPL-3.0-or-later */
+/* Implements the list of images that a reader creates from a file.
+ *
+ * SPDX-License-Identifier: GPL-3.0-or-later
+ */
 #include "read/images.h"
 
 #include "core/base/utf8.h"
@@ -65,7 +68,7 @@ static void note_missing(wt_image *image, const char *file, wt_log *log)
     if (missing > 0)
         wt_log_add(log, WT_WARNING, file, image->name,
                    "%zu of %zu pixels are not finite numbers and left out", missing, n);
-    /* One line has no height, and one column no width. */
+    /* A single line has height 0 and a single column has width 0. */
     if (isinf(image->width) || (!(image->width > 0) && image->n_columns > 1))
         image->width = (double)NAN;
     if (isinf(image->height) || (!(image->height > 0) && image->n_rows > 1))
@@ -74,9 +77,9 @@ static void note_missing(wt_image *image, const char *file, wt_log *log)
     (void)samples_mend(&image->y_min, 1);
 }
 
-/* ---- what the user says ---------------------------------------------------------------------- */
+/* ---- options of the user --------------------------------------------------------------------- */
 
-/* Unlike sizes that are one in other words. */
+/* Relative difference above which two pixel sizes are different and not just rounded. */
 static const double other_size = 1e-3;
 
 static void give_pixels(wt_image *image, double pixel, const char *file, wt_log *log)
@@ -182,7 +185,7 @@ wt_status images_facts(const file_reader *reader, wt_input *input, const wt_read
         facts_add(facts, "image not read", "", "", "%s", no_images.message);
     if (curves == WT_OK || (curves == WT_E_EMPTY && status == WT_OK))
         return WT_OK;
-    /* Of two that are damaged the curves say it. */
+    /* If both fail, the error of the curves is returned. */
     if (facts->err != NULL)
         *facts->err = no_curves == NULL || (curves == WT_E_EMPTY && status != WT_E_EMPTY)
                           ? no_images

@@ -1,5 +1,7 @@
-/* The list of images that a reader makes of a file. Row 0 is the bottom line; width and height go
- * from the middle of the first pixel to that of the last one.
+/* Declares the list of images that a reader creates from a file.
+ *
+ * Row 0 is the bottom line. Width and height are the distances between the centres of the first
+ * and the last pixel [m].
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
@@ -15,36 +17,37 @@ typedef struct image_list {
     size_t n;
 } image_list;
 
-/* Adds an image with the name, unit, pixels and size of `head`; its values are for the caller to
- * fill. WT_E_CORRUPT: no pixels, or too many for any image. */
+/* Adds an image with the name, unit, pixels and size of `head`. The caller fills *values, row by
+ * row. Returns WT_E_CORRUPT for no pixels or too many. */
 wt_status images_add(image_list *list, const wt_image *head, double **values, wt_error *err);
-/* The size of an area of that many pixels side by side. */
+/* Sets the distances between the outer pixel centres from the width and height of the whole
+ * area. */
 void images_set_size(wt_image *head, double width, double height);
-/* The area of that many pixels side by side and the unit of the values as texts say: SI units; what
- * is no length keeps its unit, and without a unit or a size the pixels have no size. *factor makes
- * the values SI. */
+/* Sets the area and the unit of the values from unit texts, in SI units. A value unit that is no
+ * length is kept. Without a unit or a size the image has the size NaN. *factor converts the values
+ * to SI units. */
 void images_set_units(wt_image *head, const char *unit_xy, const char *unit_z, double width,
                       double height, double *factor);
-/* Cut where it is too long, but not within a character. */
+/* Sets the name. A name that is too long is cut at a whole character. */
 void images_set_name(wt_image *head, const char *name);
 void images_free(wt_image **images, size_t *n);
-/* Hands the list on if `status` is good, else clears it. WT_E_EMPTY if there is no image. Pixels
- * that are missing go to the log; a size that is none is NaN. */
+/* Transfers the list to the caller on success and frees it on failure. WT_E_EMPTY if there is no
+ * image. Missing pixels are logged; an invalid size becomes NaN. */
 wt_status images_end(image_list *list, wt_status status, const char *file, wt_log *log,
                      wt_image **images, size_t *n, wt_error *err);
-/* What the user says of images whose file does not: the size of their pixels, the unit of heights.
- * A size that nobody knows is warned of, and heights that are spikes. */
+/* Applies the options of the user to images whose file states no pixel size or height unit. Warns
+ * of an unknown size and of spikes. */
 wt_status images_given(wt_image *images, size_t n, const wt_read_options *options, const char *file,
                        wt_log *log, wt_error *err);
-/* Warns of single heights that make most of the slopes of an image of heights. */
+/* Warns of single heights that dominate the slopes of a height image. */
 void images_warn_of_spikes(const wt_image *image, const char *file, wt_log *log);
-/* Adds what `info` shows of the images of a file, behind what it shows of its curves, which ended
- * with `curves` and `no_curves`: no curves are no failure beside an image. */
+/* Adds the rows of the images for `info` after those of the force curves, whose status is `curves`
+ * and whose error is `no_curves`. A file with images but without curves is no failure. */
 struct file_reader;
 wt_status images_facts(const struct file_reader *reader, wt_input *input,
                        const wt_read_options *options, wt_log *log, table_writer *facts,
                        wt_status curves, const wt_error *no_curves);
-/* The same of a reader of images alone. */
+/* Variant of images_facts for a reader of images alone. */
 wt_status images_describe(const struct file_reader *reader, wt_input *input,
                           const wt_read_options *options, wt_log *log, table_writer *facts);
 

@@ -1,4 +1,4 @@
-/* The table of facts that a reader fills for `info`.
+/* Fills the table of metadata that a reader returns for `info`.
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */

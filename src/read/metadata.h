@@ -1,4 +1,5 @@
-/* The table of facts that a reader fills for `info`. The first failure stays in the writer.
+/* Declares the table of metadata that a reader fills for `info`. The writer keeps the first
+ * failure.
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
@@ -7,10 +8,10 @@
 
 #include "core/table/table_writer.h"
 
-/* Adds a row; the value is printed. */
+/* Adds a row; the value is formatted as with printf. */
 void facts_add(table_writer *facts, const char *item, const char *unit, const char *source,
                const char *format, ...) WT_PRINTF(5, 6);
-/* NaN is "unknown". */
+/* Adds a row with a number; NaN is written as "unknown". */
 void facts_number(table_writer *facts, const char *item, double value, const char *unit,
                   const char *source);
 

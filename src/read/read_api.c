@@ -1,4 +1,4 @@
-/* DMA sweeps, spectra, records of friction and images, through the reader that the file belongs to.
+/* Reads DMA sweeps, spectra, friction records and images with the reader that recognises the file.
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
@@ -18,7 +18,7 @@ wt_status wt_sweep_read(const wt_formats *formats, wt_input *input, const wt_rea
     return read_end(input, status, err);
 }
 
-/* Densities of another convention become those of this program. */
+/* Converts spectral densities of another convention to that of this program. */
 static wt_status take_convention(const reading *r, const char *name, wt_log *log,
                                  wt_power_spectrum *spectrum, wt_error *err)
 {

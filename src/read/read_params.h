@@ -1,13 +1,15 @@
-/* Records of parameters of reading that another structure has too.
- * SPDX-License-Identifier: GPL-3.0-or-later */
+/* Defines the parameters of reading that other structures share.
+ *
+ * SPDX-License-Identifier: GPL-3.0-or-later
+ */
 #ifndef WT_READ_READ_PARAMS_H
 #define WT_READ_READ_PARAMS_H
 
 #include "core/base/param.h"
 #include "weartrack/read.h"
 
-/* An indentation and a case may state their errors, which are those of a group of files and not
- * used by reading. test: of the member, or NULL. */
+/* Rows of the parameter table for the calibration of the cantilever. `where`: flags of the row.
+ * `test`: check of the member, or NULL. */
 #define SPRING_CONSTANT(type, where, test)                                                         \
     {                                                                                              \
         PARAM("spring-constant", type, spring_constant, WT_Q_SPRING_CONSTANT, ABOVE(0)),           \

@@ -1,4 +1,4 @@
-/* Detection by the bytes of a file's beginning. SPDX-License-Identifier: GPL-3.0-or-later */
+/* Detects a format by the first bytes of a file. SPDX-License-Identifier: GPL-3.0-or-later */
 #include "read/reader.h"
 
 #include <string.h>

@@ -1,5 +1,5 @@
-/* What a reader is: one descriptor, shared by the binary readers and by the engine that runs the
- * XML descriptions. Detection never opens a file itself and never trusts a name.
+/* Declares the descriptor of a reader, for the binary readers and for the engine of the XML
+ * descriptions. Detection never opens a file itself and never relies on the file name.
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
@@ -9,44 +9,45 @@
 #include "read/metadata.h"
 #include "weartrack/read.h"
 
-/* The honest answers of a detector. */
+/* Answers of a detector. */
 typedef enum detector_answer {
-    ANSWER_NO,          /* not mine */
-    ANSWER_YES,         /* mine, with a score */
-    ANSWER_UNSUPPORTED, /* mine, but damaged or of a kind that I cannot handle; `reason` says why */
-    ANSWER_MORE,        /* cannot say yet: show me at least `need` bytes */
+    ANSWER_NO,          /* another format */
+    ANSWER_YES,         /* recognised, with a score */
+    ANSWER_UNSUPPORTED, /* recognised, but damaged or unsupported; `reason` states why */
+    ANSWER_MORE,        /* undecided; needs at least `need` bytes */
     ANSWER_NO_MEMORY
 } detector_answer;
 
 typedef struct recognition {
     detector_answer answer;
-    int score;        /* 1..100, higher wins; a tie of the highest is an error that names both */
+    int score;        /* 1 to 100; the highest wins, a tie is an error */
     size_t need;      /* for ANSWER_MORE */
-    char reason[160]; /* for ANSWER_UNSUPPORTED, and a hint for `info` */
+    char reason[160]; /* for ANSWER_UNSUPPORTED */
 } recognition;
 
-/* The beginning of a file. `whole` says that bytes..length is all there is. */
+/* The beginning of a file. `whole`: these bytes are the complete file. */
 typedef struct file_peek {
     const unsigned char *bytes;
     size_t length;
     bool whole;
-    const char *name;       /* as the user wrote it; for messages only */
-    wt_input *input;        /* for a detector that must look far behind; the bytes may move then */
-    struct text_peek *text; /* what the text readers made of it for each other; text_peek_free */
+    const char *name; /* as the user typed it; for messages only */
+    wt_input *input;  /* for a detector that reads further parts; `bytes` may then become invalid */
+    struct text_peek *text; /* shared decoding of the text readers; text_peek_free frees it */
 } file_peek;
 
 typedef struct file_reader {
     wt_format_info info; /* id, title, kind, how it was verified: read.h */
     const char *runs;    /* id of the description that a binary reader runs, or NULL */
-    struct text_description *description; /* that it runs, or NULL */
-    /* The text that the description reads, to be closed; NULL: the input itself. */
+    struct text_description *description; /* the description that it runs, or NULL */
+    /* Converts the file to the text that the description reads; the caller closes it. NULL if the
+     * input is that text. */
     wt_status (*as_text)(const struct file_reader *self, wt_input *input, wt_log *log,
                          wt_input **text, wt_error *err);
-    const struct hdf5_curves *hdf5; /* that hdf5_as_text reads (hierarchy/curves_hdf5.h), or NULL */
-    /* `self` is the reader itself. */
+    const struct hdf5_curves *hdf5; /* for hdf5_as_text (hierarchy/curves_hdf5.h), or NULL */
+    /* `self` is this reader. */
     recognition (*detect)(const struct file_reader *self, file_peek *peek);
-    /* Kinds that it cannot deliver are NULL. */
-    const struct force_stream *force; /* force_source.h */
+    /* The functions of unsupported kinds of data are NULL. */
+    const struct force_stream *force; /* force_assembler.h */
     wt_status (*read_sweep)(const struct file_reader *self, wt_input *input,
                             const wt_read_options *options, wt_log *log, wt_sweep *sweep,
                             wt_error *err);
@@ -62,25 +63,27 @@ typedef struct file_reader {
     wt_status (*read_record)(const struct file_reader *self, wt_input *input,
                              const wt_read_options *options, wt_log *log, wt_record *record,
                              wt_error *err);
-    /* Adds what `info` shows: segments, channels, calibration, what is missing or odd. Fails with
-     * what hinders reading. */
+    /* Adds the rows for `info`: segments, channels, calibration and defects. Fails if the file
+     * cannot be read. */
     wt_status (*describe)(const struct file_reader *self, wt_input *input,
                           const wt_read_options *options, wt_log *log, table_writer *facts);
 } file_reader;
 
-/* A reader that knows its files by their words is asked only where no signature answered. */
+/* True for a reader that recognises text. It is queried only if no reader recognises a
+ * signature. */
 static inline bool reader_is_text(const file_reader *reader)
 {
     return reader->description != NULL && reader->runs == NULL;
 }
 
-/* Detection by bytes: whether the file begins with them, or they stand in what is shown of it. */
+/* peek_begins: true if the file begins with these bytes. peek_holds: true if the visible part
+ * contains them. */
 bool peek_begins(const file_peek *peek, const char *bytes, size_t n);
 bool peek_holds(const file_peek *peek, const char *bytes, size_t n);
 #define PEEK_BEGINS(peek, text) peek_begins(peek, text, sizeof(text) - 1)
 #define PEEK_HOLDS(peek, text) peek_holds(peek, text, sizeof(text) - 1)
 #define HDF5_SIGNATURE "\211HDF\r\n\032\n"
-/* Mine, with that score, or not. */
+/* Returns ANSWER_YES with this score, or ANSWER_NO. */
 recognition recognised(bool mine, int score);
 
 #define READER(id) extern const file_reader reader_##id;

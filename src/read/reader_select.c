@@ -1,4 +1,4 @@
-/* What each reading begins with: the options, checked, and the reader that the file belongs to.
+/* Begins each read: checks the options and selects the reader of the file.
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */

@@ -1,5 +1,5 @@
-/* What is read of a file that packs another: of a gzip archive its content, of a spreadsheet the
- * sheet that holds the data, as text.
+/* Unpacks a file that contains another one: the content of a gzip archive, or the data sheet of a
+ * spreadsheet as text.
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
@@ -21,7 +21,7 @@ typedef struct choice {
     unsigned kinds;
     const workbook *book;
     const char *file;
-    bool *chosen; /* of each sheet */
+    bool *chosen; /* one flag for each sheet */
     wt_error *err;
 } choice;
 
@@ -30,7 +30,7 @@ static bool wants_all(const choice *c)
     return c->options->sheet != NULL && strcmp(c->options->sheet, "all") == 0;
 }
 
-/* The sheets as words of a message: all, or those chosen. */
+/* Formats the names of all sheets, or of those chosen, for a message. */
 static void list_sheets(const choice *c, bool chosen, char *words, size_t size)
 {
     size_t used = 0;
@@ -56,7 +56,7 @@ static wt_status sheet_input(const choice *c, size_t i, wt_input **input)
     return status;
 }
 
-/* Whether a sheet holds something that is read, and of the kinds asked for. */
+/* Sets *yes if a reader of the requested kinds recognises the sheet. */
 static wt_status sheet_recognised(const choice *c, size_t i, bool *yes)
 {
     wt_error why = WT_ERROR_INIT;
@@ -96,7 +96,7 @@ static wt_status choose_by_name(const choice *c)
     return WT_E_NOT_FOUND;
 }
 
-/* Hidden sheets are no answer unless they are named. */
+/* Chooses the sheets that a reader recognises. Hidden sheets are skipped unless they are named. */
 static wt_status choose_by_content(const choice *c)
 {
     char words[200];
@@ -121,8 +121,7 @@ static wt_status choose_by_content(const choice *c)
                                 "measurement with --sheet all");
         return WT_E_AMBIGUOUS;
     }
-    /* The only one may be read all the same if the user says how, or tells what is wrong with it.
-     */
+    /* A single visible sheet is read in any case; its reader reports what is wrong. */
     c->chosen[last] = visible == 1;
     if (visible == 1)
         return WT_OK;
@@ -134,7 +133,7 @@ static wt_status choose_by_content(const choice *c)
     return WT_E_FORMAT;
 }
 
-/* The sheets chosen as one text. */
+/* Joins the chosen sheets to one text. */
 static wt_status join_sheets(const choice *c, wt_input **content)
 {
     char *text = NULL, *name = NULL;
@@ -191,7 +190,7 @@ static wt_status choose_sheet(const wt_formats *formats, wt_input *input, const 
 
 /* ---- unpacking ------------------------------------------------------------------------------- */
 
-/* One step; *content stays NULL if nothing is packed there. */
+/* Unpacks one layer. *content stays NULL if nothing is packed. */
 static wt_status unpack(const wt_formats *formats, wt_input *input, const wt_read_options *options,
                         unsigned kinds, wt_input **content, wt_error *err)
 {
@@ -214,12 +213,12 @@ static wt_status unpack(const wt_formats *formats, wt_input *input, const wt_rea
     return status;
 }
 
-/* An archive of an archive of a spreadsheet is as deep as it goes. */
+/* Maximum nesting of archives, such as a gzip archive of a gzip archive of a spreadsheet. */
 enum { MOST_LAYERS = 3 };
 
 /* ---- an archive of force curves -------------------------------------------------------------- */
 
-/* Files without a curve that may stand before the first with one. */
+/* Maximum number of files without a curve before the first file with one. */
 enum { LOOKED_AT_MAX = 64 };
 
 typedef struct search {
@@ -248,8 +247,8 @@ static bool is_zip(wt_input *input)
            length >= 4 && memcmp(bytes, "PK\3\4", 4) == 0;
 }
 
-/* A ZIP archive of curves is one that no reader knows but for what is in it, or that the format of
- * a text is given for. */
+/* Finds the reader of an unpacked input. A ZIP archive counts as an archive of curves in two cases:
+ * no reader recognises it but its entries are curves, or the user states a text format. */
 static wt_status detect_content(const wt_formats *formats, wt_input *in, const char *format,
                                 unsigned kinds, const file_reader **reader, wt_error *err)
 {

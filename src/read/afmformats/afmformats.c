@@ -1,5 +1,5 @@
-/* HDF5 files of afmformats (.h5): a group for each curve with a data set for each column, the
- * number of the segment among them, and the metadata as attributes.
+/* Reads HDF5 files of afmformats (.h5). Each curve is a group with a data set for each column,
+ * among them the segment number. The metadata are attributes.
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
@@ -12,8 +12,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* ---- behind the door --------------------------------------------------------------------------
- */
+/* ---- in the sandbox -------------------------------------------------------------------------- */
 
 enum { COLUMNS = 4, MISSING_MAX = 10000 };
 static const struct {
@@ -32,7 +31,8 @@ static wt_status bad_curve(const char *name, const char *message, wt_error *err)
     return WT_E_CORRUPT;
 }
 
-/* Two segments are way in and way out; what lies between the first and the last is a dwell. */
+/* The first segment is the approach and the last one the retract. Segments between them are
+ * dwells. */
 static wt_segment_kind kind_of(size_t segment, size_t n)
 {
     return segment == 0       ? WT_SEGMENT_APPROACH
@@ -58,8 +58,8 @@ static wt_status print_rows(FILE *out, const curve_text *curve, const double *se
     return WT_OK;
 }
 
-/* A column of the right length and unit; NULL if there is none. One whose numbers are damaged is
- * not left out: what follows from it would be missing without a word. */
+/* Reads a column of the expected length and unit; NULL if there is none. A damaged column sets
+ * *wrong: to skip it would lose data without a message. */
 static double *column(hid_t group, const char *name, const char *unit, size_t size, size_t n,
                       const char **wrong)
 {
@@ -111,7 +111,8 @@ static wt_status print_curve(hid_t group, const char *name, size_t number, size_
     return status;
 }
 
-/* The least number at or behind `from` that a link has for a name; HUGE_VAL: none. */
+/* A search for the smallest link name at or above `from` that is a number; HUGE_VAL if there is
+ * none. */
 typedef struct far_number {
     double from, least;
 } far_number;
@@ -128,7 +129,7 @@ static herr_t find_far(hid_t group, const char *name, const H5L_info_t *info, vo
     return 0;
 }
 
-/* Where the search for curves ended before all that there are. */
+/* Fails if curves exist after the position at which the search stopped. */
 static wt_status check_far(hid_t file, size_t from, wt_error *err)
 {
     far_number far = {(double)from, HUGE_VAL};
@@ -142,7 +143,7 @@ static wt_status check_far(hid_t file, size_t from, wt_error *err)
     return WT_E_UNSUPPORTED;
 }
 
-/* The curves are named by their numbers, of which some may be missing. */
+/* Prints all curves. Their groups are named by number, and some numbers may be missing. */
 static wt_status print_curves(hid_t file, size_t size, FILE *out, wt_error *err)
 {
     char name[HDF5_NAME];

@@ -1,5 +1,5 @@
-/* The directory of a ZIP archive whose end is missing, made again from the headers that stand
- * before each entry. Layout: APPNOTE.TXT of the ZIP format, sections 4.3.7 to 4.3.16.
+/* Rebuilds the directory of a ZIP archive whose end is missing, from the headers before each
+ * entry. Layout: APPNOTE.TXT of the ZIP format, sections 4.3.7 to 4.3.16.
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
@@ -14,17 +14,18 @@
 #define DESCRIPTOR_SIZE ((size_t)16)
 #define FLAG_DESCRIPTOR 8u
 
-/* One complete entry. */
+/* A complete entry. */
 typedef struct entry {
     const unsigned char *header;
     const unsigned char *name;
     size_t name_length;
     uint32_t crc, packed, size;
-    size_t end; /* where the next header is expected */
+    size_t end; /* offset at which the next header is expected */
 } entry;
 
-/* Sizes unknown when the header was written stand behind the data, after a signature: the right
- * place is the one whose packed size leads back to where the data began. */
+/* Finds the data descriptor of an entry whose sizes were unknown when its header was written. It
+ * follows the data after a signature. The match is the one whose packed size equals its distance
+ * from the start of the data. */
 static bool find_descriptor(const unsigned char *bytes, size_t length, size_t start, entry *e)
 {
     static const unsigned char signature[] = {'P', 'K', 7, 8};
@@ -87,7 +88,7 @@ static unsigned char *put_central(unsigned char *at, const entry *e, size_t offs
 {
     const unsigned char *h = e->header;
     at = put32(at, 0x02014b50);
-    at = put16(at, 20);    /* made by version 2.0 */
+    at = put16(at, 20);    /* created by version 2.0 */
     memcpy(at, h + 4, 10); /* needed version, flags, method, time, date */
     at = put32(at + 10, e->crc);
     at = put32(at, e->packed);
@@ -104,7 +105,7 @@ wt_status archive_rebuild(const unsigned char *bytes, size_t length, unsigned ch
 {
     entry e;
     size_t count = 0, at = 0, size = 0;
-    /* Offsets beyond 32 bits would need the extra field of each entry: stop there. */
+    /* Offsets above 32 bits would need an extra field in each entry, so the search stops there. */
     while (at < UINT32_MAX && next_entry(bytes, length, at, &e)) {
         size += CENTRAL_SIZE + e.name_length;
         count++;

@@ -1,5 +1,5 @@
-/* Numbers from bytes of a stated order, without relying on that of the machine. The caller has
- * checked that the bytes are there.
+/* Decodes numbers from bytes of a stated order, independent of the byte order of the machine. The
+ * caller has checked that the bytes exist.
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
@@ -39,7 +39,7 @@ static inline uint64_t be64(const unsigned char *b)
     return (uint64_t)be32(b) << 32 | be32(b + 4);
 }
 
-/* Two's complement without a cast that the standard leaves to the compiler. */
+/* Two's complement without an implementation-defined cast. */
 static inline int32_t signed16(uint16_t u)
 {
     return u < 0x8000u ? (int32_t)u : (int32_t)u - 0x10000;

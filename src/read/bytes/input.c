@@ -1,7 +1,7 @@
-/* Input: the bytes of a file or a pipe (read as far as they were asked for) or of memory
- * (borrowed), behind the same two functions. A file is never mapped: one that another program
- * shortens meanwhile would end this one with a signal. A large pipe of which parts are asked for
- * goes into a file first.
+/* Implements inputs: the bytes of a file or pipe, read as far as requested, or of borrowed memory.
+ *
+ * A file is never mapped, since another program that shortens it would end this one with a signal.
+ * A large pipe is stored in a file if parts of it are requested.
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
@@ -24,13 +24,13 @@ struct wt_input {
     char *name;
     const unsigned char *bytes;
     size_t length;
-    bool whole;            /* bytes..length is all there is */
-    unsigned char *buffer; /* what was read */
+    bool whole;            /* `length` bytes are the complete input */
+    unsigned char *buffer; /* bytes read so far; owned */
     size_t capacity;
-    size_t expected;   /* size of a file, 0 of a pipe */
-    wt_input *content; /* what was unpacked from it, or NULL */
-    int fd;            /* -1 if there is nothing left to read or to close */
-    bool lost;         /* bytes of a pipe, of which nothing more is read */
+    size_t expected;   /* size of a file, 0 for a pipe */
+    wt_input *content; /* unpacked input, or NULL */
+    int fd;            /* -1 if nothing is left to read or to close */
+    bool lost;         /* true if bytes of a pipe were lost; then nothing more is read */
 };
 
 static wt_status input_new(const char *name, wt_input **input, wt_error *err)
@@ -58,8 +58,8 @@ static wt_status fail_io(const wt_input *in, wt_error *err, int number, const ch
     return status;
 }
 
-/* Opened without waiting for somebody who writes: a pipe with a name may have nobody for ever. One
- * without a name, such as a shell makes for <(...), has. */
+/* Opens a file without blocking, since a named pipe may never get a writer. An anonymous pipe, such
+ * as that of a shell's <(...), is accepted. */
 static wt_status open_file(wt_input *in, const char *path, struct stat *info, wt_error *err)
 {
     struct statfs system;
@@ -82,7 +82,7 @@ static wt_status open_file(wt_input *in, const char *path, struct stat *info, wt
 
 static wt_status open_standard(wt_input *in, struct stat *info, wt_error *err)
 {
-    /* The number is duplicated, so that closing the input leaves it open. */
+    /* The descriptor is duplicated, so that standard input stays open when the input is closed. */
     in->fd = fcntl(STDIN_FILENO, F_DUPFD_CLOEXEC, 0);
     if (in->fd < 0)
         return fail_io(in, err, errno, "cannot be opened");
@@ -112,8 +112,7 @@ wt_status wt_input_open(const char *path, wt_input **input, wt_error *err)
         wt_input_close(in);
         return status;
     }
-    /* Standard input that was redirected from a file may stand anywhere in it: then it is read as a
-     * pipe. */
+    /* Standard input redirected from a file may have any offset; it is then read as a pipe. */
     if (S_ISREG(st.st_mode) && (!standard || lseek(in->fd, 0, SEEK_CUR) == 0))
         in->expected = (size_t)st.st_size;
     *input = in;
@@ -223,8 +222,8 @@ static wt_status fail_lost(const wt_input *in, wt_error *err)
     return WT_E_IO;
 }
 
-/* Reads on until `want` bytes are there or it ends. A file gets its memory at once, with one byte
- * more in which its end is seen; but a part of it is read in parts. */
+/* Reads until `want` bytes are present or the input ends. The buffer of a file is allocated at
+ * once, with one more byte to detect the end. A part of the file is read in steps. */
 static wt_status fill_buffer(wt_input *in, size_t want, wt_error *err)
 {
     while (!in->whole && in->length < want) {
@@ -263,7 +262,7 @@ static wt_status fill_buffer(wt_input *in, size_t want, wt_error *err)
     return WT_OK;
 }
 
-/* A pipe that is large becomes a file; what was read of it stays where it is. */
+/* Copies a large pipe to a file; the bytes read so far stay in the buffer. */
 static wt_status keep_pipe(wt_input *in, wt_error *err)
 {
     static const size_t step = 4 * FIRST_READ;

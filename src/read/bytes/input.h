@@ -1,27 +1,29 @@
-/* An input of bytes that were made, not read, and one within another. SPDX-License-Identifier:
- * GPL-3.0-or-later */
+/* Declares inputs of computed bytes, and an input that contains another one.
+ *
+ * SPDX-License-Identifier: GPL-3.0-or-later
+ */
 #ifndef WT_READ_INPUT_H
 #define WT_READ_INPUT_H
 
 #include "weartrack/read.h"
 
-/* Takes the bytes, from malloc, also on failure. */
+/* Creates an input from malloc'ed bytes and takes ownership of them, also on failure. */
 wt_status input_own(char *bytes, size_t length, const char *name, wt_input **input,
                     wt_error *err) WT_NODISCARD;
 
-/* Takes an open file of so many bytes, which only this program has, also on failure. */
+/* Creates an input from an open file of `size` bytes and takes ownership of the descriptor, also on
+ * failure. No other program writes to the file. */
 wt_status input_of_file(int file, size_t size, const char *name, wt_input **input,
                         wt_error *err) WT_NODISCARD;
 
-/* Where HDF5 finds the bytes (core/store/hdf5_bytes.h): in the input, which must outlive them, or
- * in its file if that is not yet read as a whole. */
+/* Returns the bytes for HDF5 (core/store/hdf5_bytes.h). They belong to the input, which must
+ * outlive them, or to its file if the input is not yet complete in memory. */
 struct hdf5_bytes;
 wt_status input_hdf5(wt_input *input, struct hdf5_bytes *bytes, wt_error *err) WT_NODISCARD;
 
-/* What was unpacked from it; closed with it. */
+/* Attaches the unpacked content to the input, which then owns it. */
 void input_keep(wt_input *input, wt_input *content);
-/* What was kept last, of that what it keeps itself, and so on; the input itself if it keeps
- * nothing. */
+/* Returns the innermost attached content; the input itself if it has none. */
 wt_input *input_content(wt_input *input);
 
 #endif

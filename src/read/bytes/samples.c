@@ -1,4 +1,4 @@
-/* Samples of a channel as an instrument stores them.
+/* Decodes the samples of a channel as an instrument stores them.
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
@@ -17,7 +17,7 @@ size_t sample_width(sample_type type)
 
 WIDE_REGISTERS static bool all_finite(const double *values, size_t n)
 {
-    wide sum = {0.0}, x; /* of zeros, or nan */
+    wide sum = {0.0}, x; /* sum of zeros, or NaN */
     size_t i = 0;
     for (; i + WIDE <= n; i += WIDE) {
         simd_load(&x, values + i);
@@ -42,7 +42,8 @@ size_t samples_mend(double *values, size_t n)
     return missing;
 }
 
-/* One loop per type and order: the choice is made once, not per sample. */
+/* One loop for each type and byte order, so that the choice is made once and not for each
+ * sample. */
 #define LOOP(width, number)                                                                        \
     for (size_t i = 0; i < n; i++) {                                                               \
         const unsigned char *b = bytes + (width)*i;                                                \

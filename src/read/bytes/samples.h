@@ -1,4 +1,4 @@
-/* Samples of a channel as an instrument stores them.
+/* Declares the decoding of samples as an instrument stores them.
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
@@ -17,11 +17,11 @@ typedef enum sample_type {
     SAMPLE_FLOAT64
 } sample_type;
 
-size_t sample_width(sample_type type); /* [byte] */
-/* What is not finite becomes NaN; returns how many. */
+size_t sample_width(sample_type type); /* size of a sample [byte] */
+/* Replaces non-finite values by NaN and returns their number. */
 size_t samples_mend(double *values, size_t n);
-/* values[n] = multiplier * sample + offset, as they come. The caller has checked that the bytes are
- * there. */
+/* Computes values[i] = multiplier * sample + offset; the values may be non-finite. The caller has
+ * checked that the bytes exist. */
 void samples_decode(sample_type type, bool big_endian, const unsigned char *bytes, size_t n,
                     double multiplier, double offset, double *values);
 

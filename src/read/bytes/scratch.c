@@ -1,4 +1,4 @@
-/* Files without a name. SPDX-License-Identifier: GPL-3.0-or-later */
+/* Creates temporary files without a name. SPDX-License-Identifier: GPL-3.0-or-later */
 #include "read/bytes/scratch.h"
 
 #include "core/system/temporary.h"
@@ -15,7 +15,7 @@ int scratch_open(void)
     int file = open(folder, O_TMPFILE | O_RDWR | O_CLOEXEC, 0600);
     if (file >= 0)
         return file;
-    /* Not every file system can do that. */
+    /* some file systems do not support O_TMPFILE */
     char *const path = wt_path_join(folder, "weartrack-XXXXXX");
     file = path != NULL ? mkostemp(path, O_CLOEXEC) : -1;
     if (file >= 0)

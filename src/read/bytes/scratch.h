@@ -1,17 +1,20 @@
-/* What is too large for memory on its way into an input: kept in a file without a name, in the
- * folder that TMPDIR names, which goes with the program. SPDX-License-Identifier: GPL-3.0-or-later
+/* Declares temporary files for data that are too large for memory. They have no name, are in the
+ * folder of TMPDIR and disappear with the process.
+ *
+ * SPDX-License-Identifier: GPL-3.0-or-later
  */
 #ifndef WT_READ_SCRATCH_H
 #define WT_READ_SCRATCH_H
 
 #include "weartrack/read.h"
 
-/* What is no larger stays in memory, and so does a file that parts are asked of. */
+/* Data up to this size stay in memory, and so does a file that is read in parts [byte]. */
 #define SCRATCH_ABOVE ((size_t)4 * 1024 * 1024)
 
-/* In temporary_directory(); -1 where there is no such folder: then memory must do. */
+/* Opens a file in temporary_directory(); -1 if there is no such folder. The caller then uses
+ * memory. */
 int scratch_open(void);
-/* `name` is that of the input. */
+/* Appends n bytes. `name` is the name of the input for messages. */
 wt_status scratch_write(int file, const void *bytes, size_t n, const char *name, wt_error *err);
 
 #endif

@@ -1,4 +1,4 @@
-/* Inputs that are made piece by piece. SPDX-License-Identifier: GPL-3.0-or-later */
+/* Implements inputs that are written piece by piece. SPDX-License-Identifier: GPL-3.0-or-later */
 #include "read/bytes/spool.h"
 
 #include "read/bytes/input.h"

@@ -1,20 +1,23 @@
-/* An input that is made piece by piece; what is large goes to a file without a name
- * (read/bytes/scratch.h). SPDX-License-Identifier: GPL-3.0-or-later */
+/* Declares an input that is written piece by piece; a large one goes to a file without a name
+ * (read/bytes/scratch.h).
+ *
+ * SPDX-License-Identifier: GPL-3.0-or-later
+ */
 #ifndef WT_READ_SPOOL_H
 #define WT_READ_SPOOL_H
 
 #include "weartrack/read.h"
 
-/* Bytes that come one behind the other; zero-initialised is empty. */
+/* A sequence of appended bytes; a zero-initialised spool is empty. */
 typedef struct spool {
-    unsigned char *bytes; /* all, unless there is a file */
+    unsigned char *bytes; /* all bytes, unless there is a file */
     size_t length, room;
     int file;
     bool has_file, tried;
 } spool;
-/* `name` is that of the input. */
+/* Appends n bytes. `name` is the name of the input for messages. */
 wt_status spool_add(spool *to, const void *bytes, size_t n, const char *name, wt_error *err);
-/* Takes what was added, also on failure. */
+/* Creates an input from the appended bytes and empties the spool, also on failure. */
 wt_status spool_input(spool *from, const char *name, wt_input **input, wt_error *err);
 void spool_drop(spool *from);
 

@@ -1,4 +1,4 @@
-/* Parts of an input. SPDX-License-Identifier: GPL-3.0-or-later */
+/* Reads parts of an input. SPDX-License-Identifier: GPL-3.0-or-later */
 #include "read/bytes/window.h"
 
 #include "core/base/resource_error.h"
@@ -8,7 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Read together, if less is asked for. */
+/* Minimum number of bytes read at once. */
 #define AHEAD ((size_t)64 * 1024)
 
 wt_status window_open(input_window *w, wt_input *input, wt_error *err)
@@ -90,7 +90,7 @@ bool input_has(wt_input *input, const char *words)
         const size_t left = w.size - at, n = left < AHEAD ? left : AHEAD;
         status = window_bytes(&w, at, n, &bytes, NULL);
         found = status == WT_OK && memmem(bytes, n, words, length) != NULL;
-        at += n - length + 1; /* what begins in one piece may end in the next */
+        at += n - length + 1; /* a match may cross the boundary of two pieces */
     }
     window_close(&w);
     if (status == WT_E_MEMORY)

@@ -1,6 +1,7 @@
-/* ZIP archives with every size checked before it is believed. Layout: APPNOTE.TXT of the ZIP
- * format, sections 4.3 and 4.5.3. Maps have half a million entries, so an entry takes no more here
- * than its name and where it is.
+/* Reads ZIP archives and checks every size before it is used. Layout: APPNOTE.TXT of the ZIP
+ * format, sections 4.3 and 4.5.3.
+ *
+ * Maps have half a million entries, so an entry stores only its name and its position.
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
@@ -14,7 +15,7 @@
 #include <string.h>
 #include <sys/random.h>
 
-/* Deflate cannot pack more tightly than 1032 : 1 (zlib, "Maximum compression factor"); the rest
+/* Deflate cannot pack more tightly than 1032 : 1 (zlib, "Maximum compression factor"). The slack
  * allows for entries of a few bytes. */
 #define MAX_RATIO 1032u
 #define RATIO_SLACK 64u
@@ -25,25 +26,25 @@
 #define LOCATOR64_SIZE ((size_t)20)
 #define END64_SIZE ((size_t)56)
 #define COMMENT_MAX ((size_t)65535)
-/* Bytes of all names. */
+/* Maximum size of all names [byte]. */
 #define NAMES_MAX ((1u << 30) - 1)
-/* The directory is read in such pieces; a record of it is no longer. */
+/* The directory is read in pieces of this size [byte]; no record is longer. */
 #define PIECE ((size_t)256 * 1024)
 #define FLAG_ENCRYPTED 1u
 
 enum archive_packing { STORED, DEFLATED, ENCRYPTED, UNKNOWN };
 
 struct zip_entry {
-    uint64_t offset;                 /* of the local header */
-    uint32_t packed, size, sum;      /* size UINT32_MAX: too large to be read */
-    unsigned name : 30, packing : 2; /* in names; archive_packing */
+    uint64_t offset;                 /* offset of the local header */
+    uint32_t packed, size, sum;      /* size is UINT32_MAX for an entry that is too large */
+    unsigned name : 30, packing : 2; /* offset in `names`; value of archive_packing */
 };
 
-/* Where the directory stands. */
+/* The position of the directory. */
 typedef struct directory {
     wt_input *input;
     uint64_t offset, size, n;
-    bool wide; /* n counts all records; else it has 16 bits, which some programs let run over */
+    bool wide; /* true if n counts all records; else n has 16 bits and may overflow */
 } directory;
 
 static wt_status damaged(wt_error *err, const char *found)
@@ -56,7 +57,7 @@ static wt_status damaged(wt_error *err, const char *found)
 
 /* ---- the directory ------------------------------------------------------------------------ */
 
-/* The record at the end of a large archive; *d is left alone if there is none. */
+/* Reads the end record of a large archive. *d is unchanged if there is none. */
 static wt_status find_end64(const zip_archive *a, size_t end, directory *d, wt_error *err)
 {
     unsigned char record[END64_SIZE];
@@ -78,8 +79,8 @@ static wt_status find_end64(const zip_archive *a, size_t end, directory *d, wt_e
     return status;
 }
 
-/* WT_E_CORRUPT if there is no directory in the file: it may have been cut off. Bytes behind its
- * end, which a copy by blocks leaves, are nothing. */
+/* Finds the directory. WT_E_CORRUPT if the file has none, for instance because it is truncated.
+ * Bytes after its end, which a block-wise copy leaves, are ignored. */
 static wt_status find_directory(zip_archive *a, directory *d, wt_error *err)
 {
     const size_t length = a->length;
@@ -109,7 +110,8 @@ static wt_status find_directory(zip_archive *a, directory *d, wt_error *err)
     return status;
 }
 
-/* Sizes and offsets that 32 bits do not hold stand in an extra field, those of them alone. */
+/* Reads the sizes and offsets that exceed 32 bits from the extra field. The field contains only
+ * those. */
 static bool read_extra(const unsigned char *extra, size_t length, uint64_t *size, uint64_t *packed,
                        uint64_t *offset)
 {
@@ -134,7 +136,7 @@ static bool read_extra(const unsigned char *extra, size_t length, uint64_t *size
 
 static wt_status take_name(zip_archive *a, const unsigned char *name, size_t length, wt_error *err)
 {
-    /* A name ends with its first zero, as it would for anybody who uses it. */
+    /* The name ends at its first zero byte, as for every C function. */
     const size_t n = strnlen((const char *)name, length);
     if (a->names_length + n + 1 > a->names_room) {
         const size_t room = 2 * a->names_room + n + 4096;
@@ -177,13 +179,13 @@ static wt_status take_record(zip_archive *a, const unsigned char *r, size_t name
     return status;
 }
 
-/* Whether the records that were read are as many as the directory says. */
+/* True if the number of records agrees with the directory. */
 static bool all_read(const zip_archive *a, const directory *d)
 {
     return d->wide ? a->n == d->n : a->n % (UINT16_MAX + 1) == d->n;
 }
 
-/* Reads on to the end of the directory, whatever it says of their number. */
+/* Reads all records of the directory, whatever count it states. */
 static wt_status read_directory(zip_archive *a, const directory *d, wt_error *err)
 {
     wt_status status = WT_OK;
@@ -208,7 +210,7 @@ static wt_status read_directory(zip_archive *a, const directory *d, wt_error *er
             used = 0;
             status = wt_input_at(d->input, (size_t)(d->offset + at), piece, n, err);
         } else if (le32(r) != 0x02014b50) {
-            ended = true; /* a signature may stand behind the records */
+            ended = true; /* a signature may follow the records */
         } else {
             status = take_record(a, r, name, extra, err);
             used += whole;
@@ -220,7 +222,7 @@ static wt_status read_directory(zip_archive *a, const directory *d, wt_error *er
     return status;
 }
 
-/* The complete entries of an archive whose end is missing. */
+/* Opens the complete entries of an archive whose end is missing. */
 static wt_status rebuild(zip_archive *a, wt_error *err)
 {
     const unsigned char *bytes = NULL;
@@ -232,7 +234,7 @@ static wt_status rebuild(zip_archive *a, wt_error *err)
     if (status == WT_OK)
         status = archive_rebuild(bytes, length, &made, &d.size, &d.n, err);
     if (status == WT_OK && d.n == 0)
-        status = WT_E_CORRUPT; /* that there is no directory has been said */
+        status = WT_E_CORRUPT; /* the missing directory is reported already */
     if (status == WT_OK)
         status = wt_input_open_memory(made, d.size, "directory", &d.input, &ignored);
     if (status == WT_OK)
@@ -249,7 +251,7 @@ const char *archive_name(const zip_archive *archive, size_t i)
     return archive->names + archive->entries[i].name;
 }
 
-/* The place of a name, or the free one where it belongs. */
+/* Returns the slot of a name, or the free slot where it belongs. */
 static size_t place_of(const zip_archive *a, const char *name)
 {
     uint64_t hash = a->seed, word;
@@ -266,7 +268,7 @@ static size_t place_of(const zip_archive *a, const char *name)
 
 static wt_status place_names(zip_archive *a, wt_error *err)
 {
-    /* Not to be foreseen: names that were made to fall on one place would cost their square. */
+    /* A random seed: names chosen to collide would cost quadratic time. */
     if (getrandom(&a->seed, sizeof a->seed, GRND_NONBLOCK) != (ssize_t)sizeof a->seed)
         a->seed = (uint64_t)(uintptr_t)a;
     a->n_places = 16;
@@ -278,7 +280,7 @@ static wt_status place_names(zip_archive *a, wt_error *err)
     for (size_t k = 0; k < a->n; k++) {
         const size_t at = place_of(a, archive_name(a, k));
         if (a->places[at] == 0)
-            a->places[at] = (uint32_t)k + 1; /* the first of equal names */
+            a->places[at] = (uint32_t)k + 1; /* of equal names the first counts */
     }
     return WT_OK;
 }
@@ -379,12 +381,13 @@ static bool make_room(byte_buffer *buffer, size_t size)
     return true;
 }
 
-/* Gets the bytes as they stand in the file, as many as the directory says; until the next call. */
+/* Returns the packed bytes of an entry, as many as the directory states; valid until the next
+ * call. */
 static wt_status read_packed(zip_archive *a, size_t i, const unsigned char **packed, wt_error *err)
 {
     const zip_entry *const e = &a->entries[i];
     const size_t offset = (size_t)e->offset, left = a->length - offset;
-    const size_t whole = LOCAL_SIZE + strlen(archive_name(a, i)) + e->packed; /* or a little more */
+    const size_t whole = LOCAL_SIZE + strlen(archive_name(a, i)) + e->packed; /* header estimate */
     if (left < LOCAL_SIZE)
         return entry_fail(a, i, err, WT_E_CORRUPT, "archive entry lies outside of the file");
     wt_status status = window_bytes(&a->window, offset, whole < left ? whole : left, packed, err);

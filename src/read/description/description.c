@@ -1,4 +1,4 @@
-/* What a description holds, and which quantities make what.
+/* Implements format descriptions and the quantities that each kind of data requires.
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
@@ -86,7 +86,7 @@ bool pattern_part(const line_pattern *pattern, text_span *line)
 
 #define Q(quantity) WT_Q_BIT(WT_Q_##quantity)
 
-/* A kind of data needs one quantity of each group of a row. */
+/* A kind of data requires one quantity of each group of a row. */
 static const struct {
     unsigned kind;
     const char *name, *words;

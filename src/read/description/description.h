@@ -1,4 +1,5 @@
-/* A format description: what the XML of weartrack-format(5) says, ready for the engine.
+/* Declares a format description: the content of the XML of weartrack-format(5), ready for the text
+ * engine.
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
@@ -11,11 +12,11 @@
 
 #include <regex.h>
 
-/* A line that is longer is not compared with regular expressions, which bounds their cost. */
+/* A longer line is not compared with regular expressions, which limits their cost. */
 #define PATTERN_LINE_MAX ((size_t)16384)
-#define NAME_LONGEST ((size_t)128) /* bytes of a normalised name, with its end */
+#define NAME_LONGEST ((size_t)128) /* size of a normalised name [byte] */
 
-/* Part of a text; borrowed. */
+/* A part of a text; borrowed. */
 typedef struct text_span {
     const char *text;
     size_t length;
@@ -49,14 +50,14 @@ typedef enum units_where {
 typedef struct line_pattern {
     regex_t regex;
     bool compiled;
-    char first; /* the byte that every match begins with, '\0' if that is not known */
-    struct line_pattern *next; /* of the compiled ones of a description */
+    char first;                /* first byte of every match, '\0' if unknown */
+    struct line_pattern *next; /* next compiled pattern of the description */
 } line_pattern;
 
-/* 0 groups: does it match? Else groups[0..n) get what matched; rm_so is -1 for an empty group. A
- * zero byte ends the line. */
+/* Returns true if the line matches. For n > 0, groups[0..n) are the matches; rm_so is -1 for an
+ * empty group. A zero byte ends the line. */
 bool pattern_match(const line_pattern *pattern, text_span line, regmatch_t *groups, size_t n);
-/* Shortens the line to what group 1 matches; false if there is no match, or nothing in it. */
+/* Shortens the line to the match of group 1; false if there is no match or the group is empty. */
 bool pattern_part(const line_pattern *pattern, text_span *line);
 text_span pattern_group(text_span line, regmatch_t group);
 
@@ -64,13 +65,13 @@ typedef enum probe_kind { PROBE_REQUIRE, PROBE_HINT, PROBE_FORBID, PROBE_NAMES }
 
 typedef struct text_probe {
     probe_kind kind;
-    char *text; /* NULL if `pattern` is used */
+    char *text; /* text to find; NULL if `pattern` is used */
     line_pattern pattern;
-    size_t within; /* lines */
+    size_t within; /* number of lines searched */
     int score;
 } text_probe;
 
-/* The header values that a table takes with it. */
+/* Header values that a table stores. */
 typedef enum header_value {
     HEADER_TEMPERATURE,
     HEADER_SPRING_CONSTANT,
@@ -82,7 +83,7 @@ typedef enum header_value {
     HEADER_SETPOINT,
     HEADER_LOAD,
     HEADER_RADIUS,
-    /* These no quantity tells, but what the field sets. */
+    /* The following values depend on the target of the field and not on a quantity. */
     HEADER_VALUE_FACTOR,
     HEADER_WIDTH,
     HEADER_HEIGHT,
@@ -104,28 +105,28 @@ typedef enum field_sets {
     FIELD_SETS_PIXEL_SIZE
 } field_sets;
 
-/* Which header value a field gives; HEADER_COUNT if none. */
+/* Returns the header value of a field; HEADER_COUNT if it has none. */
 header_value header_of(wt_quantity quantity, field_sets sets);
 
-#define GROUPS ((size_t)10) /* of a header line, the whole match included */
+#define GROUPS ((size_t)10) /* capture groups of a header line, with the whole match */
 
 typedef struct header_field {
     line_pattern pattern;
     char *name;
-    wt_quantity quantity; /* WT_Q_NONE: a text for `info` */
-    size_t group;         /* of the value */
-    char *unit;           /* NULL: unit_group is the unit */
-    size_t unit_group;    /* 0: none */
-    bool fallback;        /* only where no column has it */
+    wt_quantity quantity; /* WT_Q_NONE for a text that `info` shows */
+    size_t group;         /* capture group of the value */
+    char *unit;           /* unit; NULL if unit_group contains it */
+    size_t unit_group;    /* capture group of the unit; 0 if there is none */
+    bool fallback;        /* used only if no column has the quantity */
     field_sets sets;
 } header_field;
 
 typedef struct step_marker {
     line_pattern pattern;
-    bool title_next; /* the line after it is the title; else group 1 */
+    bool title_next; /* true if the next line is the title; else group 1 is */
 } step_marker;
 
-/* A line by which a file without data that are read tells what it is. */
+/* A line that identifies a test whose data are not read. */
 typedef struct other_test {
     line_pattern pattern;
     char *what; /* "a creep test" */
@@ -137,42 +138,42 @@ typedef struct unit_alias {
 
 typedef struct column_rule {
     wt_quantity quantity;
-    char *unit; /* NULL: the file must say */
-    char *with; /* normalised name of a column that must be there too, or NULL */
+    char *unit; /* NULL if the file must state it */
+    char *with; /* normalised name of a column that must exist as well, or NULL */
     bool has_segment;
-    wt_segment_kind segment; /* if has_segment */
+    wt_segment_kind segment; /* valid if has_segment */
     bool negate;
-    char *assumed; /* what the name leaves open and is taken for granted, or NULL */
+    char *assumed; /* assumption that the name leaves open, or NULL */
 } column_rule;
 
-/* A name that a column may have. */
+/* A possible name of a column. */
 typedef struct column_name {
     char *name; /* normalised */
     size_t rule;
 } column_name;
 
 typedef struct segment_marker {
-    line_pattern pattern; /* of a line */
-    char *text;           /* of a cell */
+    line_pattern pattern; /* pattern of a marker line */
+    char *text;           /* text of a marker cell */
     wt_segment_kind kind;
 } segment_marker;
 
-/* How much of a description has been read. */
+/* The part of a description that is parsed. */
 typedef enum description_extent {
-    DESCRIPTION_HEAD,   /* up to `verified` */
-    DESCRIPTION_DETECT, /* what tells its files, names of columns apart, and how they are decoded */
+    DESCRIPTION_HEAD,   /* the attributes up to `verified` */
+    DESCRIPTION_DETECT, /* the rules of detection and of text decoding */
     DESCRIPTION_WHOLE,
     DESCRIPTION_EXTENTS
 } description_extent;
 
 typedef struct text_description {
-    arena memory; /* of all that is pointed to below */
+    arena memory; /* owns all that the members below point to */
     line_pattern *patterns;
     description_extent extent;
-    struct text_description *more[DESCRIPTION_EXTENTS]; /* read since, description_need */
+    struct text_description *more[DESCRIPTION_EXTENTS]; /* parts that description_need has parsed */
 
     char *id, *title, *evidence, *version;
-    const char *xml; /* the document as it was read */
+    const char *xml; /* text of the document */
     unsigned kinds;
     bool verified;
 
@@ -181,11 +182,11 @@ typedef struct text_description {
 
     text_encoding encoding;
     cell_separator separator, names_separator;
-    size_t *widths; /* characters per column of SEPARATOR_FIXED; the last one repeats */
+    size_t *widths; /* characters for each column of SEPARATOR_FIXED; the last one repeats */
     size_t n_widths;
-    char decimal; /* '.', ',' or '\0' for auto */
+    char decimal; /* '.' or ','; '\0' for automatic */
     char *comment;
-    char **missing; /* texts of an empty cell, beside the usual ones */
+    char **missing; /* texts of an empty cell in addition to the usual ones */
     size_t n_missing;
 
     header_field *fields;
@@ -195,37 +196,37 @@ typedef struct text_description {
     size_t n_steps;
     line_pattern *ends;
     size_t n_ends;
-    bool end_required; /* a table without one of them was cut off */
+    bool end_required; /* true if a table without one of them is truncated */
     other_test *others;
     size_t n_others;
     unit_alias *aliases;
     size_t n_aliases;
     column_rule *rules;
     size_t n_rules;
-    column_name *names; /* sorted by name, then rule */
+    column_name *names; /* sorted by name, then by rule */
     size_t n_names;
-    bool matrix; /* each row is a line of an image: its cells are values of the one column */
+    bool matrix; /* true if each row is an image line, whose cells are values of the only column */
     bool has_names_line;
-    line_pattern names_line;  /* group 1 is the names row, unless names stand elsewhere */
+    line_pattern names_line;  /* group 1 is the names row, unless the names are elsewhere */
     line_pattern names_lines; /* group 1 of each line above `names_line` is a name */
-    char *names_are;          /* what the columns are called where the file does not say it */
+    char *names_are;          /* names of the columns if the file does not state them */
     units_where units;
-    line_pattern units_line; /* of UNITS_LINE; group 1 is the units row */
+    line_pattern units_line; /* for UNITS_LINE; group 1 is the units row */
     char *row_prefix;        /* normalised */
-    char **row_numbers;      /* normalised names of the column that numbers the rows */
+    char **row_numbers;      /* normalised names of the column of row numbers */
     size_t n_row_numbers;
     bool blank_is_block;
 
-    char *group;    /* normalised name of the column that parts isotherms */
-    char **samples; /* normalised names of the column that names the sample */
+    char *group;    /* normalised name of the column that separates isotherms */
+    char **samples; /* normalised names of the column of sample names */
     size_t n_samples;
-    double temperature_jump; /* [K], NaN = none */
+    double temperature_jump; /* [K]; NaN if there is none */
 
     segment_marker *markers;
     size_t n_markers;
     segment_marker *values;
     size_t n_values;
-    char *segment_column, *curve_column; /* normalised */
+    char *segment_column, *curve_column; /* normalised names */
     bool turning_point;
 } text_description;
 
@@ -234,47 +235,52 @@ typedef struct _xmlSchema description_xsd;
 wt_status description_xsd_new(description_xsd **schema, wt_error *err);
 void description_xsd_free(description_xsd *schema);
 
-/* Reads and checks one description. `name` is used in errors. schema NULL: it follows it. */
+/* Parses and checks one description. `name` is used in errors. With schema NULL the document is
+ * assumed to be valid. */
 wt_status description_parse(description_xsd *schema, const char *xml, size_t length,
                             const char *name, text_description **description, wt_error *err);
 wt_status description_parse_file(description_xsd *schema, const char *path,
                                  text_description **description, wt_error *err);
 void description_free(text_description *description);
 
-/* One of those in the library, which are in order: its head. */
+/* Parses the head of a description embedded in the library, which is known to be valid. */
 wt_status description_of_library(const embedded_text *file, text_description **description,
                                  wt_error *err);
-/* At least so much of a description; of one in the library it is read when it is asked for first,
- * by whichever thread, and only memory can hinder that. Borrowed from `description`. */
+/* Parses a description up to at least `extent`. An embedded description is parsed on the first
+ * request, from any thread; only lack of memory can fail. The result is borrowed from
+ * `description`. */
 wt_status description_need(text_description *description, description_extent extent,
                            const text_description **known, wt_error *err);
 
-/* What only the parts together show: do the columns make the kinds that are promised? */
+/* Checks the description as a whole, for instance if the columns suffice for the stated kinds of
+ * data. */
 wt_status description_check_whole(const text_description *description, const char *name,
                                   wt_error *err);
 
-/* First entry of `names` for a normalised name, and how many there are; false if none. */
+/* Finds the entries of `names` for a normalised name: the first and their number; false if there is
+ * none. */
 bool description_find_name(const text_description *description, const char *name, size_t *first,
                            size_t *n);
 
-/* Lower case, no blanks, primes and Greek letters spelled one way: "E \"" and "E″" are "e''",
- * "tan(δ)" is "tan(delta)". Cut at NAME_LONGEST. */
+/* Normalises a name: lower case, no blanks, one spelling of primes and Greek letters. "E \"" and
+ * "E″" become "e''"; "tan(δ)" becomes "tan(delta)". The result is cut at NAME_LONGEST. */
 void name_normalise(text_span text, char name[NAME_LONGEST]);
-/* Is the text, normalised, that name? */
+/* True if the normalised text equals the name. */
 bool name_is(text_span text, const char *name);
 
-/* No names stand in the file: its tables begin with their first row. */
+/* True if the file contains no names, so that its tables begin with their first row. */
 static inline bool description_is_nameless(const text_description *d)
 {
     return d->matrix || (d->names_are != NULL && !d->has_names_line);
 }
 
-/* Do the quantities make a force curve, sweep, image or spectrum, whichever are among `kinds`? */
+/* True if the quantities suffice for one of the kinds of data in `kinds`. */
 bool quantities_suffice(wt_quantity_set set, unsigned kinds);
-/* All that is needed, or one of which is. */
+/* Returns all quantities that the kind of data requires or may use. */
 wt_quantity_set quantities_of(unsigned kind);
-/* Words for what is needed: "columns of frequency, storage modulus and ..."; static. */
+/* Returns a static text with the required columns, such as "columns of frequency, storage modulus
+ * and ...". */
 const char *quantities_needed(unsigned kind);
-const char *kind_name(unsigned kind); /* "sweep"; static */
+const char *kind_name(unsigned kind); /* returns a static name such as "sweep" */
 
 #endif

@@ -1,7 +1,4 @@
-/* Checks of a description that need all of it.
- *
- * SPDX-License-Identifier: GPL-3.0-or-later
- */
+/* Checks a description as a whole. SPDX-License-Identifier: GPL-3.0-or-later */
 #include "read/description/description.h"
 
 #include <math.h>

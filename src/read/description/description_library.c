@@ -1,4 +1,4 @@
-/* The descriptions in the library, read as far as they are asked for.
+/* Parses the descriptions that are embedded in the library, as far as requested.
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
@@ -9,8 +9,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* What stands between a mark of the head and the next `end`. Heads are written plainly: a test
- * holds this against what XML makes of them. */
+/* Returns the text between a mark of the head and the next `end`. The heads have a plain form; a
+ * test compares the result with that of the XML parser. */
 static char *text_after(text_description *d, const char *mark, char end)
 {
     const char *const from = strstr(strstr(d->xml, "<format "), mark) + strlen(mark);
@@ -39,7 +39,7 @@ wt_status description_of_library(const embedded_text *file, text_description **d
     return WT_OK;
 }
 
-/* Of the document up to where it says what the files hold. */
+/* Parses the document up to the description of the file content. */
 static wt_status read_detect(const text_description *d, text_description **read, wt_error *err)
 {
     const char *end = strstr(d->xml, "\n  <header>");

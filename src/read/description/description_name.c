@@ -1,12 +1,9 @@
-/* Column names in one spelling.
- *
- * SPDX-License-Identifier: GPL-3.0-or-later
- */
+/* Normalises column names to one spelling. SPDX-License-Identifier: GPL-3.0-or-later */
 #include "read/description/description.h"
 
 #include <string.h>
 
-/* What instruments and spreadsheets write for the same thing. */
+/* Different spellings that instruments and spreadsheets use for the same symbol. */
 static const struct {
     const char *found, *spelled;
 } spellings[] = {
@@ -38,7 +35,7 @@ static const struct {
     {"\xe2\x81\xb4", "^4"},
 };
 
-/* The spelling at the beginning of a text, or NULL. */
+/* Returns the normalised spelling of the beginning of a text, or NULL, and the original length. */
 static const char *spelling(const char *text, size_t length, size_t *taken)
 {
     if ((unsigned char)*text < 0x80 && *text != '"' && *text != '`')

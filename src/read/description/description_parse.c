@@ -1,7 +1,4 @@
-/* From the XML of a format description to what the engine runs.
- *
- * SPDX-License-Identifier: GPL-3.0-or-later
- */
+/* Parses the XML of a format description. SPDX-License-Identifier: GPL-3.0-or-later */
 #include "core/base/resource_error.h"
 #include "read/description/description_xml.h"
 #include "read/embedded_formats.h"
@@ -31,7 +28,7 @@ const char *wt_formats_schema(void)
 static void keep_quiet(void *user, xmlErrorPtr error)
 {
     (void)user;
-    /* What it calls internal is memory too. */
+    /* an internal error of libxml2 is also lack of memory */
     if (error != NULL && (error->code == XML_ERR_NO_MEMORY || error->code == XML_SCHEMAV_INTERNAL))
         resource_error_note(ENOMEM);
 }
@@ -47,7 +44,7 @@ wt_status description_xsd_new(description_xsd **schema, wt_error *err)
         if (*schema != NULL)
             return WT_OK;
     }
-    /* It is a part of this library and in order. */
+    /* The schema is part of the library and valid, so only memory can be missing. */
     return wt_fail(err, WT_E_MEMORY, "no memory for the schema of descriptions");
 }
 
@@ -97,7 +94,7 @@ wt_status parse_document(description_xsd *schema, const char *xml, size_t length
                          text_description **description, wt_error *err)
 {
     const size_t most = (size_t)1 << 20;
-    /* Complaints about an encoding go to standard error unless this thread has a handler. */
+    /* libxml2 prints encoding errors to standard error unless this thread has a handler. */
     const xmlStructuredErrorFunc previous = xmlStructuredError;
     void *const previous_context = xmlStructuredErrorContext;
     description_parser p = {.name = name, .status = WT_OK, .err = err};

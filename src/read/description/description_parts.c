@@ -1,4 +1,4 @@
-/* The parts of a description, one function each.
+/* Parses the elements of a description, one function for each.
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
@@ -7,7 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* In the order of wt_segment_kind. */
+/* Names in the order of wt_segment_kind. */
 static const char *const segment_kinds[] = {"approach", "retract", "dwell", "modulation", "other"};
 #define N_KINDS (sizeof segment_kinds / sizeof *segment_kinds)
 
@@ -65,7 +65,7 @@ static void read_detect(description_parser *p, const xmlNode *detect)
                        "no score in any element");
 }
 
-/* The words of an attribute. */
+/* Splits an attribute into words. */
 static void read_list(description_parser *p, const xmlNode *node, const char *name, char ***items,
                       size_t *n)
 {
@@ -83,7 +83,7 @@ static void read_list(description_parser *p, const xmlNode *node, const char *na
         (*items)[(*n)++] = word;
 }
 
-/* Names of columns. */
+/* Splits an attribute into normalised column names. */
 static void read_names(description_parser *p, const xmlNode *node, const char *name, char ***items,
                        size_t *n)
 {

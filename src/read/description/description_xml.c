@@ -1,4 +1,4 @@
-/* Attributes, elements and regular expressions of a description.
+/* Reads attributes, elements and regular expressions of a description.
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
@@ -44,7 +44,7 @@ char *parse_text(description_parser *p, const char *text, size_t length)
     return copy;
 }
 
-/* Of something that is there: it is NULL only without memory. */
+/* Copies a text of libxml2 that exists; NULL means lack of memory. */
 static char *copy_xml(description_parser *p, xmlChar *text)
 {
     if (text == NULL) {
@@ -84,7 +84,7 @@ bool parse_true(description_parser *p, const xmlNode *node, const char *name)
     return text != NULL && (strcmp(text, "true") == 0 || strcmp(text, "1") == 0);
 }
 
-/* Of texts that the schema has checked, so the list is complete. */
+/* The schema has checked the text, so the list is complete. */
 size_t parse_one_of(description_parser *p, const xmlNode *node, const char *name,
                     const char *const words[], size_t n, size_t absent)
 {
@@ -133,11 +133,11 @@ void *parse_room(description_parser *p, const xmlNode *node, const char *name, s
 
 /* ---- regular expressions ------------------------------------------------------------------ */
 
-/* Each + doubles what stands before it when the expression is compiled, nested ones again. */
+/* Each + doubles the expression before it when it is compiled, and nested ones multiply. */
 enum { MOST_PLUSES = 16 };
 
-/* Counts, back references and repeats of repeats make the cost of compiling or of a match explode,
- * and no description needs them. */
+/* Returns a construct that is not allowed, or NULL. Repeat counts, back references and nested
+ * repeats make compilation or matching explode; no description needs them. */
 static const char *forbidden(const char *source)
 {
     bool set = false;
@@ -166,7 +166,7 @@ static const char *forbidden(const char *source)
     return NULL;
 }
 
-/* \t stands for the tabulator, which an attribute of XML cannot hold as it is. */
+/* Replaces \t by a tab, which an XML attribute cannot contain directly. */
 static void tabulators(char *source)
 {
     char *to = source;

@@ -1,7 +1,4 @@
-/* The XML of a description while it is read.
- *
- * SPDX-License-Identifier: GPL-3.0-or-later
- */
+/* Declares the parser of the XML of a description. SPDX-License-Identifier: GPL-3.0-or-later */
 #ifndef WT_READ_DESCRIPTION_XML_H
 #define WT_READ_DESCRIPTION_XML_H
 
@@ -9,7 +6,7 @@
 
 #include <libxml/tree.h>
 
-/* One reading: the first failure stays. */
+/* State of one parse; the first failure is kept. */
 typedef struct description_parser {
     text_description *d;
     const char *name;
@@ -18,42 +15,42 @@ typedef struct description_parser {
 } description_parser;
 
 void parse_no_memory(description_parser *p);
-/* "FILE: line 12, element column: MESSAGE; expected ...; found ..." */
+/* Fails with "FILE: line 12, element column: MESSAGE; expected ...; found ...". */
 void parse_complain(description_parser *p, const xmlNode *node, const char *message,
                     const char *expected, const char *found);
-/* Memory of the description, zeroed; NULL, and a failure, when there is none. */
+/* Returns zeroed memory of the description; NULL, with a failure, if there is none. */
 void *parse_alloc(description_parser *p, size_t n, size_t size);
 char *parse_text(description_parser *p, const char *text, size_t length);
-/* NULL if the attribute is absent. */
+/* Returns NULL if the attribute is absent. */
 char *parse_attribute(description_parser *p, const xmlNode *node, const char *name);
 char *parse_content(description_parser *p, const xmlNode *node);
-/* The text as a normalised name; NULL of NULL. */
+/* Returns the text as a normalised name; NULL for NULL. */
 char *parse_normalised(description_parser *p, const char *text);
 bool parse_true(description_parser *p, const xmlNode *node, const char *name);
-/* Index of an attribute in n words; `absent` if it is not there. */
+/* Returns the index of an attribute value in n words; `absent` if there is no attribute. */
 size_t parse_one_of(description_parser *p, const xmlNode *node, const char *name,
                     const char *const words[], size_t n, size_t absent);
 size_t parse_count(description_parser *p, const xmlNode *node, const char *name, size_t absent);
 bool parse_is(const xmlNode *node, const char *name);
-/* The next child element of that name (NULL: of any) behind `after` (NULL: the first); NULL at the
- * end, and after a failure. */
+/* Returns the next child element with this name (NULL: any) after `after` (NULL: the first). NULL
+ * at the end and after a failure. */
 const xmlNode *parse_next(const description_parser *p, const xmlNode *node, const xmlNode *after,
                           const char *name);
 size_t parse_children(const description_parser *p, const xmlNode *node, const char *name);
-/* Room for as many items as `node` has children of that name. */
+/* Allocates as many items as `node` has children with this name. */
 void *parse_room(description_parser *p, const xmlNode *node, const char *name, size_t size);
-/* Compiles an attribute that is a regular expression with at least so many groups. */
+/* Compiles an attribute as a regular expression with at least `groups` groups. */
 void parse_pattern(description_parser *p, const xmlNode *node, const char *name,
                    line_pattern *pattern, size_t groups);
 
-/* description_parts.c, of a document that follows the schema: all, or what DESCRIPTION_DETECT is.
- */
+/* description_parts.c: parse a document that follows the schema, as a whole or up to
+ * DESCRIPTION_DETECT. */
 void parse_format(description_parser *p, const xmlNode *root);
 void parse_detect(description_parser *p, const xmlNode *root);
 unsigned parse_kinds(const char *words);
 
-/* description_parse.c: a description as `parse` makes it of the root of a document; schema NULL: it
- * follows it. */
+/* description_parse.c: parses a document with the function `parse`. With schema NULL the document
+ * is assumed to be valid. */
 wt_status parse_document(description_xsd *schema, const char *xml, size_t length, const char *name,
                          void (*parse)(description_parser *p, const xmlNode *root),
                          text_description **description, wt_error *err);

@@ -1,6 +1,8 @@
-/* Gwyddion Simple Field (.gsf), which Gwyddion writes of the images of any instrument: a line with
- * the name of the format, lines "key = value", one to four zero bytes up to a multiple of four,
- * then floats of little-endian order line by line, the uppermost first.
+/* Reads Gwyddion Simple Field files (.gsf), which Gwyddion writes for images of any instrument.
+ *
+ * A file has a line with the name of the format and lines "key = value". One to four zero bytes
+ * follow, up to a multiple of four. Then come little-endian floats line by line, the top line
+ * first.
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
@@ -16,9 +18,9 @@ static const char first_line[] = "Gwyddion Simple Field 1.0\n";
 
 typedef struct gsf_header {
     size_t n_columns, n_rows;
-    double width, height; /* NaN if not there */
+    double width, height; /* NaN if absent */
     char unit_xy[16], unit_z[16], title[48];
-    size_t data; /* where the samples begin */
+    size_t data; /* offset of the samples */
 } gsf_header;
 
 static wt_status corrupt(wt_error *err, const char *message, const char *expected)
@@ -68,7 +70,7 @@ static void take_value(gsf_header *h, const char *key, size_t n_key, const char 
     }
 }
 
-/* The part of a line without blanks at both ends. */
+/* Returns a part of a line without blanks at both ends. */
 static const char *trimmed(const char *from, const char *to, size_t *n)
 {
     while (from < to && (*from == ' ' || *from == '\t'))
@@ -110,7 +112,8 @@ static wt_status read_header(wt_input *input, gsf_header *h, wt_error *err)
     return WT_OK;
 }
 
-/* Places count from the lower left corner: the offsets, which point downwards, are not taken. */
+/* Fills the image head. Positions count from the lower left corner; the offsets of the file point
+ * downwards and are ignored. */
 static void make_head(const gsf_header *h, wt_image *head, double *factor)
 {
     *head = (wt_image){.n_columns = h->n_columns, .n_rows = h->n_rows};

@@ -1,5 +1,5 @@
-/* Gwyddion's own files (.gwy): "GWYP", then a container of objects, of which the data fields
- * "/N/data" are images, and graphs may be profiles. Lines stand in them with the uppermost first.
+/* Reads Gwyddion files (.gwy): "GWYP", then a container of objects. The data fields "/N/data" are
+ * images, and graphs may be profiles. The top line of an image comes first.
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
@@ -13,7 +13,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* More fields than anybody keeps; each looks through the container for its title. */
+/* Limit on the fields of a file, since each searches the container for its title. */
 enum { MOST_FIELDS = 1000 };
 static const char signature[] = "GWYP";
 
@@ -25,7 +25,7 @@ static wt_status corrupt(wt_error *err, const char *place, const char *message)
     return WT_E_CORRUPT;
 }
 
-/* The number N of "/N" and what follows it; false for another key. */
+/* Parses the number N of a key "/N" that `rest` follows; false for another key. */
 static bool channel_of(const char *key, const char *rest, unsigned long *number)
 {
     char *end = NULL;
@@ -41,7 +41,7 @@ static double length_of(gwy_bytes field, const char *key)
     return gwy_find(field, key, 'd', &c) ? gwy_double(&c) : (double)NAN;
 }
 
-/* Where the mask of a channel is set the height is missing. */
+/* Marks the masked heights of a channel as missing. */
 static wt_status take_mask(wt_image *image, gwy_bytes container, unsigned long number,
                            wt_error *err)
 {
@@ -107,7 +107,7 @@ static wt_status add_graph(image_list *list, gwy_component *c, const char *file,
     return gwy_add_profiles(list, graph, c->key, file, log, err);
 }
 
-/* The data fields and profiles in the order of the file. */
+/* Adds the data fields and profiles in the order of the file. */
 static wt_status add_fields(image_list *list, gwy_bytes container, bool masks_are_missing,
                             const char *file, wt_log *log, wt_error *err)
 {

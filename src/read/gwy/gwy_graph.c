@@ -1,11 +1,14 @@
-/* Graphs of a Gwyddion file, which profiles come as. SPDX-License-Identifier: GPL-3.0-or-later */
+/* Reads the graphs of a Gwyddion file, in which profiles are stored.
+ *
+ * SPDX-License-Identifier: GPL-3.0-or-later
+ */
 #include "read/gwy/gwy_graph.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-/* Of a step: what places may be off equal ones, for no spectrum changes by that. */
+/* Tolerance of equal steps, relative to a step. It changes no spectrum noticeably. */
 static const double slight = 1e-3;
 
 static const char prefix[] = "/0/graph/graph/";
@@ -74,7 +77,7 @@ wt_status gwy_add_profiles(image_list *list, gwy_bytes graph, const char *key, c
         const char *name = NULL;
         gwy_bytes curve;
         if (!gwy_object(&curves.value, &name, &curve))
-            break; /* all of them were walked over before */
+            break; /* all objects were checked before */
         status = add_profile(list, graph, curve, key, file, log, err);
     }
     return status;

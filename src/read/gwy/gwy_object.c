@@ -1,4 +1,4 @@
-/* Objects of a Gwyddion file. SPDX-License-Identifier: GPL-3.0-or-later */
+/* Parses the objects of a Gwyddion file. SPDX-License-Identifier: GPL-3.0-or-later */
 #include "read/gwy/gwy_object.h"
 
 #include "read/bytes/bytes.h"
@@ -12,7 +12,7 @@ static size_t left(const gwy_bytes *b)
     return (size_t)(b->end - b->at);
 }
 
-/* A text and its zero. */
+/* Reads a text and its terminating zero. */
 static bool take_text(gwy_bytes *b, const char **text)
 {
     const unsigned char *zero = left(b) > 0 ? memchr(b->at, 0, left(b)) : NULL;
@@ -42,7 +42,7 @@ bool gwy_object(gwy_bytes *from, const char **name, gwy_bytes *components)
     return true;
 }
 
-/* Width of an item of a type whose items are alike; 0: they are not. */
+/* Returns the item size of a type with items of equal size; 0 for other types [byte]. */
 static size_t width_of(char type)
 {
     switch (type) {
@@ -88,7 +88,7 @@ static bool skip_value(gwy_bytes *b, gwy_component *to)
             return false;
         b->at += to->n * width;
     } else {
-        /* Each of them takes a byte at least, so that a large number ends with the bytes. */
+        /* Each item has at least one byte, so a large count ends with the bytes. */
         for (size_t i = 0; i < to->n; i++)
             if (!skip_item(b, item))
                 return false;

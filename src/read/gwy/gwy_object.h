@@ -1,5 +1,5 @@
-/* Objects of a Gwyddion file: a name, a size, and components, each a key, a letter for its type and
- * its value. Every length is checked against what is there before it is used.
+/* Declares the objects of a Gwyddion file. An object has a name, a size and components; a
+ * component has a key, a type letter and a value. Every length is checked before it is used.
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
@@ -11,28 +11,28 @@
 #include <stdbool.h>
 #include <stddef.h>
 
-/* Bytes that are still to be read. */
+/* The bytes that are not read yet. */
 typedef struct gwy_bytes {
     const unsigned char *at, *end;
 } gwy_bytes;
 
 typedef struct gwy_component {
-    const char *key; /* ends with a zero */
-    char type;       /* b c i q d s o, and capitals for arrays of them */
-    gwy_bytes value; /* of an array: its items, of an object: name, size and components */
-    size_t n;        /* items */
+    const char *key; /* zero-terminated */
+    char type;       /* b, c, i, q, d, s or o; capitals for arrays */
+    gwy_bytes value; /* items of an array; name, size and components of an object */
+    size_t n;        /* number of items */
 } gwy_component;
 
-/* Name and components of the object that begins there, which goes on behind it; false if it is cut.
- */
+/* Reads the name and the components of the object at *from and moves *from to its end; false if it
+ * is truncated. */
 bool gwy_object(gwy_bytes *from, const char **name, gwy_bytes *components);
-/* The next component; false at the end, or where *status becomes WT_E_CORRUPT. */
+/* Reads the next component; false at the end, or on damage with *status = WT_E_CORRUPT. */
 bool gwy_next(gwy_bytes *components, gwy_component *to, wt_status *status);
-/* The component of that key and type; false if there is none. */
+/* Finds the component with this key and type; false if there is none. */
 bool gwy_find(gwy_bytes components, const char *key, char type, gwy_component *to);
-/* The unit at a key: an object with a text; "" if it is not there. */
+/* Returns the unit stored at a key, an object with a text; "" if it is absent. */
 const char *gwy_unit(gwy_bytes components, const char *key);
 double gwy_double(const gwy_component *component);
-size_t gwy_count(const gwy_component *component); /* of an int32; 0 if it is negative */
+size_t gwy_count(const gwy_component *component); /* value of an int32; 0 if it is negative */
 
 #endif

@@ -1,5 +1,5 @@
-/* Height maps of other makers, as Gwyddion reads them: the program writes them as .gwy, and what it
- * wrote is read.
+/* Reads height maps of other manufacturers with the program Gwyddion. The program converts them to
+ * .gwy, and the result is read.
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
@@ -13,7 +13,7 @@
 #include <math.h>
 #include <string.h>
 
-/* Any other file is given to Gwyddion by --format. */
+/* Returns the manufacturer of a recognised file, or NULL. Other files need --format gwyddion. */
 static const char *whose(const file_peek *peek)
 {
     if (PEEK_BEGINS(peek, "AliconaImaging"))
@@ -26,7 +26,7 @@ static const char *whose(const file_peek *peek)
         return "Dektak, Bruker";
     if (PEEK_BEGINS(peek, "aISO-1.0") || PEEK_BEGINS(peek, "aBCR-1.0"))
         return "SDF, ISO 25178-71";
-    /* Its curves begin alike. */
+    /* force curves of WSxM have the same first line */
     if (PEEK_BEGINS(peek, "WSxM file copyright") && PEEK_HOLDS(peek, "SxM Image file"))
         return "WSxM";
     return NULL;
@@ -38,8 +38,8 @@ static recognition detect(const file_reader *self, file_peek *peek)
     return recognised(whose(peek) != NULL, 90);
 }
 
-/* Whether the head of a file of Digital Surf says that points are missing: the int16 at byte 86,
- * least byte first. */
+/* True if the head of a Digital Surf file states missing points: the little-endian int16 at byte
+ * 86. */
 static bool surf_has_missing(const file_peek *peek)
 {
     enum { FLAG = 86 };
@@ -47,8 +47,9 @@ static bool surf_has_missing(const file_peek *peek)
            peek->length > FLAG + 1 && peek->bytes[FLAG] == 1 && peek->bytes[FLAG + 1] == 0;
 }
 
-/* Digital Surf marks them by a height below all others, and Gwyddion (2.62) takes it for one. A map
- * of a newer one that knows better has missing points already. */
+/* Marks the points at the lowest height as missing. Digital Surf encodes missing points as a height
+ * below all others, which Gwyddion 2.62 reads as a height. If a newer version has marked missing
+ * points already, nothing changes. */
 static void take_out_lowest(wt_image *image, const char *file, wt_log *log)
 {
     const size_t n = image->n_columns * image->n_rows;
@@ -76,7 +77,7 @@ static wt_status peek_head(wt_input *input, file_peek *peek, wt_error *err)
     return wt_input_peek(input, HEAD, &peek->bytes, &peek->length, &peek->whole, err);
 }
 
-/* Has Gwyddion convert the file, a compressed one of Digital Surf unpacked. */
+/* Converts the file with Gwyddion. A compressed Digital Surf file is unpacked first. */
 static wt_status convert(wt_input *input, wt_log *log, wt_input **converted, char version[64],
                          wt_error *err)
 {
@@ -113,7 +114,7 @@ static wt_status read_images(const file_reader *self, wt_input *input,
         }
         wt_input_close(converted);
     }
-    const wt_status seen = peek_head(input, &peek, NULL); /* where the bytes are now */
+    const wt_status seen = peek_head(input, &peek, NULL); /* the bytes may have moved */
     if (status != WT_OK) {
         const char *const maker = seen == WT_OK ? whose(&peek) : NULL;
         if (maker != NULL && (err == NULL || err->found[0] == '\0'))

@@ -1,4 +1,4 @@
-/* Running Gwyddion on a file. SPDX-License-Identifier: GPL-3.0-or-later */
+/* Runs Gwyddion on a file. SPDX-License-Identifier: GPL-3.0-or-later */
 #include "core/base/utf8.h"
 #include "core/system/subprocess.h"
 #include "core/system/temporary.h"
@@ -16,14 +16,14 @@
 
 #define RESULT "converted.gwy"
 
-/* A map of 4000 x 4000 points takes it 2 s; 2^27 points, more than instruments give, are 1 GiB as
- * Gwyddion writes them, and it holds them up to four times. */
+/* A map of 4000 x 4000 points takes 2 s. An upper bound of 2^27 points is 1 GiB as written by
+ * Gwyddion, and Gwyddion holds up to four copies. */
 const gwyddion_limits gwyddion_usual_limits = {
     .time = 60, .cpu_time = 60, .file_size = (size_t)1 << 30, .memory = (size_t)4 << 30};
-/* It says its version before it does anything. */
-static const double VERSION_TIME = 10; /* s */
+/* limit for the version query, which is fast [s] */
+static const double VERSION_TIME = 10;
 
-/* What the copy is called: Gwyddion looks at the ending, too, and at nothing else of the name. */
+/* Builds the name of the copy. Gwyddion uses only the suffix of the name. */
 static void copy_name(const char *file, char name[32])
 {
     const char *const dot = strrchr(file, '.');
@@ -105,7 +105,7 @@ static wt_status check_end(const program_end *end, double limit, wt_error *err)
 static wt_status run(const char *folder, const char *const *arguments,
                      const gwyddion_limits *limits, program_end *end, wt_error *err)
 {
-    /* No settings of the user's, no window. */
+    /* Gwyddion must not see settings of the user or a display. */
     static const char *const hidden[] = {"HOME=", "XDG_",     "DISPLAY=", "WAYLAND_", "DBUS_",
                                          "GTK",   "GWYDDION", "G_",       "TMPDIR=",  NULL};
     char *home = NULL;
@@ -126,7 +126,7 @@ static wt_status run(const char *folder, const char *const *arguments,
     return status;
 }
 
-/* The bytes, so that the folder can go; only of a plain file. */
+/* Reads the converted bytes, so that the folder can be removed. Only a regular file is accepted. */
 static wt_status take_result(const char *folder, const char *name, size_t most,
                              wt_input **converted, wt_error *err)
 {
@@ -139,7 +139,7 @@ static wt_status take_result(const char *folder, const char *name, size_t most,
     free(path);
     if (file < 0 || fstat(file, &known) != 0 || !S_ISREG(known.st_mode) || known.st_size == 0) {
         status = fails("Gwyddion made nothing of the file", err);
-    } else if ((size_t)known.st_size >= most) { /* it was cut there */
+    } else if ((size_t)known.st_size >= most) { /* it was truncated at the limit */
         status = fails("Gwyddion made more of the file than is read", err);
     } else {
         const size_t length = (size_t)known.st_size;

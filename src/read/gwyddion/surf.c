@@ -1,7 +1,11 @@
-/* Compressed files of Digital Surf: the head of a plain one but for its first word, then how many
- * pieces there are, for each its bytes plain and packed, and the pieces, each a zlib stream, which
- * follow one another. Of several surfaces the first.
- * SPDX-License-Identifier: GPL-3.0-or-later */
+/* Unpacks compressed files of Digital Surf.
+ *
+ * The head is that of a plain file except for its first word. Then come the number of pieces, the
+ * plain and packed size of each, and the pieces as zlib streams. Of several surfaces the first is
+ * read.
+ *
+ * SPDX-License-Identifier: GPL-3.0-or-later
+ */
 #include "read/gwyddion/surf.h"
 
 #include "read/bytes/bytes.h"
@@ -11,16 +15,17 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Where what stands in the head, and how long it and what is said of a piece are. */
+/* Offsets in the head, the length of the head, and the sizes of the piece count and of a piece
+ * record [byte]. */
 enum { BITS = 98, N_POINTS = 116, COMMENT = 334, PRIVATE = 336, HEAD = 512, COUNT = 4, PIECE = 8 };
-/* No stream of Deflate is a larger part of what it packs. */
+/* Maximum ratio of plain to packed bytes of Deflate. */
 enum { PACKED_MOST = 1032 };
 
 typedef struct surf_pieces {
     const unsigned char *bytes;
-    size_t length, head; /* of the file, of all before the pieces are counted */
-    size_t n, packed;    /* pieces; where the first begins */
-    size_t plain;        /* bytes of all of them, unpacked */
+    size_t length, head; /* size of the file; size of all before the piece count */
+    size_t n, packed;    /* number of pieces; offset of the first */
+    size_t plain;        /* total unpacked size */
 } surf_pieces;
 
 static wt_status fails(const char *what, wt_error *err)
@@ -55,7 +60,7 @@ static wt_status find_pieces(surf_pieces *p, wt_error *err)
     return WT_OK;
 }
 
-/* The pieces lie in the file, and are as many bytes as the head has heights. */
+/* Checks that the pieces lie in the file and have the size that the head states. */
 static wt_status check_pieces(surf_pieces *p, size_t most, wt_error *err)
 {
     const uint64_t heights = (uint64_t)le32(p->bytes + N_POINTS) * (le16(p->bytes + BITS) / 8U);
@@ -65,7 +70,7 @@ static wt_status check_pieces(surf_pieces *p, size_t most, wt_error *err)
         if (packed > left || plain / PACKED_MOST > packed)
             return fails("a piece of its heights lies outside of it", err);
         left -= packed;
-        p->plain += plain; /* at most PACKED_MOST times the file */
+        p->plain += plain; /* at most PACKED_MOST times the file size */
     }
     if (p->plain > most) {
         wt_fail(err, WT_E_UNSUPPORTED, "the heights of the file are larger than is read");

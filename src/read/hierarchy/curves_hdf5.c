@@ -1,4 +1,5 @@
-/* HDF5 files of force curves: attributes, data sets, the door.
+/* Reads attributes and data sets of HDF5 files of force curves, and runs the conversion to text in
+ * the sandbox.
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
@@ -14,11 +15,11 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Numbers of an attribute that anybody asks for. */
+/* Maximum length of a numeric attribute. */
 #define NUMBERS_MAX 64
-/* Links of a group that are looked at one by one. */
+/* Maximum number of links that are examined one by one. */
 #define LINKS_MAX 4096
-/* How much longer than the file what was packed in it may be; deflate cannot more. */
+/* Maximum ratio of unpacked data to the file size; deflate cannot exceed it. */
 #define UNPACKED_MAX 1040
 
 static hid_t open_attribute(hid_t object, const char *name, size_t *n)
@@ -87,10 +88,10 @@ bool hdf5_link(hid_t group, size_t i, char name[HDF5_NAME])
         H5Lget_name_by_idx(group, ".", H5_INDEX_NAME, H5_ITER_INC, i, name, HDF5_NAME, H5P_DEFAULT);
     if (length >= HDF5_NAME)
         name[0] = '\0';
-    return length > 0; /* a damaged group may announce any number of links */
+    return length > 0; /* a damaged group may state any number of links */
 }
 
-/* Only what stands in this file. */
+/* Opens an object of this file; links to other files are refused. */
 static hid_t open_object(hid_t parent, const char *name, H5I_type_t kind)
 {
     H5L_info_t info;
@@ -114,8 +115,8 @@ hid_t hdf5_open_data(hid_t parent, const char *name)
     return open_object(parent, name, H5I_DATASET);
 }
 
-/* What is packed in pieces is unpacked piece by piece: one must fit into what is kept unpacked, or
- * it is unpacked for every row. */
+/* Opens a data set for reading by rows. A packed chunk must fit into the chunk cache, or it is
+ * unpacked for every row. */
 hid_t hdf5_open_rows(hid_t parent, const char *name)
 {
     enum { KEPT = 1 << 20 };
@@ -130,7 +131,7 @@ hid_t hdf5_open_rows(hid_t parent, const char *name)
         piece * width > KEPT) {
         const size_t size = (size_t)piece * width;
         const hid_t access = H5Pcreate(H5P_DATASET_ACCESS);
-        hdf5_close(data); /* while it is open, what it keeps cannot be changed */
+        hdf5_close(data); /* the cache of an open data set cannot be changed */
         if (access >= 0 &&
             H5Pset_chunk_cache(access, H5D_CHUNK_CACHE_NSLOTS_DEFAULT, size, 1.0) >= 0)
             again = H5Dopen2(parent, name, access);
@@ -187,11 +188,10 @@ double *hdf5_values(hid_t data, size_t size, size_t *n)
     return values;
 }
 
-/* ---- in front of the door ---------------------------------------------------------------------
- */
+/* ---- outside of the sandbox ------------------------------------------------------------------ */
 
-/* This program's files say so in the first attributes of their root, whose names end with a zero.
- */
+/* True for a file of this program: the first attributes of its root have these names, which end
+ * with a zero. */
 static bool is_own(const file_peek *peek)
 {
     static const char *const marks[] = {STORE_FORMAT_ATTRIBUTE, STORE_MAP_ATTRIBUTE};
@@ -228,7 +228,7 @@ wt_status hdf5_as_text(const file_reader *self, wt_input *input, wt_log *log, wt
     text_sink to = {.name = wt_input_name(input)};
     sandbox_stream *flow = NULL;
     double factor, offset;
-    /* Behind the door no file can be opened, so the units are read from theirs before it. */
+    /* In the sandbox no file can be opened, so the unit database is loaded before. */
     wt_status status = wt_unit_to_si("m", WT_Q_LENGTH, &factor, &offset, err);
     if (status == WT_OK)
         status = input_hdf5(input, &from, err);
@@ -237,9 +237,9 @@ wt_status hdf5_as_text(const file_reader *self, wt_input *input, wt_log *log, wt
     if (self->hdf5->note != NULL)
         wt_log_add(log, WT_NOTE, to.name, NULL, "%s", self->hdf5->note);
     sandbox_limits limits = sandbox_limits_for(from.size);
-    /* HDF5 may look for a text of a damaged heap for ever; a sound file takes far less a megabyte.
-     */
-    limits.answer = ((size_t)16 << 20) + 24 * from.size; /* numbers may be packed */
+    /* HDF5 may loop on a damaged heap. A sound file takes far less than this time for each
+     * megabyte. */
+    limits.answer = ((size_t)16 << 20) + 24 * from.size; /* packed numbers expand */
     limits.cpu_time = 2 + (unsigned)(from.size >> 20);
     status = hdf5_sandbox_start(&from, &limits, self->hdf5->print, &flow, err);
     if (status == WT_OK)

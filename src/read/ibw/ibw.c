@@ -1,4 +1,4 @@
-/* Igor binary waves: the descriptor, detection, facts and curves.
+/* Reads Igor binary waves: descriptor, detection, metadata and curves.
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
@@ -28,7 +28,7 @@ static recognition detect(const file_reader *self, file_peek *peek)
     return match;
 }
 
-/* ---- what is in it --------------------------------------------------------------------------- */
+/* ---- metadata -------------------------------------------------------------------------------- */
 
 static void add_setpoint(const ibw_file *file, force_metadata *facts)
 {
@@ -48,9 +48,9 @@ static void add_setpoint(const ibw_file *file, force_metadata *facts)
         }
 }
 
-/* Heights count towards the sample in the file and fall here. The deflection is in metres already,
- * by the sensitivity of the note. The velocities of the note are settings, also those that were not
- * used, so none is taken. */
+/* Returns the metadata of the curve. Heights in the file increase towards the sample; the signal is
+ * negated. The deflection is in metres, computed with the sensitivity of the note. The velocities
+ * of the note are settings, used or not, so none is read. */
 force_metadata ibw_facts(const ibw_file *file)
 {
     static const struct {
@@ -129,7 +129,7 @@ typedef struct ibw_source {
     force_metadata facts;
     ibw_segment segments[IBW_SEGMENTS];
     size_t n_segments;
-    size_t from; /* first sample of the segment that is read */
+    size_t from; /* first sample of the current segment */
     bool done;
 } ibw_source;
 
@@ -179,7 +179,7 @@ static wt_status open_source(wt_force_source *base, const file_reader *self, wt_
     wt_status status = ibw_open(input, &source->file, err);
     if (status == WT_OK)
         status = ibw_segments(&source->file, source->segments, &source->n_segments, err);
-    source->facts = ibw_facts(&source->file); /* points to the channels of this file */
+    source->facts = ibw_facts(&source->file); /* has pointers to the channels of this file */
     base->n_curves = 1;
     return status;
 }

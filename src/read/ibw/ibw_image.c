@@ -1,5 +1,5 @@
-/* Images of Asylum Research in Igor binary waves: a channel one behind the other, lines from the
- * bottom upwards, metres.
+/* Reads images of Asylum Research in Igor binary waves. Channels are stored one after another,
+ * lines from the bottom upwards, lengths in metres.
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
@@ -8,7 +8,8 @@
 
 #include <string.h>
 
-/* By the name, for the wave says no unit of a channel: "HeightRetrace", "ZSensorTrace". */
+/* Returns the unit of a channel by its name, such as "HeightRetrace" or "ZSensorTrace", since the
+ * wave states none. */
 static const char *unit_of(const char *name)
 {
     static const struct {

@@ -1,4 +1,4 @@
-/* The wave: header, labels, note. SPDX-License-Identifier: GPL-3.0-or-later */
+/* Parses an Igor wave: header, labels and note. SPDX-License-Identifier: GPL-3.0-or-later */
 #include "read/ibw/ibw.h"
 
 #include "core/base/clocale.h"
@@ -9,9 +9,9 @@
 #include <string.h>
 
 enum {
-    HEADER_5 = 64, /* of the file, before that of the wave */
-    WAVE_5 = 320,  /* header of the wave, before the samples */
-    HEADER_2 = 16, /* the same of version 2 */
+    HEADER_5 = 64, /* file header, before the wave header */
+    WAVE_5 = 320,  /* wave header, before the samples */
+    HEADER_2 = 16, /* file header of version 2 */
     WAVE_2 = 110
 };
 
@@ -114,7 +114,7 @@ static wt_status read_grid(ibw_file *f, ibw_grid *grid, wt_error *err)
     if (layers == 0 || number_at(f, DIMENSIONS + 12) != 0)
         return fail_expected(err, WT_E_EMPTY, "the wave holds no image",
                              "three dimensions: columns, lines and channels");
-    /* Sizes of 32 bits each: their product fits. */
+    /* The product of two 32-bit sizes fits. */
     return set_sizes(f, grid->n_columns * grid->n_rows, layers, err);
 }
 
@@ -126,7 +126,7 @@ static wt_status fail_missing(wt_error *err, const char *message, const char *ex
     return WT_E_CORRUPT;
 }
 
-/* Letters, then nothing but zeros. */
+/* True for a label of letters that only zeros follow. */
 static bool is_label(const unsigned char *label, size_t size)
 {
     size_t n = 0;
@@ -137,15 +137,16 @@ static bool is_label(const unsigned char *label, size_t size)
     return n == size;
 }
 
-/* The number behind a key such as "RetractStart3:" of the footer; SIZE_MAX if it is not there. */
+/* Returns the number after a key such as "RetractStart3:" of the footer; SIZE_MAX if it is
+ * absent. */
 static size_t footer_number(const char *footer, const char *key)
 {
     const char *const found = strstr(footer, key);
     return found != NULL ? (size_t)strtoul(found + strlen(key), NULL, 10) : SIZE_MAX;
 }
 
-/* Behind the wave Asylum writes small pictures of its channels and a footer that says where they
- * stand and ends with its own length, " 0292 Force". */
+/* Checks the footer. After the wave Asylum writes small pictures of the channels. The footer states
+ * their positions and ends with its own length, as in " 0292 Force". */
 static wt_status check_footer(const ibw_file *f, size_t length, size_t end, wt_error *err)
 {
     enum { TAIL = 11, FOOTER_MOST = 4096 };
@@ -177,7 +178,7 @@ static wt_status check_footer(const ibw_file *f, size_t length, size_t end, wt_e
     return WT_E_CORRUPT;
 }
 
-/* The first label is that of the dimension. */
+/* Reads the labels of the channels. The first label belongs to the dimension. */
 static wt_status read_labels(ibw_file *f, const unsigned char *labels, size_t size, wt_error *err)
 {
     enum { LABEL = 32 };
@@ -195,13 +196,15 @@ static wt_status read_labels(ibw_file *f, const unsigned char *labels, size_t si
     return WT_OK;
 }
 
-/* Where the parts behind the samples are, in their order. The channels are a dimension. */
+/* Locates the parts after the samples, in their order. `dimension`: the dimension of the
+ * channels. */
 static wt_status read_parts(ibw_file *f, size_t length, size_t dimension, wt_error *err)
 {
     enum { SIZES = 4, LABELS = 36, DIMENSIONS_MAX = 4, N_BEFORE = 7 };
     const size_t samples = f->n * f->n_channels * sample_width(f->type);
     const size_t wave = number_at(f, SIZES), note = number_at(f, SIZES + 8);
-    /* Formula, note, unit of the data, units of the four dimensions, then the labels of each. */
+    /* The sizes of formula, note, data unit and units of the four dimensions; then come the labels
+     * of each dimension. */
     static const size_t before[N_BEFORE] = {8, 12, 16, 20, 24, 28, 32};
     const size_t labels = number_at(f, LABELS + 4 * dimension);
     uint64_t end = (uint64_t)HEADER_5 + wave;
@@ -302,7 +305,8 @@ static wt_status bad_segments(const char *found, wt_error *err)
     return WT_E_CORRUPT;
 }
 
-/* The next number of a list with commas, which are no decimal points anywhere. */
+/* Parses the next number of a comma-separated list, in the C locale, where a comma is no decimal
+ * mark. */
 static double next_number(char **text)
 {
     const locale_t previous = clocale_enter();
@@ -311,7 +315,8 @@ static double next_number(char **text)
     return value;
 }
 
-/* "0,1008,2015" and "NaN,1,-1,": from 0 to 1008 towards the sample, from there to the last away. */
+/* Splits the samples by the keys of the note. "0,1008,2015" and "NaN,1,-1," mean an approach from 0
+ * to 1008 and a retract from there to the end. */
 wt_status ibw_segments(const ibw_file *file, ibw_segment segments[IBW_SEGMENTS], size_t *n,
                        wt_error *err)
 {
@@ -328,7 +333,7 @@ wt_status ibw_segments(const ibw_file *file, ibw_segment segments[IBW_SEGMENTS],
         const bool last = *index != ',' || index[1] < '0' || index[1] > '9';
         if (to <= from || to >= file->n + !last || isnan(way))
             return bad_segments(indexes, err);
-        /* The numbers are those of first samples, and the last that of the last one. */
+        /* Each number is the first sample of a segment; the last one is the last sample. */
         segments[(*n)++] = (ibw_segment){.kind = way > 0   ? WT_SEGMENT_APPROACH
                                                  : way < 0 ? WT_SEGMENT_RETRACT
                                                            : WT_SEGMENT_DWELL,

@@ -1,5 +1,5 @@
-/* JPK force curves, maps and quantitative imaging (ZIP): the descriptor, detection, and the facts
- * for `info`.
+/* Reads JPK force curves, maps and quantitative imaging (ZIP): descriptor, detection, and the
+ * metadata for `info`.
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
@@ -13,12 +13,12 @@
 
 static bool peek_contains(const file_peek *peek, const char *text)
 {
-    /* Looking through the input may move what was shown of a pipe. */
+    /* a search through the input may move the visible bytes of a pipe */
     return peek->whole ? memmem(peek->bytes, peek->length, text, strlen(text)) != NULL
                        : input_has(peek->input, text);
 }
 
-/* Names of entries stand unpacked in the archive; a name this long does not come about by chance in
+/* Entry names are not packed in the archive. A name of this length does not occur by chance in
  * packed data. */
 static recognition detect(const file_reader *self, file_peek *peek)
 {
@@ -36,7 +36,7 @@ static recognition detect(const file_reader *self, file_peek *peek)
     return match;
 }
 
-/* ---- facts -------------------------------------------------------------------------------- */
+/* ---- metadata -------------------------------------------------------------------------------- */
 
 static const char *description_of(const jpk_file *file, const char *name)
 {
@@ -125,7 +125,8 @@ static void add_calibration(const jpk_segment *segment, const wt_read_options *o
                                    facts);
 }
 
-/* The segments of the first curve stand for all: a map has the same ones at each place. */
+/* Describes the file. The segments of the first curve represent all, since the curves of a map have
+ * the same segments. */
 static wt_status describe(const file_reader *self, wt_input *input, const wt_read_options *options,
                           wt_log *log, table_writer *facts)
 {

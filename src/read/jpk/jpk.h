@@ -1,9 +1,11 @@
-/* JPK force files: what the parts of the reader share.
+/* Declares what the files of the JPK reader share.
  *
- * A file is a ZIP archive of .properties headers and raw channels. Names of entries, not of
- * folders, say which curves and segments there are. Keys that many segments share stand once in
- * shared-data/header.properties: `channel.C.lcd-info.*=N` means that channel C has the keys
- * `lcd-info.N.…` of it, and likewise for the segment header.
+ * A file is a ZIP archive of .properties headers and raw channels. The names of the entries, and
+ * not of folders, define the curves and segments.
+ *
+ * Keys that many segments share are stored once in shared-data/header.properties.
+ * `channel.C.lcd-info.*=N` means that channel C has the keys `lcd-info.N.…` of that file. The
+ * segment header has such references as well.
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
@@ -19,12 +21,12 @@
 #define JPK_NAME 64
 #define JPK_SLOTS 12
 #define JPK_CHANNELS 64
-/* Headers are a few kilobytes; what is larger is not a header. */
+/* Maximum size of a header; real headers have a few kilobytes [byte]. */
 #define JPK_HEADER_MAX ((size_t)8 * 1024 * 1024)
 
 /* ---- channels: jpk_channel.c -------------------------------------------------------------- */
 
-/* A calibration slot: how its values follow from those of the slot named `base`. */
+/* A calibration slot, which computes its values from those of the slot `base`. */
 typedef struct jpk_slot {
     char name[JPK_NAME];
     char base[JPK_NAME];
@@ -34,38 +36,39 @@ typedef struct jpk_slot {
 
 /* Encoding and calibration of a channel ("lcd-info"). */
 typedef struct jpk_lcd {
-    sample_type encoding;     /* of the data file, high byte first */
-    bool raster;              /* start + i step, no data file */
-    force_linear encoder;     /* raw number -> value of the base slot */
+    sample_type encoding;     /* of the data file, big-endian */
+    bool raster;              /* true for values start + i * step without a data file */
+    force_linear encoder;     /* from the raw number to the value of the base slot */
     char base[JPK_NAME];      /* "volts", "absolute" */
     char base_unit[16];       /* "V", "m" */
-    char preferred[JPK_NAME]; /* the slot that the instrument shows */
+    char preferred[JPK_NAME]; /* slot that the instrument shows */
     jpk_slot slots[JPK_SLOTS];
     size_t n_slots;
-    long id; /* in the shared header, of those that stand there */
+    long id; /* number in the shared header, for a shared block */
 } jpk_lcd;
 
-/* Reads it from keys that start with `prefix`, e.g. "lcd-info.1.". */
+/* Reads the block from keys that start with `prefix`, such as "lcd-info.1.". */
 wt_status jpk_lcd_read(const property_list *properties, const char *prefix, jpk_lcd *lcd,
                        wt_error *err);
-const jpk_slot *jpk_lcd_slot(const jpk_lcd *lcd, const char *name); /* NULL: none or not defined */
-/* Base value -> value of the slot, walking the slots down to the base; false if they do not lead
- * there. */
+const jpk_slot *jpk_lcd_slot(const jpk_lcd *lcd,
+                             const char *name); /* NULL if the slot is absent or undefined */
+/* Computes the conversion from the base value to the value of a slot; false if the slots do not
+ * lead to the base. */
 bool jpk_lcd_chain(const jpk_lcd *lcd, const char *slot, force_linear *chain);
 
 /* ---- the file: jpk_file.c ----------------------------------------------------------------- */
 
 typedef struct jpk_segment_ref {
-    uint32_t curve;   /* as the file counts */
-    uint32_t segment; /* as the file counts */
-    uint32_t entry;   /* its segment-header.properties */
+    uint32_t curve;   /* number in the file */
+    uint32_t segment; /* number in the file */
+    uint32_t entry;   /* entry of its segment-header.properties */
 } jpk_segment_ref;
 
 typedef struct jpk_file {
     zip_archive *archive;
-    const char *name;       /* of the input */
+    const char *name;       /* name of the input */
     wt_log *log;            /* borrowed, may be NULL */
-    bool map;               /* curves stand in index/N/ */
+    bool map;               /* true if the curves are in index/N/ */
     property_list header;   /* header.properties; empty if missing */
     property_list shared;   /* shared-data/header.properties; empty if missing */
     property_list position; /* scratch: index/N/header.properties */
@@ -73,20 +76,20 @@ typedef struct jpk_file {
     jpk_segment_ref *refs;  /* [n_refs] by curve, then segment */
     size_t n_refs;
     size_t n_curves;
-    jpk_lcd *lcds; /* those of `shared` that were needed */
+    jpk_lcd *lcds; /* blocks of `shared` that were read so far */
     size_t n_lcds;
     long columns, rows; /* grid; 0 if there is none */
     bool back_and_forth;
-    size_t n_expected; /* curves that the header announces; 0 if it does not */
+    size_t n_expected; /* number of curves that the header states; 0 if none */
 } jpk_file;
 
 wt_status jpk_file_open(wt_input *input, wt_log *log, jpk_file *file, wt_error *err);
-void jpk_file_close(jpk_file *file); /* accepts a zero-initialised one */
-/* Position and place in the grid of the curve that refs[ref] belongs to; unknown ones are NaN and
+void jpk_file_close(jpk_file *file); /* accepts a zero-initialised file */
+/* Sets the position and the grid position of the curve of refs[ref]; unknown ones are NaN and
  * -1. */
 void jpk_file_position(jpk_file *file, size_t ref, wt_force_curve *curve);
-/* Warns where the curve, whose position was asked for, has less segments than its header counts; n:
- * how many there are, from refs[ref] on. */
+/* Warns if the curve has fewer segments than its header states. Call it after jpk_file_position.
+ * `n`: number of segments from refs[ref] on. */
 void jpk_file_check_segments(const jpk_file *file, size_t ref, size_t n);
 
 /* ---- a segment: jpk_segment.c ------------------------------------------------------------- */
@@ -94,11 +97,11 @@ void jpk_file_check_segments(const jpk_file *file, size_t ref, size_t n);
 typedef struct jpk_channel {
     char name[JPK_NAME];
     size_t n_points;
-    size_t entry;        /* of its data file, if `has_file` */
-    bool has_file;       /* false: a raster, or missing from the archive */
+    size_t entry;        /* entry of its data file, if has_file */
+    bool has_file;       /* false for a raster or a missing file */
     bool understood;     /* `lcd` is filled */
-    char problem[192];   /* why it is not */
-    force_linear raster; /* value of the base slot = multiplier i + offset */
+    char problem[192];   /* reason, if it is not understood */
+    force_linear raster; /* value of the base slot = multiplier * i + offset */
     jpk_lcd lcd;
 } jpk_channel;
 
@@ -108,23 +111,23 @@ typedef struct jpk_segment {
     size_t n_channels;
     wt_segment_kind kind;
     char style[JPK_NAME];
-    size_t n_points;         /* that every channel with a file has */
+    size_t n_points;         /* number of samples that every channel with a file has */
     bool incomplete;         /* a data file is missing or short */
     double duration;         /* [s], NaN if unknown */
     double velocity;         /* [m/s], NaN if unknown */
-    double frequency;        /* of a modulation [Hz] */
+    double frequency;        /* modulation frequency [Hz] */
     double setpoint_voltage; /* [V], NaN if none */
 } jpk_segment;
 
 wt_status jpk_segment_read(jpk_file *file, const jpk_segment_ref *ref, jpk_segment *segment,
                            wt_error *err);
-/* NULL if there is none. */
+/* Returns NULL if there is none. */
 const jpk_channel *jpk_segment_channel(const jpk_segment *segment, const char *name);
 
 /* ---- calibration: jpk_calibration.c ------------------------------------------------------- */
 
-/* What the segment says of its channels; number, place and beginning are for the caller. The facts
- * borrow the segment. */
+/* Returns the metadata of a segment except for index, place and start. The result borrows the
+ * segment. */
 void jpk_segment_facts(const jpk_segment *segment, force_metadata *facts);
 
 /* ---- curves: jpk_force.c ------------------------------------------------------------------ */

@@ -1,8 +1,8 @@
-/* What a JPK segment says of its channels: from the numbers of a channel to voltage, deflection,
- * force and height, as its calibration slots tell.
+/* Derives voltage, deflection, force and height from the numbers of a JPK channel, by its
+ * calibration slots.
  *
- * Signs are those of the file: force is positive when the sample pushes the tip away, the height
- * falls while the tip approaches.
+ * Signs are those of the file: the force is positive when the sample repels the tip. The height
+ * decreases while the tip approaches.
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
@@ -15,8 +15,8 @@
 #define BASE_SLOT NULL
 #define PREFERRED_SLOT ""
 
-/* What is made of which channel at which calibration slot, in the order of the columns. Of several
- * sensors the first is taken that is understood: the one that the instrument itself works with. */
+/* The quantities with their channel and calibration slot, in the order of the columns. Of several
+ * height sensors the first that is understood is used; the instrument itself works with it. */
 static const struct {
     wt_quantity quantity;
     const char *channel, *slot;
@@ -32,7 +32,8 @@ static const struct {
     {WT_Q_LATERAL_DEFLECTION, "hDeflection", BASE_SLOT},
 };
 
-/* The chain to a slot in the SI unit of the quantity; false if the file does not say how. */
+/* Computes the conversion to a slot in the SI unit of the quantity; false if the file does not
+ * define it. */
 static bool chain_si(const jpk_lcd *lcd, const char *name, force_signal *signal)
 {
     const jpk_slot *slot = jpk_lcd_slot(lcd, name);
@@ -70,7 +71,7 @@ static double multiplier(const force_metadata *facts, wt_quantity quantity)
     return signal != NULL && signal->problem == NULL ? signal->to_si.multiplier : (double)NAN;
 }
 
-/* Sensitivity and spring constant are what the slots multiply by. */
+/* Sets sensitivity and spring constant, which are the multipliers of the slots. */
 static void add_calibration(const jpk_lcd *lcd, force_metadata *facts)
 {
     const jpk_slot *slot = jpk_lcd_slot(lcd, "force");

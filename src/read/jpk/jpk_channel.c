@@ -1,13 +1,10 @@
-/* JPK channels: how the numbers of a data file become physical values.
- *
- * SPDX-License-Identifier: GPL-3.0-or-later
- */
+/* Reads the encoding and calibration of a JPK channel. SPDX-License-Identifier: GPL-3.0-or-later */
 #include "read/jpk/jpk.h"
 
 #include <math.h>
 #include <string.h>
 
-/* Files of version 0 keep type and encoder below "data.". */
+/* Finds a property that files of version 0 store below "data.". */
 static const char *property_of_version(const property_list *properties, const char *prefix,
                                        const char *key)
 {
@@ -77,7 +74,7 @@ static bool copy_name(char *to, size_t size, const char *from)
     return true;
 }
 
-/* "….scaling." keys: y = multiplier x + offset. */
+/* Reads the keys "….scaling.": y = multiplier x + offset. */
 static wt_status read_scaling(const property_list *properties, const char *prefix,
                               force_linear *scaling, wt_error *err)
 {
@@ -117,7 +114,7 @@ static wt_status read_encoder(const property_list *properties, const char *prefi
     return WT_OK;
 }
 
-/* One calibration slot; those that the file does not define are left out. */
+/* Reads a calibration slot. A slot that the file does not define is skipped. */
 static wt_status read_slot(const property_list *properties, const char *prefix, const char *name,
                            jpk_lcd *lcd, wt_error *err)
 {
@@ -174,7 +171,7 @@ const jpk_slot *jpk_lcd_slot(const jpk_lcd *lcd, const char *name)
 bool jpk_lcd_chain(const jpk_lcd *lcd, const char *slot, force_linear *chain)
 {
     force_linear total = {1, 0};
-    /* From the wanted slot down to the base; more steps than slots is a circle. */
+    /* From the requested slot down to the base. More steps than slots mean a cycle. */
     for (size_t step = 0; step <= lcd->n_slots; step++) {
         if (strcmp(slot, lcd->base) == 0) {
             *chain = total;

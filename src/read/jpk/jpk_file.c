@@ -1,4 +1,4 @@
-/* A JPK file opened: which curves and segments it holds, its headers and its grid.
+/* Opens a JPK file: its curves and segments, headers and grid.
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
@@ -10,7 +10,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Reads digits up to `stop`; nine digits number more curves than a file can hold. */
+/* Parses digits up to `stop`. Nine digits exceed the number of curves that a file can contain. */
 static bool read_number(const char **at, char stop, uint32_t *number)
 {
     const char *p = *at;
@@ -36,7 +36,7 @@ static bool read_word(const char **at, const char *word)
     return true;
 }
 
-/* "[index/N/]segments/S/segment-header.properties" */
+/* Parses an entry name "[index/N/]segments/S/segment-header.properties". */
 static bool parse_name(const char *name, jpk_segment_ref *ref, bool *map)
 {
     ref->curve = 0;
@@ -94,7 +94,7 @@ static wt_status find_segments(jpk_file *file, wt_error *err)
     return WT_OK;
 }
 
-/* A header that may be missing; then it is empty. */
+/* Reads a header, which stays empty if the file has none. */
 static wt_status read_header(jpk_file *file, const char *name, property_list *header, wt_error *err)
 {
     size_t i = 0;
@@ -108,7 +108,8 @@ static wt_status read_header(jpk_file *file, const char *name, property_list *he
     return status;
 }
 
-/* "force-scan-map.position-pattern.grid.": the prefix of a key of the root header. */
+/* Builds the prefix of a key of the root header, such as
+ * "force-scan-map.position-pattern.grid.". */
 static bool root_key(const property_list *header, const char *rest, char *key, size_t size)
 {
     const char *type = properties_get(header, "type");
@@ -200,7 +201,7 @@ void jpk_file_position(jpk_file *file, size_t ref, wt_force_curve *curve)
     if (root_key(header, "header.", key, sizeof key)) {
         curve->x = properties_number(header, key, "position.x");
         curve->y = properties_number(header, key, "position.y");
-        /* It is not the number of the curve in a file that was cut out of a larger one. */
+        /* the grid index; it differs from the curve number in an excerpt of a larger file */
         double place = properties_number(header, key, "position-index");
         if (place >= 0 && place < 1e9)
             number = (size_t)place;

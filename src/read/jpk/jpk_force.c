@@ -1,6 +1,6 @@
-/* JPK curves as a stream: one curve at a time, and of it only the segments and channels asked for.
+/* Delivers JPK curves one by one, with the requested segments and channels.
  *
- * Samples are in the order of time, which runs on from segment to segment.
+ * Samples are in temporal order, and the time continues from segment to segment.
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
@@ -12,13 +12,14 @@
 typedef struct jpk_source {
     wt_force_source base;
     jpk_file file;
-    jpk_segment segment;        /* scratch */
-    const jpk_channel *loaded;  /* whose data are in the buffer of the file, or NULL */
-    const jpk_segment_ref *ref; /* of the segment */
+    jpk_segment segment;        /* reused for each segment */
+    const jpk_channel *loaded;  /* channel whose data are in the buffer of the file, or NULL */
+    const jpk_segment_ref *ref; /* reference of the segment */
     size_t next;                /* refs[next] is the first segment of the next curve */
 } jpk_source;
 
-/* What an entry may unpack to: many times what its points take, and never all of the memory. */
+/* Returns the limit on the unpacked size of an entry: a multiple of the size of its samples, with
+ * an absolute maximum. */
 static size_t most_bytes(const jpk_channel *channel)
 {
     const size_t most = (size_t)256 << 20, slack = (size_t)1 << 20, times = 16;

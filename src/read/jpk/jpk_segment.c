@@ -1,4 +1,4 @@
-/* A segment of a JPK curve: its header with what it inherits, and which channels it has.
+/* Reads a segment of a JPK curve: its header with inherited keys, and its channels.
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
@@ -11,7 +11,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* The number N of a key "….*=N"; false if it is not one. */
+/* Parses the number N of a key "….*=N"; false for anything else. */
 static bool reference_number(const char *text, long *number)
 {
     char *end = NULL;
@@ -22,7 +22,7 @@ static bool reference_number(const char *text, long *number)
     return *end == '\0' && errno == 0;
 }
 
-/* A key of the segment header: its own, or that of the shared header that it points to. */
+/* Returns a property of the segment header, or of the shared header to which it refers. */
 static const char *segment_key(const jpk_file *file, const jpk_segment *segment, const char *key)
 {
     const char *own = properties_find(&segment->header, "force-segment-header.", key);
@@ -38,7 +38,7 @@ static const char *segment_key(const jpk_file *file, const jpk_segment *segment,
     return properties_find(&file->shared, prefix, key);
 }
 
-/* What the user set; newer files keep it below "settings.segment-settings.". */
+/* Returns a setting of the user. Newer files store it below "settings.segment-settings.". */
 static const char *setting_of(const jpk_file *file, const jpk_segment *segment, const char *name)
 {
     char key[96];
@@ -128,7 +128,7 @@ static wt_status read_lcd(jpk_file *file, const jpk_segment *segment, const char
     return status;
 }
 
-/* Where the data file is and how many whole samples it can give. `folder` ends in '/'. */
+/* Finds the data file and the number of complete samples in it. `folder` ends in '/'. */
 static wt_status find_data(const jpk_file *file, const jpk_segment *segment, const char *prefix,
                            const char *folder, jpk_channel *channel, wt_error *err)
 {
@@ -199,7 +199,7 @@ static wt_status read_channels(jpk_file *file, jpk_segment *segment, const char 
         if (!property_word(&list, channel->name, sizeof channel->name))
             break;
         segment->n_channels++;
-        /* The calibration is large and filled by read_channel. */
+        /* `lcd` is large; read_channel fills it */
         channel->has_file = false;
         channel->n_points = 0;
         channel->problem[0] = '\0';
@@ -210,8 +210,8 @@ static wt_status read_channels(jpk_file *file, jpk_segment *segment, const char 
     return status;
 }
 
-/* All channels of a segment are cut to the shortest. Only those with a data file can say how long
- * it is at most: a raster costs nothing and may announce anything. */
+/* Truncates all channels of a segment to the shortest. Only channels with a data file limit the
+ * length, since a raster may state any number. */
 static void common_length(const jpk_file *file, jpk_segment *segment, const char *folder)
 {
     size_t shortest = SIZE_MAX, longest = 0, raster = SIZE_MAX;
@@ -258,7 +258,7 @@ wt_status jpk_segment_read(jpk_file *file, const jpk_segment_ref *ref, jpk_segme
         wt_error_place(err, "%s", folder);
         return status;
     }
-    if (segment->n_channels == 0) /* one of no duration lists them all the same */
+    if (segment->n_channels == 0) /* a segment without duration lists its channels as well */
         wt_log_add(file->log, WT_WARNING, file->name, folder,
                    "the header of the segment lists no channels: it was cut or damaged, and "
                    "the segment is left out");

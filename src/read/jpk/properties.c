@@ -1,4 +1,4 @@
-/* Java .properties: the text format of every header in a JPK file.
+/* Parses Java .properties, the text format of every header in a JPK file.
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
@@ -12,9 +12,9 @@
 
 #define KEY_MAX 512
 
-/* What is left to read, and where the text goes. A Latin-1 byte becomes at most two bytes of UTF-8
- * and an escape of six bytes at most three (a pair of twelve at most four), so twice the input plus
- * the terminating zeros always suffices. */
+/* The remaining input and the output position. A Latin-1 byte becomes at most two bytes of UTF-8.
+ * An escape of six bytes becomes at most three, and a pair of twelve at most four. So twice the
+ * input size plus the terminating zeros suffices. */
 typedef struct parser {
     const unsigned char *at;
     const unsigned char *end;
@@ -84,8 +84,8 @@ static bool hex4(const parser *p, const unsigned char *at, uint32_t *value)
     return true;
 }
 
-/* After "\u". Two halves of a pair become one character; a half alone, which no text encoding can
- * hold, becomes the replacement character. */
+/* Parses the digits after "\u". A surrogate pair becomes one character. A lone surrogate becomes
+ * the replacement character. */
 static bool unicode(parser *p)
 {
     uint32_t c = 0;
@@ -106,7 +106,7 @@ static bool unicode(parser *p)
     return true;
 }
 
-/* After a backslash. */
+/* Parses an escape after its backslash. */
 static bool escape(parser *p)
 {
     static const char letters[] = "tnrf", means[] = "\t\n\r\f";
@@ -128,7 +128,7 @@ static bool escape(parser *p)
     return true;
 }
 
-/* Of ASCII: means itself, and does not end a word. */
+/* True for an ASCII character that stands for itself and does not end a word. */
 static bool is_plain(unsigned char c, bool key)
 {
     return c > ' ' ? c < 0x80 && c != '\\' && !(key && (c == '=' || c == ':')) : c == ' ' && !key;
@@ -144,7 +144,7 @@ static void copy_plain(parser *p, bool key)
     p->out = out;
 }
 
-/* Copies up to the end of the line, or of the key if `key`. */
+/* Copies a word up to the end of the line, or up to the end of the key if `key`. */
 static bool copy_word(parser *p, bool key)
 {
     for (;;) {
@@ -172,7 +172,7 @@ static int by_key(const void *a, const void *b)
     int order = strcmp(x->key, y->key);
     if (order != 0)
         return order;
-    /* All keys lie in one block of text in the order of the file. */
+    /* all keys are in one block of text, in the order of the file */
     return x->key < y->key ? -1 : x->key > y->key;
 }
 
@@ -180,7 +180,7 @@ static wt_status reserve_properties(property_list *p, size_t length, wt_error *e
 {
     if (length > SIZE_MAX / 64)
         return wt_fail(err, WT_E_RANGE, "header too large");
-    /* A property is at least one byte and a line break; the last one needs no break. */
+    /* a property has at least one byte and a line break; the last one needs no break */
     const size_t items = length / 2 + 1;
     const size_t size = items * sizeof *p->items + 2 * length + 2;
     if (size > p->capacity) {

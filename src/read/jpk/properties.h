@@ -1,4 +1,4 @@
-/* Java .properties text as a sorted table of keys.
+/* Declares Java .properties text as a sorted table of keys.
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
@@ -12,31 +12,32 @@ typedef struct property_entry {
     const char *value;
 } property_entry;
 
-/* Zero-initialised is empty. Parsing again reuses the memory, so one object serves for the headers
- * of all segments of a map. */
+/* A table of properties; zero-initialised is empty. Parsing again reuses the memory, so one table
+ * serves the headers of all segments of a map. */
 typedef struct property_list {
-    property_entry *items; /* [n] by rising key; of equal keys the last one of the file is kept */
+    property_entry *items; /* [n] sorted by key; of equal keys the last one in the file */
     size_t n;
-    size_t capacity; /* of the block of items and text [byte] */
+    size_t capacity; /* size of the block of items and text [byte] */
     char *text;      /* keys and values, UTF-8 */
 } property_list;
 
-/* Latin-1 bytes with `#` and `!` comments, `=`, `:` or blank between key and value, the escapes
- * \t \n \r \f \uXXXX and continued lines. WT_E_CORRUPT for a zero byte or a broken \u; then the
- * table is empty. */
+/* Parses Latin-1 text with `#` and `!` comments, and `=`, `:` or blank between key and value. It
+ * knows the escapes \t \n \r \f \uXXXX and continued lines. Returns WT_E_CORRUPT and an empty table
+ * for a zero byte or an invalid \u. */
 wt_status properties_parse(property_list *properties, const unsigned char *bytes, size_t length,
                            wt_error *err) WT_NODISCARD;
-void properties_clear(property_list *properties); /* frees all; empty again */
+void properties_clear(
+    property_list *properties); /* frees the memory; the table is empty afterwards */
 
-/* NULL if there is no such key. */
+/* Returns the value of a key, or NULL. */
 const char *properties_get(const property_list *properties, const char *key);
-/* The key is the texts put together; NULL also if it would be longer than any key here can be. */
+/* Returns the value of the key prefix + suffix, or NULL; NULL also for a key that is too long. */
 const char *properties_find(const property_list *properties, const char *prefix,
                             const char *suffix);
-/* The next word of a list, and *list behind it; false, and *list at what is left, if there is none
- * or it finds no room. *list may be NULL. */
+/* Reads the next word of a list and moves *list past it. Returns false if there is none or it does
+ * not fit; *list is then the rest. *list may be NULL. */
 bool property_word(const char **list, char *word, size_t size);
-/* The value of a key. */
+/* Returns the number of the key prefix + suffix; NaN if it is absent or no number. */
 double properties_number(const property_list *properties, const char *prefix, const char *suffix);
 
 #endif

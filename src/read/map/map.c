@@ -1,5 +1,5 @@
-/* Maps of force curves in this program's own HDF5 files, weartrack-hdf5(5), as `weartrack convert`
- * writes them.
+/* Reads maps of force curves in HDF5 files of this program, weartrack-hdf5(5), which `weartrack
+ * convert` writes.
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
@@ -15,13 +15,13 @@
 typedef struct map_source {
     wt_force_source base;
     map_reader *map;
-    const map_segment *segment; /* that is read */
+    const map_segment *segment; /* current segment */
     const map_channel *channels;
     size_t n_channels;
 } map_source;
 
-/* The first attribute of the root stands right behind the signature, its name with the zero at its
- * end: the name of a file in the command has none. */
+/* The first attribute of the root follows the signature. Its name includes the terminating zero; a
+ * file name within the stored command has none. */
 static recognition detect(const file_reader *self, file_peek *peek)
 {
     (void)self;
@@ -59,7 +59,7 @@ static wt_status decode(wt_force_source *base, const force_signal *signal, force
     return WT_OK;
 }
 
-/* Quantities that were made of one channel have its name. */
+/* Returns the first channel with this name. Quantities computed from one channel share its name. */
 static const void *channel_of(const map_source *source, size_t k)
 {
     size_t first = 0;
@@ -138,9 +138,9 @@ static const force_stream map_force = {.size = sizeof(map_source),
                                        .decode = decode,
                                        .close = close_source};
 
-/* ---- facts -------------------------------------------------------------------------------- */
+/* ---- metadata -------------------------------------------------------------------------------- */
 
-/* The first curve stands for all. */
+/* Describes the file; the first curve represents all. */
 static wt_status describe(const file_reader *self, wt_input *input, const wt_read_options *options,
                           wt_log *log, table_writer *facts)
 {

@@ -1,4 +1,4 @@
-/* NanoScope files: the descriptor, detection, and the facts for `info`.
+/* Reads NanoScope files: descriptor, detection, and the metadata for `info`.
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */

@@ -1,4 +1,4 @@
-/* What the header of a NanoScope file says of the curves, held against the bytes that are there.
+/* Opens a NanoScope file of force curves and checks its header against the stored bytes.
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
@@ -15,10 +15,10 @@
 #define BLOCK "Ciao force image list"
 #define IMAGE "Ciao image list"
 
-/* Of a part of a curve. */
+/* Maximum number of samples of a segment. */
 #define SAMPLES_MAX ((size_t)10000000)
 
-/* Counts that a converter of 16 bits has, which the volts of a count in the header are for. */
+/* Full scale of a 16-bit converter, to which the volts per count of the header refer. */
 static const double most_counts = 32768;
 
 static wt_status corrupt(wt_error *err, const char *message, const char *expected)
@@ -29,7 +29,7 @@ static wt_status corrupt(wt_error *err, const char *message, const char *expecte
     return WT_E_CORRUPT;
 }
 
-/* Number i of a list of whole numbers such as "512 512"; 0 if there is none, or it is too large. */
+/* Returns integer i of a list such as "512 512"; 0 if it is absent or too large. */
 static size_t whole_number_at(const char *text, size_t i)
 {
     for (; text != NULL; i--) {
@@ -49,17 +49,15 @@ static size_t whole_of(const nanoscope_file *f, size_t section, const char *key,
     return whole_number_at(nanoscope_get(&f->header, section, key), i);
 }
 
-/* ---- how many curves, how wide their numbers ---------------------------------------------------
- */
+/* ---- number of curves and sample width ------------------------------------------------------- */
 
 static size_t samples_of_curve(const nanoscope_file *f)
 {
     return f->n_in + f->n_hold + f->n_out;
 }
 
-/* A grid is what the header names somewhere and the size of the block agrees with: the number of
- * pixels of an image need not be that of the curves, and "Bytes/pixel" is 2 where four are stored.
- */
+/* Tries a grid that the header names against the size of the block. The pixels of an image need not
+ * be those of the curves. "Bytes/pixel" is 2 even where four bytes are stored. */
 static bool try_grid(nanoscope_file *f, size_t columns, size_t rows, size_t bytes, unsigned *width)
 {
     const size_t samps = samples_of_curve(f);
@@ -99,7 +97,8 @@ static bool find_grid(nanoscope_file *f, size_t bytes, unsigned *width)
     }
 }
 
-/* "[DeflectionError] "Deflection Error"": what stands in quotation marks counts. */
+/* Sets the channel name from a text such as "[DeflectionError] "Deflection Error"": the part in
+ * quotation marks. */
 static void name_channel(const char *text, nanoscope_channel *c)
 {
     const char *open = text != NULL ? strchr(text, '"') : NULL;
@@ -152,8 +151,8 @@ static wt_status read_channel(nanoscope_file *f, size_t section, wt_error *err)
     return WT_OK;
 }
 
-/* Measured files end where their last block does: bytes that are too many were put in somewhere,
- * and what is behind them is not where the header says. */
+/* Warns of additional bytes. Measured files end with their last block. Inserted bytes shift the
+ * data after them. */
 static void check_end(const nanoscope_file *f, wt_log *log)
 {
     static const char *const lists[] = {BLOCK, IMAGE};
@@ -172,7 +171,7 @@ static void check_end(const nanoscope_file *f, wt_log *log)
                    f->length - end);
 }
 
-/* A block that goes on behind the end of the file holds the curves until there. */
+/* Limits the number of curves to those that are complete, if a block exceeds the file. */
 static wt_status cut_curves(nanoscope_file *f, wt_log *log, wt_error *err)
 {
     f->n_curves = f->n_planned;
@@ -192,10 +191,9 @@ static wt_status cut_curves(nanoscope_file *f, wt_log *log, wt_error *err)
     return WT_OK;
 }
 
-/* ---- how the piezo went ------------------------------------------------------------------------
- */
+/* ---- motion of the piezo --------------------------------------------------------------------- */
 
-/* The first of these keys that is there, in the section of the block or that of the ramp. */
+/* Returns the first of these keys in the section of the block or of the ramp. */
 static nanoscope_value ramp_value(const nanoscope_file *f, size_t block, size_t force)
 {
     static const char *const keys[] = {"Ramp size", "Ramp size Zsweep", "Z scan size"};
@@ -218,7 +216,7 @@ static void read_ramp(nanoscope_file *f, size_t block)
     const double there = force_positive(nanoscope_number(&f->header, force, "Forward vel."));
     const double back = force_positive(nanoscope_number(&f->header, force, "Reverse vel."));
     f->ramp = force_positive(size.value * sensitivity);
-    /* The velocities are in volts of the piezo. */
+    /* The velocities are in volts of the piezo per second. */
     f->time_in = size.value / there;
     f->time_out = size.value / back;
     f->time_hold = f->n_hold > 0 ? nanoscope_number(&f->header, force, "Hold Time") : 0;
@@ -231,8 +229,8 @@ static void read_ramp(nanoscope_file *f, size_t block)
         mode != NULL && strcmp(mode, "Relative") == 0 ? force_positive(trigger.value) : (double)NAN;
 }
 
-/* A PeakForce capture holds one period of an oscillation, which begins anywhere: its farthest point
- * into the sample is at "Sync Distance" of "Sample Points". Known from other programs only. */
+/* Reads a PeakForce capture: one period of an oscillation with any phase. Its deepest point is at
+ * "Sync Distance" of "Sample Points". This is known from other programs only. */
 static void read_sinusoid(nanoscope_file *f)
 {
     const size_t scan = nanoscope_section(&f->header, SCAN, 0);
@@ -256,7 +254,7 @@ static void read_sinusoid(nanoscope_file *f)
     f->velocity_in = f->velocity_out = f->trigger = (double)NAN;
 }
 
-/* "2000 nm" or "2 2 ~m". */
+/* Reads the distance of the grid points from "2000 nm" or "2 2 ~m". */
 static void read_place(nanoscope_file *f)
 {
     const size_t scan = nanoscope_section(&f->header, SCAN, 0);
@@ -275,7 +273,7 @@ static void read_place(nanoscope_file *f)
 /* ---- counts ------------------------------------------------------------------------------------
  */
 
-/* Where sample i in the order of time is stored in its curve. */
+/* Returns the stored index of sample i in temporal order. */
 static size_t place_of(const nanoscope_file *f, size_t i)
 {
     const size_t n = samples_of_curve(f);
@@ -301,8 +299,8 @@ double nanoscope_count(const nanoscope_file *f, const nanoscope_channel *channel
     return count == (narrow ? -most_counts : -0x1p31) ? (double)NAN : count;
 }
 
-/* The count that was measured nearest to the beginning of the way in of a curve, or to its end;
- * NaN: none was. */
+/* Returns the valid count nearest to the beginning of the approach, or to its end; NaN if there is
+ * none. */
 static double end_of(const nanoscope_file *f, const nanoscope_channel *c,
                      const unsigned char *stored, bool last)
 {
@@ -312,8 +310,8 @@ static double end_of(const nanoscope_file *f, const nanoscope_channel *c,
     return count;
 }
 
-/* Volts between the end of the way in and its beginning, the median over the curves not needed: the
- * largest is enough to tell 1 from 256. */
+/* Finds the largest change of the signal over the approach of all curves [V]. The maximum suffices
+ * to distinguish factors 1 and 256. */
 static wt_status largest_rise(const nanoscope_file *f, const nanoscope_channel *c, double *rise,
                               double *largest, wt_error *err)
 {
@@ -331,9 +329,9 @@ static wt_status largest_rise(const nanoscope_file *f, const nanoscope_channel *
     return WT_OK;
 }
 
-/* In force volumes of software 9.2 the counts of 32 bits are 256 times those of the header, in
- * single curves of the same software they are not. What the trigger said tells, else the range of
- * the converter. */
+/* Corrects the scale. In force volumes of software 9.2 the 32-bit counts are 256 times those of
+ * the header; in its single curves they are not. The trigger decides, else the range of the
+ * converter. */
 static wt_status check_scale(nanoscope_file *f, wt_log *log, wt_error *err)
 {
     static const double times = 256, doubtful = 5;
@@ -367,8 +365,8 @@ static wt_status check_scale(nanoscope_file *f, wt_log *log, wt_error *err)
     return WT_OK;
 }
 
-/* Whether a sensor counts towards the sample or away from it is not said; the way in leads there.
- */
+/* Sets the sign of the height sensors. The file does not state it; the height decreases over the
+ * approach. */
 static wt_status turn_sensor(nanoscope_file *f, wt_error *err)
 {
     for (size_t i = 0; i < f->n_channels; i++) {

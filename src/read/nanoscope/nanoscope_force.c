@@ -1,4 +1,4 @@
-/* Force curves of a NanoScope file. SPDX-License-Identifier: GPL-3.0-or-later */
+/* Delivers the force curves of a NanoScope file. SPDX-License-Identifier: GPL-3.0-or-later */
 #include "read/nanoscope/nanoscope.h"
 
 #include <math.h>
@@ -7,12 +7,12 @@ typedef struct nanoscope_source {
     wt_force_source base;
     nanoscope_file file;
     size_t curve;
-    size_t from; /* first sample of the segment that is read */
+    size_t from; /* first sample of the current segment */
 } nanoscope_source;
 
 static const double pi = 3.14159265358979323846;
 
-/* The ramp as a channel of its own: it is not stored. */
+/* The ramp is a computed channel; it is not stored. */
 static const char ramp_name[] = "Ramp";
 
 force_metadata nanoscope_facts(const nanoscope_file *f, size_t s)
@@ -54,7 +54,8 @@ force_metadata nanoscope_facts(const nanoscope_file *f, size_t s)
     return facts;
 }
 
-/* Sample i in the order of time: the piezo rises away from the turn, or swings. */
+/* Returns the piezo height of sample i in temporal order: a linear ramp from the turning point, or
+ * a sinusoid. */
 static double ramp_height(const nanoscope_file *f, size_t i)
 {
     const double n = (double)(f->n_in + f->n_out);
@@ -77,7 +78,7 @@ static wt_status decode(wt_force_source *base, const force_signal *signal, force
         is_ramp ? WT_OK : nanoscope_stored(f, signal->channel, source->curve, &stored, err);
     if (status != WT_OK)
         return status;
-    /* None of these signals has an offset. */
+    /* these signals have no offset */
     for (size_t i = 0; i < n; i++) {
         const size_t at = source->from + i;
         values[i] =

@@ -1,4 +1,7 @@
-/* The text at the beginning of a NanoScope file. SPDX-License-Identifier: GPL-3.0-or-later */
+/* Parses the text at the beginning of a NanoScope file.
+ *
+ * SPDX-License-Identifier: GPL-3.0-or-later
+ */
 #include "read/nanoscope/nanoscope.h"
 
 #include "core/base/number.h"
@@ -18,7 +21,8 @@ bool nanoscope_is(const unsigned char *bytes, size_t length)
     return false;
 }
 
-/* "\@4:Z scale: V ..." is "Z scale" and "V ..."; a section has its name as key. */
+/* Parses a line. "\@4:Z scale: V ..." has the key "Z scale" and the value "V ..."; a section has
+ * its name as key. */
 static void parse_line(nanoscope_header *header, char *line)
 {
     nanoscope_line *to = &header->lines[header->n];
@@ -69,7 +73,7 @@ wt_status nanoscope_header_read(const unsigned char *bytes, size_t length, nanos
         nanoscope_header_clear(header);
         return wt_fail(err, WT_E_MEMORY, "no memory for the header");
     }
-    /* All that is used is ASCII. */
+    /* all texts that are used are ASCII */
     for (size_t i = 0; i < n; i++)
         header->text[i] = (char)(bytes[i] == 0 || bytes[i] >= 0x80 ? '?' : bytes[i]);
     header->text[n] = '\0';
@@ -107,7 +111,7 @@ const char *nanoscope_get(const nanoscope_header *header, size_t section, const 
     return NULL;
 }
 
-/* The number that a text begins with, behind blanks. */
+/* Returns the number at the beginning of a text, after blanks. */
 static double leading_number(const char *text)
 {
     double value = (double)NAN;
@@ -134,7 +138,7 @@ nanoscope_value nanoscope_value_of(const char *text)
     } else {
         text += text[0] == 'V' ? 1 : 0;
     }
-    /* What stands between the round brackets may be anything. */
+    /* the text in round brackets may be anything */
     open = strchr(text, '(');
     close = open != NULL ? strchr(open, ')') : NULL;
     if (close != NULL)
@@ -156,7 +160,7 @@ double nanoscope_soft(const nanoscope_header *header, const char *soft)
         text += strspn(text, " ");
         const char *unit = text + strcspn(text, " ");
         unit += strspn(unit, " ");
-        /* Software 9.2 leaves the unit out; then it is nm/V. */
+        /* Software 9.2 omits the unit, which is then nm/V. */
         if (*unit != '\0' && wt_unit_to_si(unit, WT_Q_SENSITIVITY, &factor, &offset, NULL) != WT_OK)
             return (double)NAN;
         return force_positive(factor * leading_number(text));

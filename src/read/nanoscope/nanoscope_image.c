@@ -1,5 +1,5 @@
-/* The images of a NanoScope file: lines from the bottom upwards, counts of 16 or 32 bits whose
- * whole range is the value of "Z scale" in volts of a soft scale.
+/* Reads the images of a NanoScope file. Lines run from the bottom upwards. The full range of the
+ * 16-bit or 32-bit counts is the value of "Z scale" in volts of a soft scale.
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
@@ -22,7 +22,7 @@ static wt_status corrupt(wt_error *err, const char *message, const char *expecte
     return WT_E_CORRUPT;
 }
 
-/* "2 2 ~m" or "500 nm": NaN if it is not understood. */
+/* Parses a scan size such as "2 2 ~m" or "500 nm" [m]; NaN if it is not understood. */
 static void scan_size(const char *text, double size[2])
 {
     double factor = 1e-6, offset = 0;
@@ -52,7 +52,7 @@ static size_t whole_number(const nanoscope_header *h, size_t section, const char
     return value >= 1 && value <= 1e15 ? (size_t)value : 0;
 }
 
-/* Heights are in metres; what else there is stays in volts. */
+/* Returns the full scale: metres for a height, volts for any other channel. */
 static double read_scale(const nanoscope_header *h, size_t section, wt_image *head)
 {
     const char *data = nanoscope_get(h, section, "Image Data");
@@ -104,7 +104,7 @@ static wt_status read_block(const nanoscope_header *h, size_t section, input_win
     const size_t n = head.n_columns * head.n_rows;
     if (status == WT_OK)
         samples_decode(width == 2 ? SAMPLE_INT16 : SAMPLE_INT32, false, data, n, scale, 0, values);
-    for (size_t i = 0; status == WT_OK && i < n; i++) /* the least count was not measured */
+    for (size_t i = 0; status == WT_OK && i < n; i++) /* the lowest count means not measured */
         if (width == 2 ? le16(data + 2 * i) == 0x8000u : le32(data + 4 * i) == 0x80000000u)
             values[i] = (double)NAN;
     return status;

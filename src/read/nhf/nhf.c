@@ -1,4 +1,4 @@
-/* Nanosurf Studio files: measurements, segments and curves, and the descriptor.
+/* Reads Nanosurf Studio files: measurements, segments and curves, and the descriptor.
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
@@ -17,11 +17,11 @@ enum { CHANNELS = 3, SEGMENTS = 16 };
 
 typedef struct nhf_segment {
     wt_segment_kind kind;
-    double order; /* its number, or that of its link */
+    double order; /* number of the segment, or of its link */
     nhf_channel channels[CHANNELS];
     size_t n_channels;
     double *sizes;         /* [n_curves] samples of each curve */
-    size_t n_curves, from; /* of the curve that is printed */
+    size_t n_curves, from; /* first sample of the current curve */
 } nhf_segment;
 
 typedef struct measurement {
@@ -70,7 +70,7 @@ static wt_segment_kind kind_of(const char *name)
     return WT_SEGMENT_OTHER;
 }
 
-/* The data set of a group whose attribute has this text; -1 if there is none. */
+/* Returns the data set of a group whose attribute has this text; -1 if there is none. */
 static hid_t data_by(hid_t group, const char *attribute, const char *text)
 {
     char name[HDF5_NAME], found[HDF5_TEXT];
@@ -83,8 +83,8 @@ static hid_t data_by(hid_t group, const char *attribute, const char *text)
     return -1;
 }
 
-/* How many samples each curve has: what the channel points to, or in version 1 a channel. Without
- * either there is one curve. */
+/* Reads the number of samples of each curve: from the data set to which the channel refers, in
+ * version 1 from a channel. Without either there is one curve. */
 static wt_status read_sizes(const nhf_file *f, hid_t group, const char *source, nhf_segment *s,
                             const char *place, wt_error *err)
 {
@@ -148,7 +148,8 @@ static double positive_attribute(hid_t group, const char *attribute)
     return value > 0 ? value : (double)NAN;
 }
 
-/* Where the curves are: a channel of the measurement with a number for each. */
+/* Reads the positions of the curves: a channel of the measurement with one number for each
+ * curve. */
 static void read_places(const nhf_file *f, hid_t group, measurement *m)
 {
     const char *key = f->old ? "name" : "signal_name";
@@ -201,7 +202,7 @@ static wt_status read_measurement(const nhf_file *f, hid_t group, measurement *m
 /* ---- curves -----------------------------------------------------------------------------------
  */
 
-/* From the first number that was measured to the last one; 0: there are not two. */
+/* Returns the change from the first to the last valid number; 0 if there are less than two. */
 static double height_rise(const double *values, size_t n)
 {
     size_t first = 0;
@@ -212,8 +213,8 @@ static double height_rise(const double *values, size_t n)
     return n > first ? values[n - 1] - values[first] : 0;
 }
 
-/* Whether heights fall towards the sample is known from other programs only: the first way in
- * tells. */
+/* Sets the sign of the heights from the first approach, since the sign is known from other programs
+ * only. */
 static wt_status turn_heights(measurement *m, wt_error *err)
 {
     double way = 0;
@@ -235,7 +236,8 @@ static wt_status turn_heights(measurement *m, wt_error *err)
     return WT_OK;
 }
 
-/* Each segment has its own columns and its own time, which begins at 0; a curve has one. */
+/* Prints a curve. Each segment has its own columns and a time that begins at 0; the printed time
+ * runs on through the curve. */
 static wt_status print_curve(measurement *m, size_t number, size_t curve, FILE *out, wt_error *err)
 {
     double end = 0;

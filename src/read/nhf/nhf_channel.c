@@ -1,4 +1,4 @@
-/* Channels of Nanosurf Studio files: from the stored numbers to SI units.
+/* Converts the channels of Nanosurf Studio files to SI units.
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
@@ -11,7 +11,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Longest way through the graph of calibrations. */
+/* Longest path through the graph of calibrations. */
 enum { NODES_MAX = 8 };
 
 /* ---- the range of the stored type -------------------------------------------------------------
@@ -19,11 +19,12 @@ enum { NODES_MAX = 8 };
 
 typedef struct element_type {
     const char *name;
-    int number; /* in version 1 */
+    int number; /* number of the type in version 1 */
     double minimum, maximum;
 } element_type;
 
-/* Version 2 keeps one number of each type for what is missing. */
+/* Finds the type of the stored numbers. Version 2 reserves one number of each integer type for
+ * missing values. */
 static bool find_type(const nhf_file *f, hid_t data, element_type *type, double *missing)
 {
     static const element_type types[] = {
@@ -53,7 +54,7 @@ static bool find_type(const nhf_file *f, hid_t data, element_type *type, double 
 /* ---- the graph of calibrations ----------------------------------------------------------------
  */
 
-/* "Meter (m)" and "m" are m. */
+/* Reduces a unit such as "Meter (m)" to "m". */
 static void unit_of(char text[HDF5_TEXT])
 {
     char *open = strchr(text, '(');
@@ -69,7 +70,7 @@ typedef struct node {
     force_linear to_sink;
 } node;
 
-/* A linear node that leads from `from`; false if this is none. */
+/* Reads a linear calibration node that starts at `from`; false for any other node. */
 static bool read_node(hid_t data, const char *from, node *to)
 {
     char type[HDF5_TEXT], ways[HDF5_TEXT];
@@ -88,14 +89,14 @@ static bool read_node(hid_t data, const char *from, node *to)
         return false;
     (void)hdf5_text(data, forward ? "signal_sink_unit" : "signal_source_unit", to->unit);
     unit_of(to->unit);
-    /* What leads both ways is written as the source that follows from the sink. */
+    /* a two-way node defines the source as a function of the sink */
     to->to_sink = forward && both ? (force_linear){1 / a, -b / a} : (force_linear){a, b};
     if (!forward)
         memcpy(to->sink, to->source, sizeof to->sink);
     return true;
 }
 
-/* From a signal to another, by the nodes between them; never back over one that led here. */
+/* Finds a path of nodes from one signal to another, without a step back to the signal before. */
 static bool walk_nodes(const nhf_file *f, const char *from, const char *before, const char *wanted,
                        int depth, force_linear *scaling, char unit[HDF5_TEXT])
 {
@@ -123,7 +124,7 @@ static bool walk_nodes(const nhf_file *f, const char *from, const char *before, 
 /* ---- channels ---------------------------------------------------------------------------------
  */
 
-/* From the stored numbers to the unit. */
+/* Finds the conversion from the stored numbers to the unit. */
 static bool find_scaling(const nhf_file *f, hid_t data, const element_type *type,
                          force_linear *scaling, char unit[HDF5_TEXT])
 {
@@ -144,7 +145,8 @@ static bool find_scaling(const nhf_file *f, hid_t data, const element_type *type
     return true;
 }
 
-/* A deflection is what its unit says. */
+/* Finds the quantity of a channel. The unit decides if a deflection is a force, a length or a
+ * voltage. */
 static bool find_quantity(const char *name, const char *unit, wt_quantity *quantity, double *factor)
 {
     static const struct {
@@ -189,7 +191,7 @@ bool nhf_channel_open(const nhf_file *f, hid_t segment, const char *name, nhf_ch
                         hdf5_text(c->data, f->old ? "name" : "signal_name", title) &&
                         is_wanted(title);
     if (!wanted)
-        ; /* nothing of it hinders */
+        ; /* other data sets are ignored */
     else if (!find_type(f, c->data, &type, &c->missing) ||
              !find_scaling(f, c->data, &type, &c->scaling, unit))
         *problem = "the calibration of a channel is not understood";
@@ -227,7 +229,7 @@ void nhf_channel_close(nhf_channel *c)
     *c = (nhf_channel){.data = -1};
 }
 
-/* Counts have a type and a calibration like those of a channel; without them a double is metres. */
+/* Counts have a type and a calibration like those of a channel; a plain double is in metres. */
 double *nhf_places_read(const nhf_file *f, hid_t data, size_t *n)
 {
     char unit[HDF5_TEXT];

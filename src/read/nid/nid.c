@@ -1,4 +1,4 @@
-/* Nanosurf .nid: the descriptor, detection, and the facts for `info`.
+/* Reads Nanosurf .nid files: descriptor, detection, and the metadata for `info`.
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
@@ -8,7 +8,7 @@
 #include <math.h>
 #include <string.h>
 
-/* What is not seen of a header this long is seen where it is read. */
+/* Maximum part of the header that the detection examines; the reader checks the rest [byte]. */
 #define LONG_HEADER ((size_t)1 << 18)
 
 static recognition detect(const file_reader *self, file_peek *peek)

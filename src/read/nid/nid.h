@@ -1,7 +1,7 @@
-/* Nanosurf .nid: what the parts of the reader share.
+/* Declares what the files of the Nanosurf .nid reader share.
  *
- * A file is an INI text, the two bytes "#!", then one block of little-endian integers per channel.
- * Groups name what was measured ("Scan forward", "Spec backward", "Spectrum FFT").
+ * A file is an INI text, the two bytes "#!", then one block of little-endian integers for each
+ * channel. Groups name the kind of measurement ("Scan forward", "Spec backward", "Spectrum FFT").
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
@@ -22,9 +22,9 @@ typedef struct nid_item {
 
 typedef struct nid_lengths nid_lengths;
 typedef struct nid_header {
-    nid_item *items; /* [n] sorted by section, key; of equal ones the first is kept */
+    nid_item *items; /* [n] sorted by section and key; of equal ones the first */
     size_t n;
-    nid_lengths *lengths; /* [n_lengths] for nid_line_length */
+    nid_lengths *lengths; /* [n_lengths], read by nid_line_length */
     size_t n_lengths;
     char *text; /* UTF-8 */
     bool latin1;
@@ -33,20 +33,21 @@ typedef struct nid_header {
 
 wt_status nid_header_read(wt_input *input, nid_header *header, wt_error *err);
 void nid_header_clear(nid_header *header);
-/* NULL if there is none. */
+/* Returns the value of a key, or NULL. */
 const char *nid_get(const nid_header *header, const char *section, const char *key);
-/* Plain numbers; NaN if missing or not a number. */
+/* Returns a plain number; NaN if it is absent or no number. */
 double nid_number(const nid_header *header, const char *section, const char *key);
-/* A whole number from 0 to `most`; false if missing or anything else. */
+/* Reads an integer from 0 to the limit; false for anything else. */
 bool nid_count(const nid_header *header, const char *section, const char *key, size_t most,
                size_t *count);
-/* Samples of a line of a channel (LineDim7Points), in version 3; false if missing or not
- * understood. */
+/* Reads the number of samples of a line of a channel (LineDim7Points, version 3); false if it is
+ * absent or not understood. */
 bool nid_line_length(const nid_header *header, const char *section, size_t line, size_t *n);
-/* "D[48]*[N/m]": the number in the SI unit of the quantity; NaN if missing or of another unit. */
+/* Returns the number of a text such as "D[48]*[N/m]" in the SI unit of the quantity; NaN if it is
+ * absent or has another unit. */
 double nid_typed(const nid_header *header, const char *section, const char *key,
                  wt_quantity quantity);
-/* Items of a list "a;b;c" or "a,b,c"; false if there are not so many. Cut to fit. */
+/* Copies item i of a list "a;b;c" or "a,b,c", cut to fit; false if the list is shorter. */
 bool nid_list_item(const char *list, char separator, size_t i, char *item, size_t size);
 
 /* ---- the channels: nid_data.c ------------------------------------------------------------- */
@@ -57,69 +58,70 @@ typedef struct nid_channel {
     size_t group, slot;
     const char *section;    /* "DataSet-0:1"; borrowed from the header */
     const char *group_name; /* "Scan forward" */
-    const char *name;       /* Dim2Name, "" if none */
-    const char *unit;       /* Dim2Unit, "" if none */
+    const char *name;       /* Dim2Name; "" if absent */
+    const char *unit;       /* Dim2Unit; "" if absent */
     size_t version;
     size_t points, lines; /* stride and number of lines of the block */
     double minimum, range;
     unsigned bits; /* 16 or 32 */
-    size_t offset; /* of the block in the file */
+    size_t offset; /* offset of the block in the file */
 } nid_channel;
 
 typedef struct nid_file {
     nid_header header;
-    const char *name;      /* of the input */
+    const char *name;      /* name of the input */
     nid_channel *channels; /* [n] in the order of their blocks */
-    input_window *windows; /* [n] of each */
+    input_window *windows; /* [n] one window for each channel */
     size_t n;
 } nid_file;
 
-/* All blocks are there and end exactly where the file ends, or it is WT_E_CORRUPT. */
+/* Opens a file. WT_E_CORRUPT unless all blocks exist and end exactly where the file ends. */
 wt_status nid_file_open(wt_input *input, nid_file *file, wt_error *err);
 void nid_file_close(nid_file *file);
 bool nid_is_spectroscopy(const nid_channel *channel);
-/* values[n] = the first n samples of a line: factor * exported value. */
+/* Decodes the first n samples of a line: values[i] = factor * exported value. */
 wt_status nid_decode(const nid_file *file, const nid_channel *channel, size_t line, size_t n,
                      double factor, double *values, wt_error *err);
-/* The SI unit for an exported one, "" with factor 1 if it is none of the units known here. */
+/* Returns the SI unit for an exported one; "" and factor 1 for an unknown unit. */
 const char *nid_si_unit(const char *unit, double *factor);
 wt_status nid_read_images(const file_reader *self, wt_input *input, const wt_read_options *options,
                           wt_log *log, wt_image **images, size_t *n_images, wt_error *err);
 
 /* ---- thermal tune: nid_noise.c ------------------------------------------------------------ */
 
-/* The channel of the measured spectrum, NULL if the file is no thermal tune. */
+/* Returns the channel of the measured spectrum; NULL if the file is no thermal tune. */
 const nid_channel *nid_tune(const nid_file *file);
 wt_status nid_read_noise(const file_reader *self, wt_input *input, const wt_read_options *options,
                          wt_log *log, wt_noise_spectrum *spectrum, wt_error *err);
 
 /* ---- force curves: nid_force.c ------------------------------------------------------------ */
 
-/* The groups of a force curve in the order of time. */
+/* Number of the groups of a force curve, in temporal order. */
 #define NID_PHASES 4
 typedef struct nid_phase {
     const char *group;    /* name of the group in the file */
-    double interval;      /* between samples [s], NaN if unknown */
-    force_metadata facts; /* that all curves share; without signals the phase is not in the file */
+    double interval;      /* time between samples [s]; NaN if unknown */
+    force_metadata facts; /* metadata of all curves; without signals the phase is not in the file */
 } nid_phase;
 
 typedef struct nid_spectroscopy {
     nid_phase phases[NID_PHASES];
     size_t n_curves;
-    wt_cantilever cantilever; /* as the file says */
+    wt_cantilever cantilever; /* as stated in the file */
     long columns, rows;       /* 0 if there is no grid */
 } nid_spectroscopy;
 
-/* WT_E_EMPTY if there are no curves. */
+/* Finds the force curves. WT_E_EMPTY if there are none. */
 wt_status nid_spectroscopy_find(const nid_file *file, nid_spectroscopy *spectroscopy,
                                 wt_error *err);
 extern const force_stream nid_force;
 
-/* ---- where the curves are: nid_position.c ------------------------------------------------- */
+/* ---- positions of the curves: ---------------------------------------------------------------- */
 
-/* Grid of a map; 0, 0 if the file says nothing of one. */
+/* Returns the grid of a map; 0 and 0 if the file states none. */
 void nid_grid(const nid_header *header, long *columns, long *rows);
-/* Place of a curve; what is not known is NaN and -1. Logs what it does not understand. */
+/* Sets the position of a curve; unknown values are NaN and -1. It warns of a position that it does
+ * not understand. */
 void nid_position(const nid_header *header, size_t i, const char *name, wt_log *log,
                   wt_force_curve *curve);
 

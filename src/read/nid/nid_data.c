@@ -1,4 +1,4 @@
-/* The channels of a .nid file: where their blocks are, what their numbers mean; images and spectra.
+/* Reads the channels of a .nid file: positions of the blocks, scaling of the numbers, and images.
  *
  * Value of a sample: Dim2Min + Dim2Range (raw + 2^(bits-1)) / 2^bits. Rows run from the bottom
  * upwards.
@@ -70,7 +70,7 @@ static wt_status read_channel(const nid_header *header, nid_channel *c, wt_error
     return status;
 }
 
-/* Adds the channel of slot (g, c) if the file holds it, and moves *at behind its block. */
+/* Adds the channel of slot (g, c) if the file contains it, and moves *at past its block. */
 static wt_status add_channel(nid_file *file, size_t g, size_t c, const char *group_name,
                              size_t length, size_t *at, wt_error *err)
 {
@@ -184,9 +184,9 @@ const char *nid_si_unit(const char *unit, double *factor)
 {
     static const wt_quantity known[] = {WT_Q_LENGTH, WT_Q_DEFLECTION_VOLTAGE, WT_Q_FORCE,
                                         WT_Q_PHASE,  WT_Q_FREQUENCY,          WT_Q_TIME};
-    double offset = 0; /* that none of these has */
+    double offset = 0; /* always 0 for these quantities */
     *factor = 1;
-    /* A root has no spelling in UDUNITS. */
+    /* UDUNITS cannot express a square root. */
     if (strcmp(unit, "m/sqrt(Hz)") == 0)
         return wt_quantity_unit(WT_Q_SPECTRAL_DENSITY);
     for (size_t i = 0; unit[0] != '\0' && i < sizeof known / sizeof *known; i++)
@@ -198,7 +198,8 @@ const char *nid_si_unit(const char *unit, double *factor)
 
 /* ---- images ------------------------------------------------------------------------------- */
 
-/* Range and beginning of an axis in SI; an axis without a known unit keeps its numbers. */
+/* Reads range and beginning of an axis in SI units; an axis with an unknown unit keeps its
+ * numbers. */
 static void read_axis(const nid_header *header, const char *section, int axis, double *range,
                       double *minimum, char *unit, size_t size)
 {
@@ -214,8 +215,8 @@ static void read_axis(const nid_header *header, const char *section, int axis, d
         snprintf(unit, size, "%s", si);
 }
 
-/* Lines from first on that have one value throughout: they were not measured, for the z-axis of a
- * scan has noise. */
+/* Counts the lines of constant value in [first, end). They were not measured, since a scan has
+ * noise. */
 static size_t flat_lines(const wt_image *image, size_t first, size_t end)
 {
     size_t n = 0;
@@ -229,8 +230,8 @@ static size_t flat_lines(const wt_image *image, size_t first, size_t end)
     return n;
 }
 
-/* CurLine is the line at which the scan ended, whichever way it went, and of a complete one either
- * end of the image: what is missing the lines themselves say. */
+/* Warns if a scan was stopped. CurLine is the line at which the scan ended, in either direction;
+ * for a complete scan it is an edge of the image. Constant lines show which lines are missing. */
 static void warn_stopped(const nid_file *file, const nid_channel *c, wt_log *log,
                          const wt_image *image)
 {

@@ -1,7 +1,8 @@
-/* Force curves of a .nid file.
+/* Reads the force curves of a .nid file.
  *
- * Known from other programs only; no genuine file was at hand. So every assumption is checked as it
- * is used, and reading leaves a note. Heights and signs are those of the file.
+ * The format is known from other programs only; no genuine file was available. So every assumption
+ * is checked when it is used, and the reader adds a note to the log. Heights and signs are those
+ * of the file.
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
@@ -17,7 +18,7 @@
 #define CANTILEVER "DataSet\\Calibration\\Cantilever"
 #define SCANHEAD "DataSet\\Calibration\\Scanhead"
 
-/* What the header calls the phases, in the order of time. */
+/* Names of the phases in the header, in temporal order. */
 static const struct {
     wt_segment_kind kind;
     const char *group, *time, *points, *range;
@@ -28,9 +29,10 @@ static const struct {
     {WT_SEGMENT_DWELL, "Spec bwd pause", "BwPauseTime", "BwPauseDatapoints", NULL},
 };
 
-/* ---- what the header says ----------------------------------------------------------------- */
+/* ---- header ---------------------------------------------------------------------------------- */
 
-/* Full scale of the input with this name: "In5=5,TipSignalDC,Deflection,m,1.393e-06,0". */
+/* Returns the full scale of the input with this name, as in
+ * "In5=5,TipSignalDC,Deflection,m,1.393e-06,0". */
 static double full_scale(const nid_header *header, const char *name, wt_quantity quantity)
 {
     char key[32], item[NID_TEXT], unit[NID_TEXT];
@@ -58,7 +60,7 @@ static void read_phase(const nid_header *header, size_t i, nid_phase *phase)
     double time = nid_typed(header, SPECTROSCOPY, phase_names[i].time, WT_Q_TIME);
     const char *points = nid_get(header, SPECTROSCOPY, phase_names[i].points);
     double n = (double)NAN;
-    /* "L[1024]*[]": a number without a unit */
+    /* a number without a unit, as in "L[1024]*[]" */
     if (points != NULL && strncmp(points, "L[", 2) == 0 &&
         !wt_number_parse(points + 2, strcspn(points + 2, "]"), '.', &n))
         n = (double)NAN;
@@ -78,12 +80,13 @@ static void read_phase(const nid_header *header, size_t i, nid_phase *phase)
             fabs(nid_typed(header, SPECTROSCOPY, phase_names[i].range, WT_Q_LENGTH)) / time);
 }
 
-/* The first channel of a quantity counts; a deflection is what its unit says. */
+/* Adds the signal of a channel. The first channel of a quantity counts. The unit decides the
+ * quantity of a deflection. */
 static void add_channel(const nid_channel *c, force_metadata *facts)
 {
     static const struct {
         const char *name;
-        size_t length; /* of the name that must agree */
+        size_t length; /* number of characters that must agree */
         wt_quantity quantity;
     } known[] = {
         {"Deflection", 11, WT_Q_FORCE},
@@ -140,7 +143,7 @@ typedef struct nid_source {
     wt_force_source base;
     nid_file file;
     nid_spectroscopy spectroscopy;
-    size_t line; /* of the curve that is read, or comes next */
+    size_t line; /* line of the current or next curve */
 } nid_source;
 
 static wt_status line_length(const nid_file *file, const nid_channel *c, size_t line, size_t *n,
@@ -167,7 +170,7 @@ static wt_status line_length(const nid_file *file, const nid_channel *c, size_t 
     return WT_E_CORRUPT;
 }
 
-/* Samples that all channels of a phase have; they are recorded together. */
+/* Finds the number of samples that all channels of a phase have; they are recorded together. */
 static wt_status phase_length(const nid_source *source, const force_metadata *facts, size_t *n,
                               wt_error *err)
 {
@@ -192,18 +195,18 @@ static wt_status decode(wt_force_source *base, const force_signal *signal, force
                         size_t n, double *values, wt_error *err)
 {
     const nid_source *source = (const nid_source *)base;
-    /* None of these units has an offset. */
+    /* these units have no offset */
     return nid_decode(&source->file, signal->channel, source->line, n, scaling.multiplier, values,
                       err);
 }
 
-/* Adds a phase of the curve; *start moves to its end, NaN once a duration is not known. */
+/* Adds a phase of the curve and moves *start to its end; NaN after a phase of unknown duration. */
 static wt_status add_phase(nid_source *source, const nid_phase *phase, double *start,
                            wt_force_curve *curve, wt_error *err)
 {
     force_metadata facts = phase->facts;
     wt_status status = phase_length(source, &facts, &facts.n_points, err);
-    if (status != WT_OK || facts.n_points == 0) /* a phase that is not in the file takes no time */
+    if (status != WT_OK || facts.n_points == 0) /* an absent phase takes no time */
         return status;
     facts.start = *start;
     facts.duration = (double)facts.n_points * phase->interval;

@@ -1,4 +1,4 @@
-/* The INI text at the beginning of a .nid file, in Latin-1 or UTF-8 as the bytes show.
+/* Parses the INI text at the beginning of a .nid file, in Latin-1 or UTF-8 as the bytes show.
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
@@ -12,7 +12,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* A copy in UTF-8 with a terminating zero. */
+/* Returns a copy in UTF-8 with a terminating zero; NULL without memory. */
 static char *to_utf8(const unsigned char *bytes, size_t n, bool latin1)
 {
     char *text = malloc(2 * n + 1);
@@ -38,7 +38,8 @@ static int by_name(const void *a, const void *b)
     return order != 0 ? order : strcmp(x->key, y->key);
 }
 
-/* Equal names in the order of the file: all keys lie in one block of text. */
+/* Compares items by name; equal names keep the order of the file, since all keys are in one block
+ * of text. */
 static int by_name_and_place(const void *a, const void *b)
 {
     const nid_item *x = a, *y = b;
@@ -48,15 +49,17 @@ static int by_name_and_place(const void *a, const void *b)
 
 /* ---- lengths of lines ----------------------------------------------------------------------- */
 
-/* "LineDim7Points=400" stands there for every line of every channel: kept as a number. */
+/* The numbers of samples of the lines of a section. The file has a line "LineDim7Points=400" for
+ * every line of every channel, so they are stored as numbers. */
 struct nid_lengths {
-    size_t number; /* of the section in the file */
+    size_t number; /* number of the section in the file */
     const char *section;
-    uint32_t *points; /* [n] of the first lines */
+    uint32_t *points; /* [n] samples of the first lines */
     size_t n;
 };
 
-/* The digits at the beginning of a text, too few to overflow; how many. */
+/* Parses the digits at the beginning of a text and returns their number; 0 if they might
+ * overflow. */
 static size_t read_digits(const char *text, size_t n, uint32_t *value)
 {
     enum { MOST_DIGITS = 9 };
@@ -75,7 +78,7 @@ static bool begins(const char *text, size_t n, const char *with)
     return n >= length && memcmp(text, with, length) == 0;
 }
 
-/* What is out of turn stays a line among the others. */
+/* Adds the length of a line. A length out of sequence is kept as an ordinary item. */
 static bool add_length(nid_header *header, size_t section, uint32_t line, uint32_t points,
                        bool *taken)
 {
@@ -99,8 +102,8 @@ static bool add_length(nid_header *header, size_t section, uint32_t line, uint32
     return true;
 }
 
-/* Takes what is said of a line of a channel: how many samples it has, and where they are, which is
- * not used. False if there is no memory. */
+/* Parses a "LineDim" key of a channel. Its number of samples is stored; its position is not used.
+ * Returns false if there is no memory. */
 static bool take_length(nid_header *header, size_t section, const char *line, size_t n, bool *taken)
 {
     static const char first[] = "LineDim", last[] = "Points=";
@@ -134,7 +137,8 @@ bool nid_line_length(const nid_header *header, const char *section, size_t line,
 
 /* ---- all lines ------------------------------------------------------------------------------ */
 
-/* *next: the first one that has no name yet; they are in the order of the sections. */
+/* Sets the section name of the lengths of section `number`. *next is the first entry without a
+ * name; entries are in the order of the sections. */
 static void name_section(nid_header *header, size_t number, const char *name, size_t *next)
 {
     while (*next < header->n_lengths && header->lengths[*next].number == number)
@@ -152,7 +156,7 @@ static void parse_line(nid_header *header, char *line, const char **section)
         *section = line + 1;
         return;
     }
-    /* Values may hold '=' themselves; only the first one counts. */
+    /* A value may contain '='; only the first one separates. */
     char *equals = strchr(line, '=');
     if (equals == NULL)
         return;
@@ -189,7 +193,7 @@ static wt_status parse(nid_header *header, wt_error *err)
     return WT_OK;
 }
 
-/* The lines to be parsed. */
+/* The lines that are parsed later. */
 typedef struct header_lines {
     unsigned char *bytes;
     size_t n, room, n_sections;
@@ -210,7 +214,8 @@ static bool keep_line(header_lines *lines, const char *line, size_t n)
     return true;
 }
 
-/* Takes the whole lines of a piece; *used: so many bytes of it. *end: the data come next. */
+/* Splits a piece into complete lines. *used is the number of bytes consumed; *end is true where the
+ * data begin. */
 static wt_status take_lines(nid_header *header, header_lines *lines, const char *piece, size_t n,
                             size_t *used, bool *end, wt_error *err)
 {
@@ -246,7 +251,7 @@ static wt_status no_end(wt_error *err)
     return WT_E_CORRUPT;
 }
 
-/* The header may be any part of the file, but no line of it is long. */
+/* Reads the lines of the header, which may be large but has no long line. */
 static wt_status read_lines(input_window *from, nid_header *header, header_lines *lines,
                             wt_error *err)
 {

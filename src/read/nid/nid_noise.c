@@ -1,5 +1,5 @@
-/* The thermal tune of a .nid file: the measured spectrum of the lever's noise, and what the
- * instrument made of it. Dim0 runs from its minimum over its range with a point at both ends.
+/* Reads the thermal tune of a .nid file: the noise spectrum of the cantilever and the results of
+ * the instrument. Dim0 runs from its minimum over its range, with a point at both ends.
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
@@ -12,8 +12,8 @@
 
 static const char info[] = "DataSet-Info";
 
-/* "179.8kHz", "27.13 N/m" or a plain number, which blanks may follow, in the SI unit of the
- * quantity; NaN if it is neither. */
+/* Reads a value such as "179.8kHz", "27.13 N/m" or a plain number, with optional blanks, in the SI
+ * unit of the quantity; NaN otherwise. */
 static double value_of(const nid_header *header, const char *key, wt_quantity quantity)
 {
     const char *text = nid_get(header, info, key);
@@ -26,7 +26,7 @@ static double value_of(const nid_header *header, const char *key, wt_quantity qu
     return wt_number_parse(text, n, '.', &value) ? value : (double)NAN;
 }
 
-/* "40 °C"; a plain number is in degrees Celsius, too. */
+/* Reads the temperature, such as "40 °C" [K]; a plain number is in degrees Celsius. */
 static double temperature_of(const nid_header *header)
 {
     static const char key[] = "Cantilever temperature";
@@ -52,7 +52,7 @@ const nid_channel *nid_tune(const nid_file *file)
     return NULL;
 }
 
-/* What it took stands in the spectrum, also on failure. */
+/* Fills the spectrum; the caller frees its memory also after a failure. */
 static wt_status read_tune(const nid_file *file, const nid_channel *c, wt_log *log,
                            wt_noise_spectrum *spectrum, wt_error *err)
 {

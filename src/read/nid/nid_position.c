@@ -1,4 +1,4 @@
-/* Where the curves of a .nid file were measured: on a grid (SpecMapTable) or at listed places
+/* Reads the positions of the curves of a .nid file: a grid (SpecMapTable) or a list
  * (SpecPosTable).
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
@@ -13,7 +13,7 @@
 #define MAP_SECTION "DataSet\\SpecInfos\\SpecMapTable"
 #define POSITION_SECTION "DataSet\\SpecInfos\\SpecPosTable"
 
-/* Map0 = x0;x1;y0;y1;columns;rows;rotation;placement */
+/* The entry Map0 = x0;x1;y0;y1;columns;rows;rotation;placement. */
 typedef struct nid_map {
     double x0, x1, y0, y1, rotation;
     long columns, rows;
@@ -80,7 +80,7 @@ static double axis_factor(const nid_header *header, size_t axis)
     const char *list = nid_get(header, POSITION_SECTION, "PosUnit");
     if (list == NULL)
         list = nid_get(header, POSITION_SECTION, "PosUnits");
-    /* One unit for all axes, or one for each. */
+    /* The list has one unit for all axes, or one for each. */
     if (list == NULL || (!nid_list_item(list, ';', axis, unit, sizeof unit) &&
                          !nid_list_item(list, ';', 0, unit, sizeof unit)))
         return (double)NAN;

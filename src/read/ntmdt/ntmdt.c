@@ -1,8 +1,11 @@
-/* Text exports of NT-MDT force curves: three columns without a name, parted by tabs, with a decimal
- * comma: the height [nm], the deflection signal on the way in and on the way out. The rows begin at
- * the end of the ramp in the sample; those that the curve did not reach repeat its first sample.
+/* Reads text exports of NT-MDT force curves.
  *
- * Known from one measured file. Neither the unit of the signal nor a calibration is in it.
+ * A file has three unnamed columns separated by tabs, with decimal commas: the height [nm], and
+ * the deflection signal of approach and retract. The rows begin at the end of the ramp in the
+ * sample. Rows that the curve did not reach repeat its first sample.
+ *
+ * The format is known from one measured file, which contains neither the unit of the signal nor a
+ * calibration.
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
@@ -16,7 +19,7 @@
 
 enum { COLUMNS = 3, ROWS_MIN = 10, LINE_MAX_LENGTH = 80 };
 
-/* The numbers of a line; false if it is anything else. *line moves behind it. */
+/* Parses the numbers of a line and moves *line past it; false for any other line. */
 static bool read_row(const char **line, const char *end, double row[COLUMNS], bool *commas)
 {
     const char *at = *line;
@@ -36,7 +39,8 @@ static bool read_row(const char **line, const char *end, double row[COLUMNS], bo
     return true;
 }
 
-/* Every number has a comma, the height rises row by row and stays at or below 0. */
+/* Recognises the format: every number has a comma, and the height increases row by row up to at
+ * most 0. */
 static recognition detect(const file_reader *self, file_peek *peek)
 {
     const char *line = (const char *)peek->bytes, *end = line + peek->length;
@@ -49,7 +53,7 @@ static recognition detect(const file_reader *self, file_peek *peek)
             return recognised(false, 0);
         before = row[0];
     }
-    /* A peek ends within a line. */
+    /* the visible part ends within a line */
     return recognised(
         n >= ROWS_MIN && (line == end || (!peek->whole && end - line < LINE_MAX_LENGTH)), 60);
 }
@@ -59,7 +63,8 @@ typedef struct ramp {
     size_t n, capacity;
 } ramp;
 
-/* Heights in metres, and how many rows at the beginning the curve did not reach. */
+/* Reads the rows with heights in metres. *idle is the number of first rows that the curve did not
+ * reach. */
 static wt_status read_ramp(const char *line, size_t length, ramp *r, size_t *idle, wt_error *err)
 {
     const char *end = line + length;
@@ -90,8 +95,8 @@ static wt_status read_ramp(const char *line, size_t length, ramp *r, size_t *idl
     return WT_OK;
 }
 
-/* The measured file goes in equal steps and ends a hundred-thousandth of one above 0: half a step
- * more than one is a row that is not there. */
+/* Warns of missing rows. The measured file has equal steps and ends 1e-5 of a step above 0. A
+ * deviation of half a step or more means a missing row. */
 static void warn_of_gaps(const ramp *r, const char *name, wt_log *log)
 {
     double last = r->values[r->n - 1], step = last - r->values[r->n - 2];

@@ -1,4 +1,4 @@
-/* Gzip (RFC 1952) through zlib. SPDX-License-Identifier: GPL-3.0-or-later */
+/* Unpacks gzip archives (RFC 1952) with zlib. SPDX-License-Identifier: GPL-3.0-or-later */
 #include "read/bytes/spool.h"
 #include "read/packed/packed.h"
 
@@ -6,7 +6,8 @@
 #include <zlib.h>
 
 #define PIECE ((size_t)1 << 18)
-/* As much as days of force curves; nothing else ends an archive that was made to grow. */
+/* Maximum unpacked size, more than days of force curves; it stops an archive that is made to expand
+ * without end [byte]. */
 #define MOST_BYTES ((uint64_t)8 << 30)
 
 bool gzip_is(const unsigned char *bytes, size_t length)
@@ -17,7 +18,7 @@ bool gzip_is(const unsigned char *bytes, size_t length)
 typedef struct unpacking {
     z_stream z;
     wt_input *input;
-    size_t at, n;            /* of the archive: what is read next, and all */
+    size_t at, n;            /* next byte and size of the archive */
     unsigned char *in, *out; /* [PIECE] */
     spool content;
 } unpacking;
@@ -42,7 +43,7 @@ static wt_status read_piece(unpacking *u, wt_error *err)
     return status;
 }
 
-/* What was unpacked so far goes to the rest. */
+/* Moves the unpacked bytes to the content. */
 static wt_status put_piece(unpacking *u, wt_error *err)
 {
     const size_t n = PIECE - u->z.avail_out;
@@ -54,8 +55,8 @@ static wt_status put_piece(unpacking *u, wt_error *err)
     return status;
 }
 
-/* Behind a member: *more if another one comes. Zeros behind the last member are what tape drives
- * leave; anything else would be lost. */
+/* Ends a member; *more is true if another one follows. Zeros after the last member are padding;
+ * other data are an error, since they would be lost. */
 static wt_status end_member(unpacking *u, bool *more, wt_error *err)
 {
     unsigned char head[3];
@@ -78,7 +79,7 @@ static wt_status end_member(unpacking *u, bool *more, wt_error *err)
     return status;
 }
 
-/* All members, one after the other. */
+/* Unpacks all members. */
 static wt_status unpack(unpacking *u, wt_error *err)
 {
     bool more = true;
@@ -113,7 +114,7 @@ wt_status gzip_unpack(wt_input *input, wt_input **content, wt_error *err)
         return status;
     u.in = malloc(PIECE);
     u.out = malloc(PIECE);
-    /* 16: gzip and nothing else */
+    /* 16 selects the gzip format alone */
     if (u.in == NULL || u.out == NULL || inflateInit2(&u.z, 16 + MAX_WBITS) != Z_OK) {
         status = wt_fail(err, WT_E_MEMORY, "no memory to unpack a gzip archive");
     } else {

@@ -1,6 +1,6 @@
-/* Compound files: a chain of sectors for each stream, the next of each sector in a table (FAT).
- * Every number of the file is checked where it is used; a chain has no more steps than the file
- * has sectors.
+/* Reads compound files. A stream is a chain of sectors; a table (FAT) contains the successor of
+ * each sector. Every number of the file is checked where it is used. A chain has no more steps
+ * than the file has sectors.
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
@@ -11,7 +11,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* [MS-CFB] 2.2 and 2.6: places in the header and in an entry of the folder. */
+/* Offsets in the header and in a directory entry; [MS-CFB] 2.2 and 2.6. */
 enum {
     HEADER = 512,
     HEADER_SHIFT = 30,
@@ -33,13 +33,13 @@ enum {
     KIND_STREAM = 2,
     SMALL_SHIFT = 6
 };
-/* Numbers of sectors above this one are marks: the end of a chain, a free one. */
+/* Larger sector numbers are marks, such as the end of a chain or a free sector. */
 #define LAST_SECTOR 0xFFFFFFFAu
 
 typedef struct compound {
     const unsigned char *bytes;
     size_t length, sector, n_sectors;
-    uint32_t *table; /* [n_table] sectors that hold the table of sectors */
+    uint32_t *table; /* [n_table] sectors of the sector table */
     size_t n_table;
     unsigned char *folder, *small, *small_table;
     size_t folder_length, small_length, small_table_length;
@@ -64,7 +64,7 @@ static wt_status no_memory(wt_error *err)
     return wt_fail(err, WT_E_MEMORY, "no memory for a spreadsheet");
 }
 
-/* The bytes of a sector that are there, which of the last one may be few; NULL: none. */
+/* Returns the bytes of a sector; the last sector may be short. NULL if there are none. */
 static const unsigned char *sector_at(const compound *c, uint32_t i, size_t *n)
 {
     if (i >= c->n_sectors)
@@ -74,7 +74,7 @@ static const unsigned char *sector_at(const compound *c, uint32_t i, size_t *n)
     return c->bytes + at;
 }
 
-/* The sector behind that one. False: the file does not say it. */
+/* Reads the successor of a sector; false if the file does not contain it. */
 static bool next_sector(const compound *c, uint32_t i, uint32_t *next)
 {
     const size_t per = c->sector / 4, place = 4 * (i % per);
@@ -86,7 +86,7 @@ static bool next_sector(const compound *c, uint32_t i, uint32_t *next)
     return true;
 }
 
-/* Where the table stands: its first sectors in the header, the others in a chain. */
+/* Finds the sectors of the table: the first ones in the header, the others in a chain. */
 static wt_status find_table(compound *c, wt_error *err)
 {
     const size_t per = c->sector / 4 - 1;
@@ -118,7 +118,7 @@ static wt_status find_table(compound *c, wt_error *err)
     return WT_OK;
 }
 
-/* The first `most` bytes of a chain, or all (SIZE_MAX); to be freed. */
+/* Reads a chain up to a maximum length, or all of it (SIZE_MAX). The caller frees *chain. */
 static wt_status read_chain(const compound *c, uint32_t sector, size_t most, unsigned char **chain,
                             size_t *n, wt_error *err)
 {
@@ -149,7 +149,7 @@ static wt_status read_chain(const compound *c, uint32_t sector, size_t most, uns
     return status;
 }
 
-/* The same of a stream whose small sectors stand in the stream of the root. */
+/* Reads a stream of small sectors, which are in the stream of the root. */
 static wt_status read_small(const compound *c, uint32_t sector, size_t most, unsigned char **chain,
                             size_t *n, wt_error *err)
 {
@@ -185,7 +185,8 @@ static const unsigned char *entry_at(const compound *c, uint32_t i)
     return i < c->folder_length / ENTRY ? c->folder + i * (size_t)ENTRY : NULL;
 }
 
-/* Names are UTF-16LE and end with a zero, which the length counts. */
+/* True if the entry has this name. Names are UTF-16LE and end with a zero, which the length
+ * includes. */
 static bool has_name(const unsigned char *entry, const char *name)
 {
     const size_t n = strlen(name);
@@ -202,8 +203,8 @@ static bool has_name(const unsigned char *entry, const char *name)
     return true;
 }
 
-/* The entries of the root folder are a tree; entries of folders in it are not looked at, for an
- * embedded object has streams of the same names. *found is NULL if there is none. */
+/* Finds a stream of the root folder, whose entries are a tree. Subfolders are skipped, since an
+ * embedded object has streams with the same names. *found is NULL if there is none. */
 static wt_status find_entry(const compound *c, const char *name, const unsigned char **found,
                             wt_error *err)
 {
@@ -234,7 +235,7 @@ static wt_status find_entry(const compound *c, const char *name, const unsigned 
     return good ? WT_OK : no_memory(err);
 }
 
-/* Version 3 has rubbish in the upper half of a size. */
+/* Returns the size of a stream. Version 3 has undefined bytes in the upper half. */
 static size_t size_of(const compound *c, const unsigned char *entry)
 {
     const uint64_t size = le64(entry + ENTRY_SIZE);

@@ -1,5 +1,5 @@
-/* A compound file (OLE2), the folder within a file in which old Office files keep their streams:
- * [MS-CFB], versions 3 and 4.
+/* Declares compound files (OLE2), the container of streams in old Office files: [MS-CFB], versions
+ * 3 and 4.
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
@@ -10,9 +10,9 @@
 
 bool compound_is(const unsigned char *bytes, size_t length);
 
-/* The bytes of the first stream of the root folder whose name is one of those, in their order,
- * without regard to the case of ASCII letters. *stream is to be freed. WT_E_NOT_FOUND without a
- * message: there is none; WT_E_CORRUPT: damaged or cut off. */
+/* Reads the first stream of the root folder that has one of the names, in their order, without
+ * regard to the case of ASCII letters. The caller frees *stream. Returns WT_E_NOT_FOUND without a
+ * message if there is none, WT_E_CORRUPT if the file is damaged or truncated. */
 wt_status compound_stream(const unsigned char *bytes, size_t length, const char *const *names,
                           size_t n_names, unsigned char **stream, size_t *n,
                           wt_error *err) WT_NODISCARD;

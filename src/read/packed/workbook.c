@@ -1,4 +1,4 @@
-/* Sheets as text. SPDX-License-Identifier: GPL-3.0-or-later */
+/* Stores the sheets of a workbook as text. SPDX-License-Identifier: GPL-3.0-or-later */
 #include "read/packed/packed.h"
 
 #include "core/base/array.h"

@@ -1,7 +1,8 @@
-/* Old Excel files: the records of BIFF5 and BIFF8 ([MS-XLS]; OpenOffice's documentation of the
- * Excel file format for BIFF5) in a compound file. Instruments write them in ways that Excel does
- * not, as BIFF5 under the name of the stream of BIFF8. Values are taken as they are stored;
- * formulas have the value that was saved with them.
+/* Reads old Excel files: the records of BIFF5 and BIFF8 in a compound file ([MS-XLS]; OpenOffice's
+ * documentation of the Excel file format for BIFF5).
+ *
+ * Instruments write variants that Excel does not, such as BIFF5 under the stream name of BIFF8.
+ * Values are read as stored; a formula has the value that was saved with it.
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
@@ -46,13 +47,13 @@ enum {
     CODEPAGE_USUAL = 1252
 };
 
-/* A text: some bytes of the pool. */
+/* A text as a range of the pool. */
 typedef struct pooled {
     size_t at, length;
 } pooled;
 
 typedef struct xls_cell {
-    size_t row, column, order; /* order: of the records */
+    size_t row, column, order; /* order: index of the record */
     bool is_text;
     double number;
     pooled text;
@@ -67,10 +68,10 @@ typedef struct xls_book {
     size_t pool_length, pool_room;
     pooled *shared; /* [n_shared] */
     size_t n_shared;
-    size_t pool_shared; /* of its length */
-    xls_cell *cells;    /* of the sheet that is read */
+    size_t pool_shared; /* part of pool_length with the shared strings */
+    xls_cell *cells;    /* cells of the current sheet */
     size_t n_cells;
-    size_t used; /* bytes of the stream that sheets were read from */
+    size_t used; /* bytes of the stream that were read for sheets */
 } xls_book;
 
 static wt_status no_memory(wt_error *err)
@@ -87,15 +88,15 @@ static wt_status damaged(const char *what, wt_error *err)
 
 /* ---- records --------------------------------------------------------------------------------- */
 
-/* A record, and what of it was not read yet; reading goes on in the CONTINUE records behind it. */
+/* A record and its unread part. Reading continues in the CONTINUE records after it. */
 typedef struct record {
     const unsigned char *stream;
     size_t stream_length;
     unsigned id;
-    size_t at, end; /* of the stream */
+    size_t at, end; /* offsets in the stream */
 } record;
 
-/* False: no whole record stands there. */
+/* Reads the header of the record at `at`; false if it is incomplete. */
 static bool record_at(const xls_book *book, size_t at, record *r)
 {
     *r = (record){.stream = book->stream, .stream_length = book->length};
@@ -112,7 +113,7 @@ static size_t left_in(const record *r)
     return r->end - r->at;
 }
 
-/* To the next CONTINUE record; false: there is none. */
+/* Moves to the next CONTINUE record; false if there is none. */
 static bool go_on(record *r)
 {
     if (r->stream_length - r->end < 4 || le16(r->stream + r->end) != R_CONTINUE)
@@ -136,7 +137,7 @@ static bool skip(record *r, size_t n)
     return true;
 }
 
-/* A number of up to 4 bytes, which is never parted. */
+/* Reads a number of up to 4 bytes, which is never split between records. */
 static bool take(record *r, size_t width, uint32_t *value)
 {
     if (left_in(r) == 0 && !go_on(r))
@@ -152,7 +153,7 @@ static bool take(record *r, size_t width, uint32_t *value)
 
 /* ---- texts ----------------------------------------------------------------------------------- */
 
-/* A byte grows to 4 at most in any encoding. */
+/* Reserves n bytes in the pool. A byte becomes at most 4 bytes of UTF-8 in any encoding. */
 static bool pool_room(xls_book *book, size_t n)
 {
     if (book->pool_room - book->pool_length >= n)
@@ -166,7 +167,7 @@ static bool pool_room(xls_book *book, size_t n)
     return true;
 }
 
-/* What is no text in the encoding becomes U+FFFD. */
+/* Converts a text to UTF-8 in the pool; an invalid sequence becomes U+FFFD. */
 static bool pool_add(xls_book *book, iconv_t converter, const unsigned char *bytes, size_t n)
 {
     static const char replacement[] = "\xef\xbf\xbd";
@@ -193,8 +194,8 @@ static bool pool_add(xls_book *book, iconv_t converter, const unsigned char *byt
     return true;
 }
 
-/* So many characters; each record of BIFF8 says anew how wide they are. WT_E_CORRUPT without a
- * message: they are not there. */
+/* Reads n characters. Each continued record of BIFF8 states their width again. Returns WT_E_CORRUPT
+ * without a message if they are incomplete. */
 static wt_status take_text(xls_book *book, record *r, size_t n, bool wide, pooled *text,
                            wt_error *err)
 {
@@ -219,7 +220,8 @@ static wt_status take_text(xls_book *book, record *r, size_t n, bool wide, poole
     return WT_OK;
 }
 
-/* A text as cells and names of sheets have it: its length (of `width` bytes), flags in BIFF8. */
+/* Reads a text with its length (of `width` bytes) and, in BIFF8, its flags, as in cells and sheet
+ * names. */
 static wt_status take_counted(xls_book *book, record *r, size_t width, pooled *text, wt_error *err)
 {
     uint32_t n = 0, flags = 0;
@@ -231,8 +233,7 @@ static wt_status take_counted(xls_book *book, record *r, size_t width, pooled *t
     return status == WT_E_CORRUPT ? damaged("a text of the spreadsheet is cut off", err) : status;
 }
 
-/* The shared strings of BIFF8, with their runs of fonts and their pronunciation, which are no part
- * of the text. */
+/* Reads the shared strings of BIFF8. Font runs and phonetic guides are skipped. */
 static wt_status take_shared(xls_book *book, record *r, wt_error *err)
 {
     uint32_t total = 0, n = 0;
@@ -273,7 +274,8 @@ static wt_status add_cell(xls_book *book, xls_cell cell, wt_error *err)
     return WT_OK;
 }
 
-/* A number in 30 bits: an integer or the upper bits of a double, perhaps a hundred times it. */
+/* Decodes a number of 30 bits: an integer or the upper bits of a double, optionally divided by
+ * 100. */
 static double packed_number(uint32_t rk)
 {
     const double value = (rk & 2) != 0 ? (double)(signed32(rk & ~(uint32_t)3) / 4)
@@ -293,7 +295,7 @@ static wt_status add_packed(xls_book *book, xls_cell cell, const unsigned char *
     return status;
 }
 
-/* What was computed; *text: a STRING record behind it has it. */
+/* Adds the stored result of a formula; *text is true if a STRING record with the result follows. */
 static wt_status add_formula(xls_book *book, xls_cell cell, const unsigned char *result, bool *text,
                              wt_error *err)
 {
@@ -301,12 +303,13 @@ static wt_status add_formula(xls_book *book, xls_cell cell, const unsigned char 
     const bool is_number = le16(result + 6) != 0xFFFF;
     *text = !is_number && result[0] == OF_TEXT;
     if (!is_number && result[0] != OF_TRUTH)
-        return WT_OK; /* an error, or nothing */
+        return WT_OK; /* an error value, or an empty result */
     cell.number = is_number ? float64(le64(result)) : result[2];
     return add_cell(book, cell, err);
 }
 
-/* The fewest bytes of a record of a cell, without row, column and format; 0: of no cell. */
+/* Returns the minimum size of a cell record without row, column and format; 0 for any other record
+ * [byte]. */
 static size_t cell_bytes(unsigned id)
 {
     switch (id) {
@@ -326,7 +329,8 @@ static size_t cell_bytes(unsigned id)
     }
 }
 
-/* *formula: the cell whose text comes in a STRING record; its row is SIZE_MAX if there is none. */
+/* Reads a cell record. *formula is the cell whose text a STRING record contains; its row is
+ * SIZE_MAX if there is none. */
 static wt_status take_cell(xls_book *book, record *r, xls_cell *formula, wt_error *err)
 {
     const unsigned char *at = r->stream + r->at;
@@ -400,8 +404,8 @@ static bool put_cell(const xls_book *book, const xls_cell *cell, sheet_text *tex
     return sheet_put(text, cell->row, cell->column, number, (size_t)n);
 }
 
-/* Cells stand in rows, but not every program writes them so; of two in one place the later is
- * what Excel shows. */
+/* Writes the cells sorted by row and column, since not every program stores them so. Of two cells
+ * at one position the later one counts, as in Excel. */
 static wt_status put_cells(xls_book *book, const char *name, sheet_text *text, wt_error *err)
 {
     bool room = true;
@@ -420,7 +424,7 @@ static wt_status put_cells(xls_book *book, const char *name, sheet_text *text, w
 
 /* ---- sheets ---------------------------------------------------------------------------------- */
 
-/* The cells of the sheet that begins there; charts in it are sheets of their own. */
+/* Reads the cells of the sheet at `at`. Embedded charts are nested sheets and are skipped. */
 static wt_status read_cells(xls_book *book, size_t at, wt_error *err)
 {
     record r;
@@ -434,7 +438,7 @@ static wt_status read_cells(xls_book *book, size_t at, wt_error *err)
     do {
         if (!record_at(book, at, &r) || (depth == 0 && r.id != R_BOF))
             return damaged("a sheet of the spreadsheet is cut off", err);
-        /* Many sheets in one place would be more than the file holds. */
+        /* overlapping sheets would expand without end */
         book->used += r.end - at;
         if (book->used > book->length)
             return damaged("sheets of the spreadsheet overlap", err);
@@ -447,7 +451,7 @@ static wt_status read_cells(xls_book *book, size_t at, wt_error *err)
     return status;
 }
 
-/* Of a BOUNDSHEET record. Only worksheets have cells. */
+/* Adds the sheet of a BOUNDSHEET record. Only worksheets have cells. */
 static wt_status add_sheet(xls_book *book, record *r, size_t most, workbook *made, wt_error *err)
 {
     uint32_t place = 0, hidden = 0, kind = 0;
@@ -469,8 +473,8 @@ static wt_status add_sheet(xls_book *book, record *r, size_t most, workbook *mad
     return status;
 }
 
-/* Narrow texts are of the code page in BIFF5, the first 256 of Unicode in BIFF8. One that the
- * system does not know is taken as the usual one: names and units are of ASCII in all of them. */
+/* Opens the converters. Narrow texts use the code page in BIFF5 and Latin-1 in BIFF8. An unknown
+ * code page is read as Latin-1, since names and units are ASCII in all of them. */
 static wt_status open_converters(xls_book *book, wt_error *err)
 {
     char name[24] = "ISO-8859-1";
@@ -487,8 +491,8 @@ static wt_status open_converters(xls_book *book, wt_error *err)
     return errno == EMFILE || errno == ENFILE ? resource_error_fail(errno, err) : no_memory(err);
 }
 
-/* The records of the book: first what the texts are written in and those that sheets share (sheet
- * NULL), then the sheets. */
+/* Reads the global records: first the encodings and shared strings (`made` is NULL), then the
+ * sheets. */
 static wt_status read_globals(xls_book *book, size_t most, workbook *made, wt_error *err)
 {
     record r;
@@ -544,7 +548,7 @@ static void close_converter(iconv_t converter)
 
 wt_status xls_read(wt_input *input, workbook *made, wt_error *err)
 {
-    /* A file for both has the newer one under the first name. */
+    /* a file with both versions has the newer one under the first name */
     static const char *const names[] = {"Workbook", "Book"};
     const unsigned char *bytes = NULL;
     size_t length = 0;

@@ -1,5 +1,5 @@
-/* Office Open XML spreadsheets: a ZIP archive of XML. Numbers are taken as they are written, texts
- * from the shared strings; formulas have the value that was saved with them.
+/* Reads Office Open XML spreadsheets: a ZIP archive of XML. Numbers are read as written, texts
+ * from the shared strings; a formula has the value that was saved with it.
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
@@ -14,12 +14,12 @@
 
 #define MIB ((size_t)1 << 20)
 #define MOST_ENTRY (512 * MIB)
-/* Limits of the format: columns, rows (ECMA-376 has none, the programs that write it do). */
+/* Limits of the programs that write the format; ECMA-376 has none. */
 enum { MOST_COLUMNS = 16384, MOST_ROWS = 1048576 };
 
 bool xlsx_is(const unsigned char *bytes, size_t length)
 {
-    /* The name of the first entry, behind its 30 bytes of header. */
+    /* the name of the first entry follows its header of 30 bytes */
     static const char *const first[] = {"[Content_Types].xml", "_rels/", "docProps/", "xl/"};
     if (length < 30 || memcmp(bytes, "PK\3\4", 4) != 0)
         return false;
@@ -34,7 +34,7 @@ bool xlsx_is(const unsigned char *bytes, size_t length)
 /* ---- XML of an entry ------------------------------------------------------------------------- */
 
 typedef struct part {
-    const char *name; /* of the entry */
+    const char *name; /* name of the entry */
     byte_buffer bytes;
     xmlTextReader *xml;
 } part;
@@ -47,7 +47,7 @@ static void part_close(part *p)
     *p = (part){.name = NULL};
 }
 
-/* WT_END: there is no such entry. */
+/* Opens an entry; WT_END if there is none. */
 static wt_status part_open(zip_archive *zip, const char *name, part *p, wt_error *err)
 {
     size_t i = 0;
@@ -76,8 +76,8 @@ static wt_status damaged(const part *p, wt_error *err, const char *what)
     return WT_E_CORRUPT;
 }
 
-/* To the next node; WT_END behind the last one. A document type could define entities, and no
- * spreadsheet has one. */
+/* Moves to the next node; WT_END after the last one. A document type is refused, since it could
+ * define entities. */
 static wt_status part_next(const part *p, wt_error *err)
 {
     const int more = xmlTextReaderRead(p->xml);
@@ -114,7 +114,7 @@ static const char *characters(const part *p)
     return (const char *)xmlTextReaderConstValue(p->xml);
 }
 
-/* The attribute of that local name, copied; NULL if absent. */
+/* Returns a copy of the attribute with this local name; NULL if it is absent. */
 static char *attribute(const part *p, const char *name)
 {
     char *copy = NULL;
@@ -130,11 +130,11 @@ static char *attribute(const part *p, const char *name)
 
 /* ---- texts ----------------------------------------------------------------------------------- */
 
-/* Pieces of text, one behind the other. */
+/* Concatenated texts. */
 typedef struct texts {
     char *bytes;
     size_t length, room;
-    size_t *end; /* of each text */
+    size_t *end; /* end of each text */
     size_t n;
 } texts;
 
@@ -176,7 +176,7 @@ static wt_status no_memory(wt_error *err)
     return wt_fail(err, WT_E_MEMORY, "no memory for a spreadsheet");
 }
 
-/* The shared strings; how something is pronounced (rPh) is no part of the text. */
+/* Reads the shared strings; phonetic guides (rPh) are skipped. */
 static wt_status read_strings(zip_archive *zip, texts *strings, wt_error *err)
 {
     part p;
@@ -207,15 +207,16 @@ static wt_status read_strings(zip_archive *zip, texts *strings, wt_error *err)
 
 typedef enum cell_kind { CELL_VALUE, CELL_SHARED, CELL_INLINE, CELL_NOTHING } cell_kind;
 
-/* What is known of the cell that is read. */
+/* The state of the current cell. */
 typedef struct cell {
     size_t row, column;
     cell_kind kind;
-    texts text; /* its characters so far */
+    texts text; /* characters read so far */
     bool in_text;
 } cell;
 
-/* "BC12" to column 54; the row stands there too, but belongs to the row. False: no reference. */
+/* Parses the column of a reference: "BC12" is column 54. The row is taken from the row element.
+ * False for no reference. */
 static bool parse_column(const char *reference, size_t *column)
 {
     size_t c = 0;
@@ -243,7 +244,7 @@ static bool parse_count(const char *text, size_t most, size_t *count)
 static wt_status begin_row(const part *p, cell *c, wt_error *err)
 {
     char *number = attribute(p, "r");
-    size_t row = c->row + 2; /* from 1, behind the last one; SIZE_MAX + 2 is 1 */
+    size_t row = c->row + 2; /* counted from 1, after the last one; SIZE_MAX + 2 is 1 */
     bool good = number == NULL || parse_count(number, MOST_ROWS, &row);
     free(number);
     good = good && row >= 1 && row <= MOST_ROWS && (c->row == SIZE_MAX || row - 1 > c->row);
@@ -303,7 +304,7 @@ static wt_status end_cell(const part *p, cell *c, const texts *strings, sheet_te
                : sheet_refuse(out, p->name, err);
 }
 
-/* Of one node. */
+/* Processes one node of a sheet. */
 static wt_status read_node(const part *p, cell *c, const texts *strings, sheet_text *out,
                            wt_error *err)
 {
@@ -325,7 +326,7 @@ static wt_status read_node(const part *p, cell *c, const texts *strings, sheet_t
     return status;
 }
 
-/* WT_END: a chart, which has no rows. */
+/* Reads a sheet; WT_END for a chart, which has no rows. */
 static wt_status read_sheet(zip_archive *zip, const char *entry, const texts *strings,
                             const workbook *book, sheet_text *out, wt_error *err)
 {
@@ -351,7 +352,7 @@ static wt_status read_sheet(zip_archive *zip, const char *entry, const texts *st
 
 /* ---- the book -------------------------------------------------------------------------------- */
 
-/* Where the relations of the workbook lead: id and entry in turn. */
+/* Reads the relations of the workbook as pairs of id and entry. */
 static wt_status read_relations(zip_archive *zip, texts *relations, wt_error *err)
 {
     part p;
@@ -373,7 +374,7 @@ static wt_status read_relations(zip_archive *zip, texts *relations, wt_error *er
     return status == WT_END ? WT_OK : status;
 }
 
-/* The entry of a relation, new; NULL if there is none, or no memory. */
+/* Returns a copy of the entry of a relation; NULL if there is none or no memory. */
 static char *find_entry(const texts *relations, const char *id)
 {
     const size_t length = strlen(id);

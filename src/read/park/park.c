@@ -1,8 +1,10 @@
-/* TIFF files of Park Systems with force curves (.tiff): the tags of Park beside those of a picture
- * hold a header of channels and one block of floats, curve by curve, channel by channel. Of each
- * half, way in and way out, only the first samples were measured; the rest repeats the last one.
+/* Reads TIFF files of Park Systems with force curves (.tiff).
  *
- * Known from one measured file of seven curves.
+ * Besides those of a picture, the tags contain a header of channels and a block of floats. The
+ * block is ordered by curve, then by channel. Each curve has two halves, approach and retract.
+ * Only the first samples of a half were measured; the others repeat the last one.
+ *
+ * The format is known from one measured file of seven curves.
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
@@ -23,16 +25,16 @@ enum {
     TAG_SPECTROSCOPY = 50438,
     TAG_SAMPLES = 50439,
     CHANNELS = 8,
-    SLOT = 96,      /* bytes of a channel in the header: */
-    SLOT_UNIT = 64, /* behind the name */
-    SLOT_GAIN = 80, /* behind the unit */
+    SLOT = 96,      /* size of a channel in the header [byte] */
+    SLOT_UNIT = 64, /* after the name */
+    SLOT_GAIN = 80, /* after the unit */
     TAG_STRIPS = 273,
     TAG_STRIP_SIZES = 279,
     STRIPS = 1024,
     LONG_TYPE = 4, /* 32 bits */
     COUNTS = 768,  /* channels, averages, samples, points */
     HEADER = COUNTS + 20,
-    ENTRY = 12 /* of a tag in the directory */
+    ENTRY = 12 /* size of a tag in the directory [byte] */
 };
 static const uint32_t magic = 0x0e031301;
 
@@ -40,29 +42,29 @@ typedef struct park_channel {
     char name[33], unit[9];
     size_t number;
     double gain;
-    wt_quantity quantity; /* WT_Q_NONE: not read */
-    double factor;        /* from the unit to that of the quantity */
+    wt_quantity quantity; /* WT_Q_NONE if it is not read */
+    double factor;        /* from its unit to that of the quantity */
 } park_channel;
 
 typedef struct park_file {
     const char *name;
     input_window window;
-    size_t data;                /* where the block of samples begins */
-    const unsigned char *curve; /* its samples, until the next one is taken */
+    size_t data;                /* offset of the block of samples */
+    const unsigned char *curve; /* samples of the current curve */
     park_channel channels[CHANNELS];
     size_t n_channels, n_samples, n_curves;
-    size_t end; /* of what the directory names */
+    size_t end; /* end of the data that the directory names */
 } park_file;
 
 /* ---- the file -------------------------------------------------------------------------------- */
 
-/* Where the bytes of a tag are. */
+/* The position of the bytes of a tag. */
 typedef struct park_tag {
     size_t from, n;
     bool there;
 } park_tag;
 
-/* A tag that points behind the end is none. */
+/* Reads a tag. A tag that exceeds the file is marked as absent. */
 static void take_entry(const unsigned char *entry, size_t at, size_t length, park_tag *tag)
 {
     static const unsigned char widths[] = {0, 1, 1, 2, 4, 8, 1, 1, 2, 4, 8, 4, 8};
@@ -77,10 +79,10 @@ static void take_entry(const unsigned char *entry, size_t at, size_t length, par
 /* The tags of Park in the directory of the file. */
 typedef struct park_tags {
     park_tag magic, header, samples, picture, picture_header, strips, strip_sizes;
-    size_t end; /* of what the tags and the strips of the small picture say is there */
+    size_t end; /* end of the data that the tags and the picture strips name */
 } park_tags;
 
-/* A list of numbers of 32 bits, one for each strip; others are not written. */
+/* Reads a list of 32-bit numbers, one for each strip. Other types do not occur. */
 static wt_status take_strips(input_window *w, const park_tag *tag, uint32_t list[STRIPS],
                              wt_error *err)
 {
@@ -93,7 +95,7 @@ static wt_status take_strips(input_window *w, const park_tag *tag, uint32_t list
     return status;
 }
 
-/* The strips of the small picture are the last in the file. */
+/* Extends the end of the data by the strips of the preview picture, which are last in the file. */
 static wt_status find_end(input_window *w, park_tags *tags, wt_error *err)
 {
     uint32_t from[STRIPS], sizes[STRIPS];
@@ -106,7 +108,7 @@ static wt_status find_end(input_window *w, park_tags *tags, wt_error *err)
     return status;
 }
 
-/* Whether everything is there that the directory says. */
+/* Checks that the file contains all data that the directory names. */
 static wt_status check_end(const input_window *w, const park_tags *tags, wt_error *err)
 {
     if (tags->end <= w->size)
@@ -169,13 +171,13 @@ static wt_status find_tags(input_window *w, park_tags *tags, wt_error *err)
     return status == WT_OK ? find_end(w, tags, err) : status;
 }
 
-/* Picture of Park whose directory is there. */
+/* True for a TIFF file of Park. */
 static bool is_park(const park_tags *tags)
 {
     return tags->magic.there && tags->magic.n == 4;
 }
 
-/* UTF-16 that is ASCII, but for the two letters of micro. */
+/* Reads a UTF-16 name that is ASCII except for the two micro signs. */
 static void read_name(const unsigned char *from, char *to, size_t size)
 {
     size_t n = 0;
@@ -265,20 +267,20 @@ static wt_status open_file(wt_input *input, park_file *f, wt_error *err)
     return read_header(f, &tags, err);
 }
 
-/* Has the samples of a curve at hand. */
+/* Reads the samples of a curve into f->curve. */
 static wt_status take_curve(park_file *f, size_t curve, wt_error *err)
 {
     const size_t size = 4 * f->n_channels * f->n_samples;
     return window_bytes(&f->window, f->data + curve * size, size, &f->curve, err);
 }
 
-/* Of the curve at hand. */
+/* Returns the samples of a channel of the current curve. */
 static const unsigned char *samples_of(const park_file *f, const park_channel *c, size_t from)
 {
     return f->curve + 4 * (c->number * f->n_samples + from);
 }
 
-/* Samples from `from` on, up to `n`, until the time rises no more. */
+/* Counts the samples from `from`, at most n, before the time stops increasing. */
 static size_t n_measured(const park_file *f, size_t from, size_t n)
 {
     for (size_t i = 0; i < f->n_channels; i++) {
@@ -294,7 +296,8 @@ static size_t n_measured(const park_file *f, size_t from, size_t n)
     return n;
 }
 
-/* A channel that is the same everywhere is that of a sensor that the instrument does not have. */
+/* True for a channel of constant value, which belongs to a sensor that the instrument does not
+ * have. */
 static bool is_constant(const park_file *f, const park_channel *c)
 {
     const unsigned char *values = samples_of(f, c, 0);
@@ -336,7 +339,7 @@ static force_metadata facts_of(const park_file *f, size_t half)
 typedef struct park_source {
     wt_force_source base;
     park_file file;
-    size_t curve, from; /* of the segment that is read */
+    size_t curve, from; /* curve and first sample of the current segment */
 } park_source;
 
 static wt_status decode(wt_force_source *base, const force_signal *signal, force_linear scaling,
@@ -405,7 +408,7 @@ static const force_stream park_force = {.size = sizeof(park_source),
 
 /* ---- the picture ----------------------------------------------------------------------------- */
 
-/* Where things are in its header. */
+/* Offsets in the header of the picture. */
 enum {
     PICTURE_NAME = 4,
     PICTURE_COLUMNS = 100,
@@ -417,7 +420,7 @@ enum {
     PICTURE_OFFSET = 236,
     PICTURE_UNIT = 244,
     PICTURE_LEAST = 260,
-    PICTURE_TYPE = 348 /* since version 2; before, 16 bits */
+    PICTURE_TYPE = 348 /* since version 2; 16-bit samples before */
 };
 
 static double float_at(const unsigned char *bytes)
@@ -451,7 +454,8 @@ static wt_status read_picture_header(const unsigned char *header, const park_tag
     return WT_OK;
 }
 
-/* Lines from the bottom upwards. A value is gain x (scale x sample + offset) in the unit. */
+/* Reads the picture, with lines from the bottom upwards. A value is gain * (scale * sample +
+ * offset) in the unit. */
 static wt_status read_picture(input_window *w, const park_tags *tags, image_list *list,
                               wt_error *err)
 {
@@ -514,7 +518,7 @@ static wt_status park_images(const file_reader *self, wt_input *input,
 
 /* ---- the descriptor -------------------------------------------------------------------------- */
 
-/* The directory may stand at the end. */
+/* The directory may be at the end of the file. */
 static recognition detect(const file_reader *self, file_peek *peek)
 {
     recognition match = {.answer = ANSWER_NO};

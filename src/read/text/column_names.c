@@ -1,4 +1,4 @@
-/* The names row of a table: which cells are known, what they measure, in which unit.
+/* Parses the names row of a table: the known columns, their quantities and their units.
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
@@ -8,9 +8,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* More columns than any export has; bounds the work on a hostile line. */
+/* Limit on the columns of a table, which bounds the cost of a malicious line. */
 #define COLUMNS_MAX ((size_t)1024)
-#define MATRIX_COLUMNS_MAX ((size_t)1 << 16) /* of an image, likewise */
+#define MATRIX_COLUMNS_MAX ((size_t)1 << 16) /* limit for an image */
 #define UNKNOWN_MAX ((size_t)256)
 
 bool name_unit(text_span *name, text_span *unit)
@@ -21,7 +21,7 @@ bool name_unit(text_span *name, text_span *unit)
         return false;
     const char last = text[n - 1];
     if (last == ')' || last == ']') {
-        /* The bracket that belongs to the last one: units like N/(m s) have their own. */
+        /* find the matching bracket: units like N/(m s) contain brackets */
         const char begin = last == ')' ? '(' : '[';
         size_t depth = 0, open = n;
         while (open-- > 0) {
@@ -41,7 +41,7 @@ bool name_unit(text_span *name, text_span *unit)
             name->length = i - 2;
             return name->length > 0;
         }
-    const char *const slash = memchr(text, '/', n); /* f/Hz, w/rad/s */
+    const char *const slash = memchr(text, '/', n); /* as in f/Hz or w/rad/s */
     if (slash == NULL || slash == text || slash + 1 == text + n)
         return false;
     *unit = (text_span){slash + 1, (size_t)(text + n - slash) - 1};
@@ -81,7 +81,7 @@ bool names_known(const text_description *d, text_span cell, known_name *known)
     return description_find_name(d, name, &known->first, &known->n);
 }
 
-/* Number of known names and what they may measure. */
+/* Counts the known names. *set is the set of quantities that they may measure. */
 static size_t count_known(const text_description *d, const text_cells *cells, wt_quantity_set *set)
 {
     size_t known = 0;
@@ -111,7 +111,7 @@ static size_t try_separator(names_row *names, const text_description *d, text_sp
     return quantities_suffice(set, kinds) ? known : 0;
 }
 
-/* Cells that are numbers or say that there is none: 0 if one is something else. */
+/* Counts the numeric cells of a row of numbers and missing values; 0 if another text occurs. */
 static size_t count_numbers(const text_description *d, const text_cells *cells, char decimal)
 {
     size_t numbers = 0;
@@ -125,7 +125,7 @@ static size_t count_numbers(const text_description *d, const text_cells *cells, 
     return numbers;
 }
 
-/* A name for each cell, a separator behind the last of which parts nothing. */
+/* Sets a name for each cell. A separator at the end of the line adds no cell. */
 static bool name_cells(names_row *names, const text_description *d)
 {
     text_cells *const cells = &names->names;
@@ -162,7 +162,7 @@ bool names_of_row(names_row *names, const text_description *d, text_span line,
             names->no_memory = true;
             return false;
         }
-        /* One cell may be a line that this separator does not part. */
+        /* a single cell may be a line without this separator */
         const bool fits =
             d->matrix ? cells->n >= 2 && cells->n <= MATRIX_COLUMNS_MAX : cells->n == n_names;
         if (fits && (count_numbers(d, cells, '.') > 0 || count_numbers(d, cells, ',') > 0)) {
@@ -189,7 +189,7 @@ bool names_match(names_row *names, const text_description *d, text_span line,
         return try_separator(names, d, line, separator, kinds) > 0;
     }
     for (size_t i = 0; i < sizeof all / sizeof *all; i++) {
-        /* Names of several words would make blanks find more of them than are there. */
+        /* names of several words would give too many matches with blanks as separators */
         if (all[i] == SEPARATOR_WHITESPACE && best > 0)
             break;
         size_t known = try_separator(names, d, line, all[i], kinds);
@@ -211,7 +211,7 @@ void names_free(names_row *names)
 
 /* ---- units -------------------------------------------------------------------------------- */
 
-/* Without brackets around it; "-" says that there is none. */
+/* Removes brackets and blanks around a unit; "-" means no unit. */
 static text_span bare_unit(text_span unit)
 {
     while (unit.length >= 2 && ((unit.text[0] == '[' && unit.text[unit.length - 1] == ']') ||
@@ -230,7 +230,7 @@ static text_span bare_unit(text_span unit)
     return unit;
 }
 
-/* The unit that the user gives for a column, NULL if none. */
+/* Returns the unit that the user states for a column, or NULL. */
 static const char *given_unit(const wt_read_options *options, const char *normalised)
 {
     char name[NAME_LONGEST];
@@ -274,7 +274,7 @@ static size_t find_cell(const resolver *r, const char *name)
     return SIZE_MAX;
 }
 
-/* The first of the names that there is. */
+/* Returns the first cell with one of the names; SIZE_MAX if there is none. */
 static size_t find_any_cell(const resolver *r, char *const *names, size_t n)
 {
     size_t cell = SIZE_MAX;
@@ -283,7 +283,7 @@ static size_t find_any_cell(const resolver *r, char *const *names, size_t n)
     return cell;
 }
 
-/* The column that is read by such a rule; NULL. */
+/* Returns the column that a rule with the same quantity and segment reads, or NULL. */
 static const text_column *taken_by(const text_table *table, const column_rule *rule)
 {
     for (size_t i = 0; i < table->n_columns; i++) {
@@ -295,7 +295,8 @@ static const text_column *taken_by(const text_table *table, const column_rule *r
     return NULL;
 }
 
-/* A table with columns for each temperature: its moduli have the same names again. */
+/* True if a modulus has a second column of the same name, as in a table with columns for each
+ * temperature. */
 static bool is_modulus_again(const names_row *names, const text_column *first, size_t cell)
 {
     const text_span one = names->names.cells[first->cell], other = names->names.cells[cell];
@@ -306,8 +307,8 @@ static bool is_modulus_again(const names_row *names, const text_column *first, s
 
 typedef enum open_answer { OPEN_NOT, OPEN_YES, OPEN_NO } open_answer;
 
-/* Whether the name leaves open what the modulus is of and the user says that it is what this rule
- * takes it for, or what it does not. */
+/* Compares the deformation of a rule with that of the user, if the name of the modulus leaves it
+ * open. */
 static open_answer answer_of(const resolver *r, const known_name *known, const column_rule *rule)
 {
     const wt_quantity_set bit = WT_Q_BIT(rule->quantity);
@@ -316,7 +317,7 @@ static open_answer answer_of(const resolver *r, const known_name *known, const c
         const column_rule *const other = &r->d->rules[r->d->names[k].rule];
         all |= WT_Q_BIT(other->quantity);
         if (other->with != NULL && find_cell(r, other->with) != SIZE_MAX)
-            return OPEN_NOT; /* the file says it by that column */
+            return OPEN_NOT; /* that column states the deformation */
     }
     if (r->options->deformation == WT_DEFORMATION_OF_FILE || (all & MODULI_OF_TENSION) == 0 ||
         (all & MODULI_OF_SHEAR) == 0 || ((MODULI_OF_TENSION | MODULI_OF_SHEAR) & bit) == 0)
@@ -325,7 +326,7 @@ static open_answer answer_of(const resolver *r, const known_name *known, const c
     return ((shear ? MODULI_OF_SHEAR : MODULI_OF_TENSION) & bit) != 0 ? OPEN_YES : OPEN_NO;
 }
 
-/* Whether the unit fits a quantity of that name. */
+/* True if the unit fits a quantity of that name. */
 static bool fits_any(const resolver *r, const known_name *known, const char *unit)
 {
     double factor, offset;
@@ -335,8 +336,8 @@ static bool fits_any(const resolver *r, const known_name *known, const char *uni
     return false;
 }
 
-/* The name of the column and the unit that the file has for it, or one that is given where it has
- * none that is a unit of such a column. */
+/* Begins a column with its name and its unit in the file. A unit that fits no quantity of the name
+ * is dropped if the user states another one. */
 static text_column begin_column(const resolver *r, size_t cell, const known_name *known,
                                 const char *given)
 {
@@ -357,7 +358,8 @@ static text_column begin_column(const resolver *r, size_t cell, const known_name
     return column;
 }
 
-/* The unit of a column by this rule: of the file, else of its format, else as given; NULL. */
+/* Returns the unit of a column: that of the file, else of the rule, else of the user; NULL if there
+ * is none. */
 static const char *unit_by(const text_column *column, const column_rule *rule, const char *given)
 {
     if (column->unit[0] != '\0')
@@ -365,18 +367,19 @@ static const char *unit_by(const text_column *column, const column_rule *rule, c
     return rule->unit != NULL ? rule->unit : given;
 }
 
-/* A unit given is another one than the column has. */
+/* True if the unit of the user differs from that of the column. */
 static bool is_other(const resolver *r, const column_rule *rule, const char *given, double factor,
                      double offset)
 {
     double other = 1, begin = 0;
-    /* the same unit spelled otherwise differs by rounding */
+    /* two spellings of a unit differ by rounding */
     const double same = 1e-9;
     return !to_si(r->d, rule, given, &other, &begin) ||
            fabs(other - factor) > same * fabs(factor) || fabs(begin - offset) > same * fabs(begin);
 }
 
-/* The first rule of that name whose condition holds and whose quantity has that unit. */
+/* Resolves a column by the first rule of its name whose condition holds and whose quantity has the
+ * unit. */
 static text_column resolve_column(const resolver *r, size_t cell, const known_name *known)
 {
     const char *const given = given_unit(r->options, r->normalised[cell]);
@@ -424,8 +427,8 @@ static wt_status add_unknown(text_file *file, text_span cell, wt_error *err)
     return text_list_add(file, &file->unknown, UNKNOWN_MAX, cell, err);
 }
 
-/* A column that does not fit (F beside f, in newton) is just another one where the quantity is
- * known from a column that does. */
+/* Drops problems of columns whose quantity another column provides, such as F in newton in addition
+ * to f in hertz. */
 static wt_status settle_problems(const names_row *names, text_file *file, text_table *table,
                                  wt_error *err)
 {
@@ -442,7 +445,7 @@ static wt_status settle_problems(const names_row *names, text_file *file, text_t
     return status;
 }
 
-/* All cells are of one column, whose unit the header may say. */
+/* Resolves a matrix, whose cells all belong to one column. The header may state its unit. */
 static wt_status resolve_matrix(const names_row *names, text_file *file, text_table *table,
                                 const wt_read_options *options, wt_error *err)
 {
@@ -492,7 +495,7 @@ wt_status names_resolve(const names_row *names, text_file *file, text_table *tab
     for (size_t i = 0; i < n_cells; i++) {
         text_span cell = names->names.cells[i];
         known_name known;
-        /* A name with its unit inside is compared without it. */
+        /* a name that contains its unit is compared without it */
         if (names_known(d, cell, &known) ? known.unit.length > 0 : d->units != UNITS_ROW)
             (void)name_unit(&cell, &known.unit);
         name_normalise(cell, r.normalised[i]);

@@ -1,4 +1,4 @@
-/* Force curves as text. SPDX-License-Identifier: GPL-3.0-or-later */
+/* Writes force curves as text. SPDX-License-Identifier: GPL-3.0-or-later */
 #include "read/text/curve_text.h"
 
 #include <math.h>

@@ -1,5 +1,6 @@
-/* Force curves as the text that the description weartrack-stream reads: for readers whose curves
- * are decoded where nothing but text comes back from, or whose file is a table without names.
+/* Declares the output of force curves as text that the description weartrack-stream reads. It
+ * serves readers that decode in the sandbox, which returns only text, and readers of tables
+ * without names.
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
@@ -17,17 +18,17 @@ typedef struct curve_text {
     double x, y;              /* [m], NaN if unknown */
     wt_cantilever cantilever; /* NaN if unknown */
     struct {
-        wt_quantity quantity; /* one that a force curve has, in its SI unit */
+        wt_quantity quantity; /* quantity of a force curve, in its SI unit */
         const double *values;
     } columns[CURVE_TEXT_COLUMNS];
     size_t n_columns;
 } curve_text;
 
 void curve_text_begin(FILE *out, const curve_text *curve);
-/* The names of the columns, which curve_text_begin has written, once more: those that follow are
- * others. */
+/* Writes the names of the columns again, for rows with other columns. curve_text_begin writes the
+ * first ones. */
 void curve_text_names(FILE *out, const curve_text *curve);
-/* Rows [from, from + n) of the columns; backwards, the last of them first. */
+/* Writes the rows [from, from + n); with `backwards` in reverse order. */
 void curve_text_rows(FILE *out, const curve_text *curve, wt_segment_kind kind, size_t from,
                      size_t n, bool backwards);
 void curve_text_end(FILE *out);

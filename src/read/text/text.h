@@ -1,5 +1,5 @@
-/* The engine that reads text exports as a description says: bytes to lines, lines to cells, cells
- * to tables in SI units, tables to force curves, sweeps and spectra.
+/* Declares the engine that reads text exports by a description: bytes to lines, lines to cells,
+ * cells to tables in SI units, and tables to force curves, sweeps, spectra, images and records.
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
@@ -11,89 +11,89 @@
 
 /* ---- lines -------------------------------------------------------------------------------- */
 
-/* What is behind the last line. */
+/* The end of the last line: a complete line end, half a line end or none. */
 typedef enum line_end { END_WHOLE, END_HALF, END_NONE } line_end;
 
 /* A file as UTF-8 lines. */
 typedef struct text_lines {
     char *text;
-    text_span *lines; /* a zero byte stands where each ends */
+    text_span *lines; /* each line ends with a zero byte */
     size_t n;
-    const char *encoding; /* words: "UTF-16LE with byte order mark" */
-    size_t n_replaced;    /* byte sequences that are no characters, now U+FFFD */
-    bool odd_byte;        /* half a character of UTF-16 at the end was dropped */
-    line_end end;         /* of the last one; CR alone is half of one if others have LF behind it */
+    const char *encoding; /* text such as "UTF-16LE with byte order mark" */
+    size_t n_replaced;    /* number of invalid byte sequences, which became U+FFFD */
+    bool odd_byte;        /* true if half a UTF-16 character at the end was dropped */
+    line_end end;         /* of the last line; CR alone is half an end if others have CR LF */
 } text_lines;
 
 wt_status lines_decode(const unsigned char *bytes, size_t length, text_encoding encoding,
                        text_lines *lines, wt_error *err);
-/* More of UTF-8 text, which does not begin with a mark. */
+/* Decodes a later piece of UTF-8 text, which has no byte order mark. */
 wt_status lines_decode_more(const unsigned char *bytes, size_t length, text_lines *lines,
                             wt_error *err);
-/* The words for the encoding that the bytes will be decoded from. */
+/* Returns a text for the encoding that lines_decode will use. */
 const char *lines_encoding(const unsigned char *bytes, size_t length, text_encoding encoding);
 void lines_free(text_lines *lines);
-/* Takes the comment mark off the beginning; false if there is none. */
+/* Removes the comment mark at the beginning; false if there is none. */
 bool line_uncomment(const text_description *description, text_span *line);
 
-/* The lines of an input, which is read as far as they are asked for: as a whole, or in pieces of
- * UTF-8 text that end with a line. */
+/* The lines of an input, which is read as far as requested: as a whole, or in pieces of UTF-8 text
+ * that end with a line. */
 typedef struct text_feed {
     wt_input *input;
     text_encoding encoding; /* as described */
-    size_t piece;           /* bytes to read together; SIZE_MAX: all */
-    size_t at, size;        /* of the input: what is read next, and all; once it began */
+    size_t piece;           /* size of a piece [byte]; SIZE_MAX for the whole input */
+    size_t at, size;        /* position and size of the input */
     bool began;
     unsigned char *buffer;
     size_t room;
     struct feed_piece *first, *last;
-    size_t n;          /* lines so far, those that were dropped among them */
-    const char *words; /* encoding, bytes replaced: as of text_lines */
+    size_t n;          /* number of lines read, with the dropped ones */
+    const char *words; /* encoding and replaced bytes, as in text_lines */
     size_t n_replaced;
-    line_end end; /* of the last line so far */
+    line_end end; /* end of the last line read */
 } text_feed;
 
-/* Line i, counted from 0, which must not have been dropped; WT_END behind the last. It stays until
- * it is dropped. */
+/* Returns line i, counted from 0, valid until it is dropped. WT_END after the last line. Line i
+ * must not be dropped already. */
 wt_status feed_line(text_feed *feed, size_t i, text_span *line, wt_error *err);
-/* What is behind line i, the last one asked for. */
+/* Returns the end of line i, the last one requested. */
 line_end feed_line_end(const text_feed *feed, size_t i);
-/* The lines before line i are no longer needed. */
+/* Drops the lines before line i. */
 void feed_drop(text_feed *feed, size_t i);
 void feed_free(text_feed *feed);
 
 /* ---- cells -------------------------------------------------------------------------------- */
 
-/* Of a line; without blanks and quotes around each. */
+/* The cells of a line, without blanks and quotes around them. */
 typedef struct text_cells {
     text_span *cells;
     size_t n, capacity;
 } text_cells;
 
-const char *separator_name(cell_separator separator); /* "tab"; static */
-/* Splits a line; SEPARATOR_AUTO is not allowed here. False when out of memory. */
+const char *separator_name(cell_separator separator); /* static name such as "tab" */
+/* Splits a line; SEPARATOR_AUTO is not allowed here. Returns false if memory is missing. */
 bool cells_split(text_cells *cells, text_span line, cell_separator separator,
                  const text_description *description);
 bool cells_blank(const text_cells *cells);
 bool cell_is(text_span cell, const char *text);
 
 typedef enum cell_kind { CELL_NUMBER, CELL_MISSING, CELL_NOT_FINITE, CELL_TEXT } cell_kind;
-/* A number, an empty cell (also "--", 1e99 and what the description lists), "nan" or "inf" that it
- * does not list (*value is NaN for both) or something else. */
+/* Classifies a cell: a number; a missing value ("", "--", 1e99 or a text of the description); an
+ * unlisted "nan" or "inf"; or another text. *value is NaN unless it is a number. */
 cell_kind cell_read(text_span cell, char decimal, const text_description *description,
                     double *value);
-/* Copies text for messages and tables: without control characters, cut at a whole character. */
+/* Copies a text for messages and tables, without control characters, cut at a whole character. */
 void text_copy(char *to, size_t size, text_span text);
-/* Counts cells with a decimal comma and with a point. */
+/* Adds the numbers of cells with a decimal comma and with a decimal point. */
 void cells_count_marks(const text_cells *cells, size_t *commas, size_t *points);
 
 /* ---- tables ------------------------------------------------------------------------------- */
 
 typedef enum column_problem {
     COLUMN_GOOD,
-    COLUMN_NO_UNIT,  /* the file does not say the unit */
-    COLUMN_BAD_UNIT, /* the unit fits no quantity of that name */
-    COLUMN_UNCLEAR   /* the column that tells what it is (`with`) is not there */
+    COLUMN_NO_UNIT,  /* the file does not state the unit */
+    COLUMN_BAD_UNIT, /* the unit fits no quantity of this name */
+    COLUMN_UNCLEAR   /* the column that decides the meaning is absent */
 } column_problem;
 
 #define MODULI_OF_TENSION                                                                          \
@@ -105,42 +105,45 @@ typedef enum column_problem {
      WT_Q_BIT(WT_Q_SHEAR_COMPLEX_MODULUS) | WT_Q_BIT(WT_Q_SHEAR_RELAXATION_MODULUS) |              \
      WT_Q_BIT(WT_Q_SHEAR_CREEP_COMPLIANCE))
 
-/* A column of a table that is known by its name. */
+/* A column of a table with a known name. */
 typedef struct text_column {
     size_t cell;
     column_problem problem;
     const column_rule *rule;
-    double factor, offset; /* to SI, the sign of a negated column included */
-    const char *assumed;   /* of the rule, unless the user says it */
-    char name[64];         /* as exported, without a unit in it */
-    char unit[32];         /* as exported or given, "" if none */
-    const char *overruled; /* unit given that is another than the file's own, which stands */
+    double factor, offset; /* conversion to SI units, with the sign of a negated column */
+    const char *assumed;   /* assumption of the rule, unless the user decides it */
+    char name[64];         /* name as exported, without its unit */
+    char unit[32];         /* unit of the file or of the user; "" if none */
+    const char
+        *overruled; /* unit of the user that differs from that of the file, which has priority */
 } text_column;
 
 typedef struct text_header {
-    double value[HEADER_COUNT]; /* SI, NaN if not seen */
+    double value[HEADER_COUNT]; /* in SI units; NaN if absent */
     bool fallback[HEADER_COUNT];
 } text_header;
 
-/* Rows under one names row. */
+/* The rows under a names row. */
 typedef struct text_table {
     size_t names_line; /* counted from 1 */
-    size_t step_line;  /* of the marker before it, 0 if none */
-    char title[96];    /* of the step, "" if none */
+    size_t step_line;  /* line of the step marker before it; 0 if none */
+    char title[96];    /* title of the step; "" if none */
     cell_separator separator;
     char decimal;
-    size_t n_names;       /* cells of the names row */
-    text_column *columns; /* that are understood */
+    size_t n_names;       /* number of cells of the names row */
+    text_column *columns; /* columns that are understood */
     size_t n_columns;
     text_column *problems; /* columns with a problem */
     size_t n_problems;
-    wt_quantity_set quantities;                                            /* of `columns` */
-    size_t group_cell, segment_cell, curve_cell, sample_cell, number_cell; /* SIZE_MAX: none */
+    wt_quantity_set quantities; /* quantities of `columns` */
+    size_t group_cell, segment_cell, curve_cell, sample_cell,
+        number_cell;      /* cells of the special columns; SIZE_MAX if absent */
     double *values;       /* [n_rows][n_columns], NaN for an empty cell */
-    size_t *blocks;       /* [n_rows] number that changes where a block begins */
-    unsigned char *kinds; /* [n_rows] wt_segment_kind, or ROW_KIND_NONE */
+    size_t *blocks;       /* [n_rows] block number */
+    unsigned char *kinds; /* [n_rows] wt_segment_kind or ROW_KIND_NONE */
     size_t *row_lines;    /* [n_rows] counted from 1 */
-    size_t *samples;      /* [n_rows] place in the list of the file, NO_SAMPLE without a name */
+    size_t
+        *samples; /* [n_rows] index in the list of samples of the file; NO_SAMPLE without a name */
     size_t n_rows;
     text_header header;
 } text_table;
@@ -149,141 +152,144 @@ typedef struct text_table {
 #define SAMPLES_MAX ((size_t)1024)
 
 typedef struct field_value {
-    size_t line;    /* 0 if it was not there */
-    char text[208]; /* as found */
+    size_t line;    /* line of the field; 0 if absent */
+    char text[208]; /* text as in the file */
     char unit[32];
 } field_value;
 
-/* Texts found in a file. */
+/* A list of texts of a file. */
 typedef struct text_list {
     char **items;
     size_t n;
 } text_list;
 
-/* Everything that a description finds in a file, or in a part of it. */
+/* Everything that a description finds in a file or in a part of it. */
 typedef struct text_file {
     const text_description *description;
     const char *name;
     text_feed *feed;
     text_table *tables;
     size_t n_tables;
-    size_t n_seen;              /* tables of the parts so far, this one among them */
-    wt_quantity_set quantities; /* of those tables */
-    field_value *values;        /* [n_fields] of the description, as last seen */
-    text_list unknown;          /* names of columns that no rule knows, each once */
-    bool moduli_again;          /* of a name that is read already, in one table */
+    size_t n_seen;              /* number of tables of all parts so far, with this one */
+    wt_quantity_set quantities; /* quantities of those tables */
+    field_value *values;        /* [n_fields] last value of each field of the description */
+    text_list unknown;          /* names of columns without a rule, each once */
+    bool moduli_again;          /* true if a table has a modulus twice under one name */
     text_list steps;            /* titles of steps without a table */
     text_list samples;          /* names of samples, each once */
-    arena memory;               /* of the lists and the values */
-    arena of_tables;            /* their columns */
+    arena memory;               /* memory of the lists and the values */
+    arena of_tables;            /* memory of the columns */
 } text_file;
 
-/* Runs the description of the reader over the input. `kinds`: the names row of a table must suffice
- * for one of them. */
+/* Runs the description of the reader over the input. The names row of a table must suffice for one
+ * of the kinds of data in `kinds`. */
 wt_status text_scan(const file_reader *reader, wt_input *input, unsigned kinds,
                     const wt_read_options *options, wt_log *log, text_file *file, wt_error *err);
 void text_file_free(text_file *file);
 
-/* The same part by part, for files that are larger than memory should be: each part ends where the
- * description sees a step begin, so that no block reaches over its end. What a part finds is what
- * text_scan would, and the failures are the same, but come when their part does. */
+/* Variant of text_scan for large files, part by part. A part ends where the description finds the
+ * beginning of a step, so no block crosses its end. Tables and failures are those of text_scan, but
+ * a failure appears with its part. */
 typedef struct text_parts text_parts;
-/* Bytes to read together: SIZE_MAX, and the file is one part, where it is small or where its
- * description lets one line depend on others far away. */
+/* Chooses the piece size [byte]. It is SIZE_MAX (a single part) for a small file, or if lines of
+ * the description depend on distant lines. */
 wt_status text_piece(text_description *description, wt_input *input, size_t *piece, wt_error *err);
-/* The input is the text itself: `as_text` of the reader is not asked. */
+/* Begins the parts. The input must be text already; `as_text` of the reader is not called. */
 wt_status text_parts_begin(const file_reader *reader, wt_input *input, size_t piece, unsigned kinds,
                            const wt_read_options *options, wt_log *log, text_parts **parts,
                            wt_error *err);
-/* Goes on to the next part with a table; WT_END behind the last, which then stays. */
+/* Reads the next part with a table. WT_END after the last one, which stays valid. */
 wt_status text_parts_next(text_parts *parts, wt_error *err);
-/* What the part has. */
+/* Returns the content of the current part. */
 const text_file *text_parts_file(const text_parts *parts);
 void text_parts_free(text_parts *parts);
 
-/* Adds a copy of a text, unless the list has `most` already. */
+/* Adds a copy of a text, unless the list has reached its maximum length. */
 wt_status text_list_add(text_file *file, text_list *list, size_t most, text_span text,
                         wt_error *err);
-/* "line 12", for messages. */
+/* The position of a line for messages, such as "line 12". */
 typedef struct text_place {
     char words[32];
 } text_place;
 text_place line_place(size_t line);
-/* Does the description promise data of the kind, and do the tables have its columns? */
+/* True if the description states this kind of data and the tables have its columns. */
 bool text_has(const text_file *file, unsigned kind);
-/* The column of a quantity, or NULL; segment < 0: any. */
+/* Returns the column of a quantity, or NULL; segment < 0 accepts any segment. */
 const text_column *text_table_column(const text_table *table, wt_quantity quantity, int segment);
-/* Column number i of row r. */
+/* Returns the value of a column in a row. */
 double text_table_value(const text_table *table, size_t row, const text_column *column);
-/* Fails unless the quantities of the table suffice for `kind`, and says which column is to blame:
- * WT_E_UNIT where only a unit is not known. */
+/* Fails unless the quantities of the table suffice for `kind`, and names the column that is the
+ * cause. WT_E_UNIT if only a unit is unknown. */
 wt_status text_table_require(const text_table *table, unsigned kind, wt_error *err);
-/* Fails with what is wrong with the column of `quantity`, if there is one with a problem. */
+/* Fails with the problem of a column of one of the quantities, if there is one. */
 wt_status text_table_problem(const text_table *table, wt_quantity_set quantities, wt_error *err);
-/* The names of unknown columns, with commas; cut with "..." if there is no room. */
+/* Lists the names of unknown columns, with commas; cut with "..." if they do not fit. */
 void text_unknown(const text_file *file, char *names, size_t size);
-/* Notes which columns were left out, warns of what the names of others leave open. */
+/* Logs the unused columns and warns of assumptions about others. */
 void text_log_columns(const text_file *file, wt_log *log);
-/* The parts of that: of the whole file, of the tables of a part. */
+/* Parts of text_log_columns: unused columns of the whole file, and assumptions about the tables of
+ * a part. */
 void text_log_unknown(const text_file *file, wt_log *log);
 void text_log_assumed(const text_file *file, wt_log *log);
-/* "no frequency sweep in it" and which steps are there instead: WT_E_EMPTY. */
+/* Fails with WT_E_EMPTY, for instance "no frequency sweep in it", and lists the steps that the file
+ * contains. */
 wt_status text_fail_empty(const text_file *file, const char *what, wt_error *err);
 
 /* ---- the names row ------------------------------------------------------------------------ */
 
-/* Names and units of a candidate for a names row. */
+/* The names and units of a possible names row. */
 typedef struct names_row {
-    text_cells names, units; /* units.n is 0 if there is no such row */
+    text_cells names, units; /* units.n is 0 without a units row */
     cell_separator separator;
-    char value_unit[32]; /* of a matrix, as its header says, "" if it does not */
+    char value_unit[32]; /* unit of a matrix in its header; "" if absent */
     bool no_memory;
 } names_row;
 
-/* What a name may be: entries of the description's `names`. */
+/* The possible meanings of a name: a range of the description's `names`. */
 typedef struct known_name {
     size_t first, n;
-    text_span unit; /* that stands in the name, or empty */
+    text_span unit; /* unit within the name, or empty */
 } known_name;
-/* Is the name of a cell one of the description? */
+/* True if the description knows the name of a cell. */
 bool names_known(const text_description *description, text_span cell, known_name *known);
 
-/* The part of a line where names would stand; false if it cannot be a names row. */
+/* Reduces a line to the part with the names; false if it cannot be a names row. */
 bool names_part(const text_description *description, text_span *line);
-/* Splits `line` and tells whether its cells name enough columns for one of `kinds`. With an auto
- * separator the one that names most columns is taken. False also when `no_memory`. */
+/* Splits `line`; true if its cells name enough columns for one of `kinds`. An automatic separator
+ * is the one with most known names. False also if memory is missing (no_memory). */
 bool names_match(names_row *names, const text_description *description, text_span line,
                  cell_separator separator, unsigned kinds);
-/* Of a description without names in its files: whether the line is a row of its numbers, and what
- * parts its cells. A matrix gets a name for each of them. False also when `no_memory`. */
+/* For a description without names in its files: true if the line is a row of numbers; it also
+ * finds the separator. A matrix gets a name for each cell. False also if memory is missing
+ * (no_memory). */
 bool names_of_row(names_row *names, const text_description *description, text_span line,
                   cell_separator separator);
-/* Fills columns, quantities and problems of the table; what is not understood goes to
+/* Fills columns, quantities and problems of the table. Names that are not understood are added to
  * file->unknown. */
 wt_status names_resolve(const names_row *names, text_file *file, text_table *table,
                         const wt_read_options *options, wt_error *err);
-/* Does a name carry its unit ("f (Hz)", "E' / MPa", "f/Hz", "q[1/m]")? Shortens it to the name. */
+/* True if a name contains its unit ("f (Hz)", "E' / MPa", "f/Hz", "q[1/m]"). It splits them. */
 bool name_unit(text_span *name, text_span *unit);
 void names_free(names_row *names);
 
 /* ---- results ------------------------------------------------------------------------------ */
 
-/* The reader that runs a description, which it borrows. */
+/* Returns the reader that runs a description; it borrows the description. */
 file_reader text_reader(text_description *description);
 void text_peek_free(struct text_peek *peek);
 
 extern const struct force_stream text_force;
-/* Of a reader whose file is a table in disguise: it is read as the text that `made` makes of it. */
+/* Members of a reader whose file is converted to a text stream by `made`. */
 #define READER_OF_CURVE_TEXT(made) .runs = "weartrack-stream", .as_text = made, .force = &text_force
-/* The same without reading to the end first: how many curves there are is not known. Not for a
- * reader that makes a text (as_text). */
+/* Variant of text_force that does not read the file first, so the number of curves is unknown. It
+ * does not support a reader with as_text. */
 extern const struct force_stream text_force_first;
-/* Warns where steps of time or height that are all equal are broken within these rows, of a segment
- * (negative: of none). */
+/* Warns if equal steps of time or height are interrupted within the rows [first, end) of a segment
+ * (negative: no segment). */
 void text_check_steps(const text_file *file, const text_table *t, int segment, size_t first,
                       size_t end, wt_log *log);
-/* Curves of the tables at hand that have what a file of one of the kinds needs; kinds 0: of all, as
- * they are read, also those that turn out to be errors. */
+/* Counts the curves of the current tables whose columns suffice for one of `kinds`. With kinds 0 it
+ * counts all, including those that fail later. */
 size_t text_count_curves(const text_file *file, unsigned kinds);
 wt_status text_read_sweep(const file_reader *self, wt_input *input, const wt_read_options *options,
                           wt_log *log, wt_sweep *sweep, wt_error *err);
@@ -298,11 +304,11 @@ wt_status text_read_record(const file_reader *self, wt_input *input, const wt_re
                            wt_log *log, wt_record *record, wt_error *err);
 wt_status text_describe(const file_reader *self, wt_input *input, const wt_read_options *options,
                         wt_log *log, table_writer *facts);
-/* The same of a reader with `as_text`, whose text is made once. */
+/* Variant of text_describe for a reader with `as_text`, which converts the file once. */
 wt_status text_describe_made(const file_reader *self, wt_input *input,
                              const wt_read_options *options, wt_log *log, table_writer *facts);
 
-/* The isotherms of a scanned file, appended to `sweep`. */
+/* Appends the sweeps of a scanned file to `sweep`. */
 wt_status text_sweep(const text_file *file, const wt_read_options *options, wt_log *log,
                      wt_sweep *sweep, wt_error *err);
 

@@ -1,24 +1,26 @@
-/* Places along a line that are equal steps, as an export may have rounded them.
- * SPDX-License-Identifier: GPL-3.0-or-later */
+/* Finds axes of equal steps from positions that an export may have rounded.
+ *
+ * SPDX-License-Identifier: GPL-3.0-or-later
+ */
 #include "read/text/text_axis.h"
 
 #include <math.h>
 
-/* Of a step: less changes no slope and no spectrum by what could be seen. */
+/* Tolerance relative to a step; it changes no slope or spectrum noticeably. */
 static const double slight = 1e-3;
-/* A grid of which more is missing is none. */
+/* Maximum number of grid positions for each point. */
 enum { PLACES_PER_POINT = 4 };
 
-/* Decimals of a place in its unit beyond which all of a table that is written as decimal numbers
- * are zero; more are no rounding that matters. */
+/* Maximum number of decimals of a position in its unit. With more decimals, rounding does not
+ * matter. */
 enum { DECIMALS_MAX = 9 };
-/* What is left of a decimal of a number that has passed through a conversion of units. */
+/* Tolerance of a decimal after a conversion of units. */
 static const double left_of_decimal = 1e-4;
-/* Of a step: whole numbers of which each third is left out are rounded to two thirds of theirs, and
- * say nothing of equal steps. */
+/* Maximum rounding relative to a step. Above it, rounded positions give no evidence of equal
+ * steps. */
 static const double coarsest = 0.65;
 
-/* The unit of the last decimal that is written; 0 if there are too many. */
+/* Returns the value of the last written decimal; 0 if there are too many. */
 static double quantum_of(const double *places, size_t n, double factor)
 {
     double scale = 1;
@@ -36,7 +38,7 @@ static double quantum_of(const double *places, size_t n, double factor)
     return 0;
 }
 
-/* The largest distance from the places of the axis. */
+/* Returns the largest distance of the positions from those of the axis. */
 static double deviation_from(const text_axis *axis, const double *places, size_t n, size_t *worst)
 {
     double most = 0;
@@ -52,7 +54,7 @@ static double deviation_from(const text_axis *axis, const double *places, size_t
     return most;
 }
 
-/* As many places as the smallest step makes of the whole. */
+/* Finds an axis with gaps, whose step is close to the smallest difference. */
 static bool axis_with_holes(const double *places, size_t n, text_axis *axis)
 {
     const double length = places[n - 1] - places[0];
@@ -83,7 +85,7 @@ bool axis_find(const double *places, size_t n, double factor, bool holes, text_a
     const double quantum = quantum_of(places, n, fabs(factor));
     *axis = equal;
     axis->rounded = quantum;
-    /* Each end is off by half of it, and so is the place itself. */
+    /* each end and the position itself are rounded by half of the quantum */
     return quantum > 0 && quantum <= coarsest * equal.step && deviation <= (1 + slight) * quantum;
 }
 

@@ -1,4 +1,4 @@
-/* Places along a line that are equal steps. SPDX-License-Identifier: GPL-3.0-or-later */
+/* Declares axes of equal steps. SPDX-License-Identifier: GPL-3.0-or-later */
 #ifndef WT_READ_TEXT_AXIS_H
 #define WT_READ_TEXT_AXIS_H
 
@@ -7,14 +7,14 @@
 typedef struct text_axis {
     double first, step; /* step > 0 */
     size_t n;
-    double rounded; /* places are rounded to this; 0 if that plays no part */
+    double rounded; /* rounding of the positions; 0 if it has no effect */
 } text_axis;
 
-/* The axis of places that rise from one to the next, `factor` their unit. With `holes` places may
- * be left out of it. False: they are no equal steps, *worst the place that fits them least. */
+/* Finds the axis of increasing positions; `factor` is their unit. The last flag allows gaps.
+ * Returns false if the steps are not equal; *worst is the position that deviates most. */
 bool axis_find(const double *places, size_t n, double factor, bool holes, text_axis *axis,
                size_t *worst);
-/* Which of its places a place is; it must be one of those that made the axis. */
+/* Returns the index of a position, which must be one of those that define the axis. */
 size_t axis_index(const text_axis *axis, double place);
 
 #endif

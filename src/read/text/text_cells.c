@@ -1,7 +1,4 @@
-/* One line to cells, one cell to a number.
- *
- * SPDX-License-Identifier: GPL-3.0-or-later
- */
+/* Splits a line into cells and parses a cell. SPDX-License-Identifier: GPL-3.0-or-later */
 #include "read/text/text.h"
 
 #include "core/base/array.h"
@@ -13,7 +10,7 @@
 #include <string.h>
 #include <strings.h>
 
-/* Instruments write 1e99 or more for "no value"; no quantity of this field comes near. */
+/* Instruments write 1e99 or more for "no value"; real quantities are far smaller. */
 static const double no_value = 1e99;
 
 const char *separator_name(cell_separator separator)
@@ -61,8 +58,8 @@ static bool append_characters(text_cells *cells, const char *text, size_t length
     return true;
 }
 
-/* Where the cell that begins at `from` ends. A separator inside quotes does not count, but a lone
- * quotation mark (E" is the loss modulus) is a character like others. */
+/* Returns the end of the cell at `from`. A separator inside quotes is ignored. A single quotation
+ * mark (E" is the loss modulus) is an ordinary character. */
 static size_t cell_end(const char *line, size_t from, size_t length, char mark)
 {
     size_t i = from;
@@ -94,8 +91,7 @@ static bool split_at(text_cells *cells, const char *line, size_t length, char ma
     }
 }
 
-/* Of a cell between marks like the one at `from` the place behind the second, if a blank or the end
- * follows; 0 if there is none. */
+/* Returns the end of a quoted cell at `from`, if a blank or the line end follows; 0 otherwise. */
 static size_t quoted_end(const char *line, size_t from, size_t length)
 {
     const char mark = line[from];

@@ -1,7 +1,4 @@
-/* What `info` says about a text export.
- *
- * SPDX-License-Identifier: GPL-3.0-or-later
- */
+/* Describes a text export for `info`. SPDX-License-Identifier: GPL-3.0-or-later */
 #include "read/text/text.h"
 
 #include "core/base/clocale.h"
@@ -15,20 +12,20 @@
 #include <stdio.h>
 #include <string.h>
 
-/* Tables beyond this many repeat what the first ones say. */
+/* Number of tables shown; further tables mostly have the same columns. */
 #define TABLES_SHOWN ((size_t)4)
 
-/* What is read, and how. */
+/* The file and how it is read. */
 typedef struct text_reading {
     const file_reader *self;
     wt_input *input;
     const wt_read_options *options;
     unsigned kinds;
     size_t piece;
-    size_t n_curves; /* of a text that is read part by part */
+    size_t n_curves; /* number of curves, if the text is read part by part */
 } text_reading;
 
-/* The curves of a text that is read part by part, which was read to its end before. */
+/* Selects the stream of curves. A text that is read part by part was read to its end before. */
 static const force_stream *stream_of(const text_reading *r)
 {
     return r->piece == SIZE_MAX ? r->self->force : &text_force_first;
@@ -75,7 +72,7 @@ static void add_column(const text_table *t, const text_column *c, table_writer *
     }
 }
 
-/* Tables of one file mostly have the columns of the first. */
+/* The columns of the first table; those of other tables are mostly the same. */
 typedef struct first_table {
     size_t n_columns;
     wt_quantity_set quantities;
@@ -95,7 +92,7 @@ static void add_table(const text_file *file, size_t of_file, size_t number, firs
     else if (t->n_columns == first->n_columns && t->quantities == first->quantities &&
              t->n_problems == 0)
         return;
-    /* Those of a matrix are alike. */
+    /* the columns of a matrix are equal */
     for (size_t i = 0; i < t->n_columns && (i == 0 || !file->description->matrix); i++)
         add_column(t, &t->columns[i], facts);
     for (size_t i = 0; i < t->n_problems; i++)
@@ -106,7 +103,7 @@ static void add_problem(wt_error *problem, table_writer *facts)
 {
     char text[1024], place[sizeof problem->place];
     memcpy(place, problem->place, sizeof place);
-    problem->file[0] = problem->place[0] = '\0'; /* they stand elsewhere */
+    problem->file[0] = problem->place[0] = '\0'; /* shown in other columns */
     wt_error_format(problem, text, sizeof text);
     facts_add(facts, "not readable as it is", "", place, "%s", text);
 }
@@ -167,7 +164,7 @@ static void add_curve(const wt_force_curve *curve, table_writer *facts)
     }
 }
 
-/* The curves without their forces, which may need a calibration that is not known. */
+/* Describes the curves without forces, which may need an unknown calibration. */
 static void add_curves(const text_reading *r, table_writer *facts)
 {
     wt_force_source *source = NULL;
@@ -228,7 +225,7 @@ static void add_spectrum(const file_reader *self, wt_input *input, const wt_read
     wt_power_spectrum_clear(&spectrum);
 }
 
-/* The first tables, for which the text is read again where they are no longer at hand. */
+/* Describes the first tables. The text is read again if they are no longer in memory. */
 static wt_status add_tables(const text_reading *r, const text_parts *parts, table_writer *facts)
 {
     const text_file *file = text_parts_file(parts);
@@ -297,7 +294,7 @@ static void add_record(const file_reader *self, wt_input *input, const wt_read_o
     wt_record_clear(&record);
 }
 
-/* The sweep of all tables, which are read again where they are no longer at hand. */
+/* Describes the sweep of all tables, which are read again if they are no longer in memory. */
 static wt_status add_sweep_of(const text_reading *r, const text_file *file, wt_log *log,
                               table_writer *facts)
 {
@@ -314,7 +311,7 @@ static wt_status add_sweep_of(const text_reading *r, const text_file *file, wt_l
     return status;
 }
 
-/* *has: kinds that are still to be told. */
+/* Describes layout and sweep. *has receives the kinds of data that remain to be described. */
 static wt_status describe_parts(text_reading *r, text_parts *parts, wt_log *log, unsigned *has,
                                 table_writer *facts)
 {

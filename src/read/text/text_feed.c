@@ -1,4 +1,4 @@
-/* The lines of an input, as they are asked for. SPDX-License-Identifier: GPL-3.0-or-later */
+/* Reads the lines of an input as far as requested. SPDX-License-Identifier: GPL-3.0-or-later */
 #include "read/text/text.h"
 
 #include <stdlib.h>
@@ -6,12 +6,12 @@
 
 typedef struct feed_piece {
     text_lines lines;
-    size_t first; /* number of its first line */
+    size_t first; /* index of its first line */
     struct feed_piece *next;
 } feed_piece;
 
-/* Where the last line ends that is there as a whole; a CR at the very end may have its LF behind
- * it. */
+/* Returns the end of the last complete line. A CR at the end of the bytes is not complete, since an
+ * LF may follow. */
 static size_t whole_lines(const unsigned char *bytes, size_t n)
 {
     for (size_t end = n; end > 0; end--)
@@ -54,7 +54,7 @@ static wt_status read_all(text_feed *feed, wt_error *err)
     return status == WT_OK ? add_bytes(feed, bytes, feed->size, err) : status;
 }
 
-/* A line that is longer than a piece makes it longer. */
+/* Reads the next piece, which grows for a line that is longer than a piece. */
 static wt_status read_piece(text_feed *feed, wt_error *err)
 {
     const size_t left = feed->size - feed->at;

@@ -1,4 +1,4 @@
-/* Tables of a text export to force curves.
+/* Converts the tables of a text export to force curves.
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
@@ -9,22 +9,23 @@
 #include <math.h>
 #include <string.h>
 
-/* A curve that turns comes back by more than the noise of its last point before it. */
+/* Minimum return of a curve with a turning point, relative to its range. It exceeds the noise of
+ * the last point. */
 static const double least_return = 0.1;
 
-/* Rows [first, end) of a table. */
+/* The rows [first, end) of a table. */
 typedef struct span {
     size_t table, first, end;
 } span;
 
 typedef struct text_source {
     wt_force_source base;
-    wt_input *text; /* that was made of the input, or NULL */
+    wt_input *text; /* text converted from the input, or NULL */
     text_parts *parts;
-    const text_file *file; /* the part that is read */
-    wt_error broken;       /* why nothing more comes, though there should */
-    span next;             /* where the next curve begins */
-    span rows;             /* of the segment */
+    const text_file *file; /* current part */
+    wt_error broken;       /* failure that ends the curves early */
+    span next;             /* beginning of the next curve */
+    span rows;             /* rows of the current segment */
     size_t index;
 } text_source;
 
@@ -44,7 +45,8 @@ static wt_status decode(wt_force_source *base, const force_signal *signal, force
     return WT_OK;
 }
 
-/* A force, made from what the table has, and the columns of the kind that are wanted. */
+/* Adds the requested columns of a segment kind, and the force, which is computed from the columns
+ * of the table. */
 static void find_signals(const text_source *s, const text_table *t, wt_segment_kind kind,
                          force_metadata *facts)
 {
@@ -66,7 +68,8 @@ static void find_signals(const text_source *s, const text_table *t, wt_segment_k
     }
 }
 
-/* Rows where every channel is empty belong to the longer partner of a column pair. */
+/* Drops rows at the end in which every channel is empty; they belong to the longer segment of a
+ * column pair. */
 static void drop_empty_rows(const text_table *t, const force_metadata *facts, span *rows)
 {
     for (; rows->end > rows->first; rows->end--)
@@ -75,7 +78,8 @@ static void drop_empty_rows(const text_table *t, const force_metadata *facts, sp
                 return;
 }
 
-/* As the header says it, else from the column of time, which ends an interval earlier. */
+/* Returns the duration of the header, else that of the time column, which ends one interval earlier
+ * [s]. */
 static double duration_of(const text_table *t, wt_segment_kind kind, span rows)
 {
     const double n = (double)(rows.end - rows.first);
@@ -113,7 +117,7 @@ static wt_status add_segment(text_source *s, wt_force_curve *curve, wt_segment_k
     return force_add_segment(&s->base, &facts, curve, err);
 }
 
-/* Approach and retract in one column: it turns where the height is farthest from its start. */
+/* Splits approach and retract at the row with the height farthest from its start. */
 static wt_status add_turning(text_source *s, wt_force_curve *curve, span rows, wt_error *err)
 {
     const text_table *t = &s->file->tables[rows.table];
@@ -122,7 +126,7 @@ static wt_status add_turning(text_source *s, wt_force_curve *curve, span rows, w
     double farthest = 0;
     if (height == NULL)
         height = text_table_column(t, WT_Q_HEIGHT, -1);
-    /* Rows without a height at either end tell no distance. */
+    /* rows without a height at either end have no distance */
     while (rows.first + 1 < rows.end && isnan(text_table_value(t, rows.first, height)))
         rows.first++;
     while (rows.end - 1 > rows.first && isnan(text_table_value(t, rows.end - 1, height)))
@@ -148,7 +152,7 @@ static wt_status add_turning(text_source *s, wt_force_curve *curve, span rows, w
     return status;
 }
 
-/* Rows of one table and one kind. */
+/* Adds the segments of rows of one table and kind. */
 static wt_status add_rows(text_source *s, wt_force_curve *curve, span rows, wt_error *err)
 {
     const text_table *t = &s->file->tables[rows.table];
@@ -171,8 +175,8 @@ static wt_status add_rows(text_source *s, wt_force_curve *curve, span rows, wt_e
     return add_segment(s, curve, WT_SEGMENT_APPROACH, rows, err);
 }
 
-/* Goes on to the part with the next curve. The file was read to its end when it was opened: one
- * that ends otherwise now has been changed, and that is the error of every curve that is left. */
+/* Reads the part with the next curve. The file was read to its end when it was opened. If it now
+ * ends differently, it has changed, and all further curves fail. */
 static wt_status next_part(text_source *s, wt_error *err)
 {
     const bool left = s->index < s->base.n_curves;
@@ -190,7 +194,7 @@ static wt_status next_part(text_source *s, wt_error *err)
     return left || status == WT_OK ? status : WT_END;
 }
 
-/* The block that a curve is made of ends where the number of the block changes. */
+/* Reads the next curve, which is the block of rows with one block number. */
 static wt_status text_next(wt_force_source *source, wt_force_curve *curve, wt_error *err)
 {
     text_source *s = (text_source *)source;
@@ -257,7 +261,7 @@ static wt_status begin_text(text_source *s, const file_reader *self, wt_input *t
     return status;
 }
 
-/* All parts, so that what is wrong with the file is known before there is a curve of it. */
+/* Reads all parts, so that a defect of the file is reported before its first curve. */
 static wt_status read_through(text_source *s, wt_error *err)
 {
     wt_status status = WT_OK;
@@ -287,7 +291,7 @@ static wt_status text_open(wt_force_source *source, const file_reader *self, wt_
         status = begin_text(s, self, text, piece, source->log, err);
     if (status == WT_OK)
         status = read_through(s, err);
-    /* Unless all tables are at hand they come again, and have nothing more to say. */
+    /* if some tables are no longer in memory, they are read again without messages */
     if (status == WT_OK && s->file->n_tables < s->file->n_seen)
         status = begin_text(s, self, text, piece, NULL, err);
     return status;

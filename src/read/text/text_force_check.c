@@ -1,4 +1,4 @@
-/* What rows of a text export say against themselves: some are missing, there twice or elsewhere.
+/* Checks the rows of a text export for missing, repeated or moved rows.
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
@@ -8,23 +8,23 @@
 
 #include <math.h>
 
-/* Steps that show which one is usual, and the fewest to say anything. */
+/* Number of steps that define the usual step, and the minimum for a check. */
 enum { FIRST = 5, STEPS_LEAST = 20 };
-/* Equal steps are printed with three digits at least; a row that is not there makes a step of two,
- * one that is there twice or a wrong number a step that is none. */
+/* Limits relative to the usual step. Equal steps have at least three digits. A missing row doubles
+ * a step; a repeated row or a wrong number gives a step near zero or of another size. */
 static const double equal = 0.01, gap_least = 1.5, wrong_most = 0.5;
-/* Of these at most, or the steps are another thing: a part that stands elsewhere makes three, two
- * that changed places four. */
+/* Maximum number of wrong steps; with more the steps are not equal. A moved part causes three, an
+ * exchange of two parts four. */
 enum { WRONG_MAX = 4 };
 
 typedef struct broken_steps {
-    size_t first; /* row behind the first of them; 0: none, or the others are not equal */
-    size_t gaps;  /* with equal steps on both sides */
-    size_t wrong; /* others */
+    size_t first; /* first row after a break; 0 if there is none or the other steps are not equal */
+    size_t gaps;  /* gaps between equal steps */
+    size_t wrong; /* other breaks */
 } broken_steps;
 
-/* Breaks of steps that else are all equal: a ramp of two rates, steps that scatter and a height
- * that is measured with noise are none of this. The first and the last step may be parts of one. */
+/* Finds breaks in otherwise equal steps. A ramp of two rates, scattered steps and a noisy height
+ * have none. The first and the last step may be incomplete. */
 static broken_steps find_breaks(const text_table *t, size_t first, size_t end, const text_column *c)
 {
     static const broken_steps none = {0, 0, 0};

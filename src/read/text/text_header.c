@@ -1,4 +1,4 @@
-/* Lines outside the rows: header values, steps, markers.
+/* Processes lines outside of the rows: header values, steps and markers.
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
@@ -13,7 +13,7 @@
 
 #define STEPS_MAX ((size_t)64)
 
-/* None at all: the table is one that is not read. */
+/* Without any row the table is one that is not read. */
 void scan_check_rows(text_scanner *s)
 {
     if (s->n_rows > 0 && s->n_rows < s->n_said)
@@ -57,7 +57,7 @@ static void set_declared(text_scanner *s, field_sets sets, text_span text)
     }
 }
 
-/* The number that a field tells, in SI units; false, and a note, if it is none. */
+/* Parses the number of a field in SI units; false, with a message, for another text. */
 static bool field_number(const text_scanner *s, const header_field *field, text_span text,
                          const field_value *value, double *number)
 {

@@ -1,4 +1,4 @@
-/* Tables of a text export to images: the lines of a matrix, points of a grid, a profile.
+/* Converts the tables of a text export to images: a matrix, points of a grid, or a profile.
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
@@ -28,7 +28,7 @@ static void name_image(const imaging *m, wt_image *head, const char *otherwise)
 
 /* ---- matrix ---------------------------------------------------------------------------------- */
 
-/* The first line is the upper edge, as a picture is written. */
+/* Adds a matrix; its first line is the upper edge. */
 static wt_status add_matrix(const imaging *m)
 {
     const text_table *const t = m->table;
@@ -84,7 +84,7 @@ static void say_rounded(const imaging *m, const text_column *column, const text_
                column->name, rounded, step);
 }
 
-/* A profile that was taken backwards is turned round. */
+/* Adds a profile; one with decreasing positions is reversed. */
 static wt_status add_profile(const imaging *m, const text_column *x, const text_column *z)
 {
     const text_table *const t = m->table;
@@ -120,7 +120,7 @@ static wt_status add_profile(const imaging *m, const text_column *x, const text_
     return status;
 }
 
-/* The axis of the distinct places of a column. */
+/* Finds the axis of the distinct positions of a column. */
 static wt_status column_axis(const imaging *m, const text_column *column, text_axis *axis)
 {
     const text_table *const t = m->table;
@@ -183,7 +183,7 @@ static wt_status add_grid(const imaging *m, const text_column *const of[3])
         status = column_axis(m, of[1], &y);
     if (status != WT_OK)
         return status;
-    /* Points that are spread over an area have a line and a column of the grid for each. */
+    /* scattered points would give a grid line and column for each point */
     if (x.n > SIZE_MAX / y.n || x.n * y.n / 4 > m->table->n_rows) {
         status = wt_fail(m->err, WT_E_RANGE, "the points are no grid");
         wt_error_expected(m->err, "a height at most places of a grid");
@@ -221,7 +221,7 @@ static wt_status add_table(const imaging *m)
     return of[1] != NULL ? add_grid(m, of) : add_profile(m, of[0], of[2]);
 }
 
-/* Of several images in a file, those of something else than heights are left out. */
+/* True for an image of another quantity in a file of several images; it is skipped with a note. */
 static bool left_out(const imaging *m, wt_status status)
 {
     if (status != WT_E_UNIT || m->file->n_tables < 2)

@@ -1,7 +1,4 @@
-/* Bytes of any usual encoding to UTF-8 lines of any usual line end.
- *
- * SPDX-License-Identifier: GPL-3.0-or-later
- */
+/* Decodes bytes of the usual encodings to UTF-8 lines. SPDX-License-Identifier: GPL-3.0-or-later */
 #include "read/text/text.h"
 
 #include "core/base/resource_error.h"
@@ -14,7 +11,7 @@
 
 typedef enum byte_order { ORDER_NONE, ORDER_LITTLE, ORDER_BIG } byte_order;
 
-/* Without a mark, text of mostly Latin letters shows a zero in every other byte. */
+/* Guesses the byte order. Text of mostly Latin letters has a zero in every other byte. */
 static byte_order guess_utf_16(const unsigned char *bytes, size_t length)
 {
     size_t even = 0, odd = 0;
@@ -31,9 +28,9 @@ static byte_order guess_utf_16(const unsigned char *bytes, size_t length)
 }
 
 typedef struct encoding_choice {
-    const char *words; /* for people */
-    const char *iconv; /* NULL: UTF-8 already */
-    size_t mark;       /* bytes of the byte order mark */
+    const char *words; /* for messages */
+    const char *iconv; /* name for iconv; NULL for UTF-8 */
+    size_t mark;       /* size of the byte order mark [byte] */
     bool utf_16;
 } encoding_choice;
 
@@ -68,7 +65,7 @@ const char *lines_encoding(const unsigned char *bytes, size_t length, text_encod
 
 static const char replacement[] = "\xef\xbf\xbd";
 
-/* What is not UTF-8 in a text that is said to be: each bad byte becomes U+FFFD. */
+/* Copies a text that should be UTF-8; each invalid byte becomes U+FFFD. */
 static char *clean_utf_8(const char *bytes, size_t length, size_t *n_out, size_t *n_replaced)
 {
     const size_t good = utf8_check(bytes, length);
@@ -91,12 +88,12 @@ static char *clean_utf_8(const char *bytes, size_t length, size_t *n_out, size_t
     return text;
 }
 
-/* NULL when out of memory or when the system cannot convert. */
+/* Converts a text to UTF-8; NULL without memory or if the system cannot convert. */
 static char *text_to_utf8(const encoding_choice *c, const unsigned char *bytes, size_t length,
                           size_t *n_out, size_t *n_replaced)
 {
     const size_t unit = c->utf_16 ? 2 : 1;
-    /* Two bytes of UTF-16 become at most three, one of Latin-1 at most two. */
+    /* two bytes of UTF-16 become at most three bytes, one byte of Latin-1 at most two */
     if (length > (SIZE_MAX - 4) / 3)
         return NULL;
     const size_t capacity = (c->utf_16 ? length / 2 * 3 : 2 * length) + 4;
@@ -131,13 +128,13 @@ static char *text_to_utf8(const encoding_choice *c, const unsigned char *bytes, 
     return NULL;
 }
 
-/* The mark that DOS puts behind a text is no line. */
+/* True if only the DOS end mark, which is no line, is left. */
 static bool only_end_mark(const char *text, size_t length)
 {
     return length == 0 || (length == 1 && text[0] == '\x1a');
 }
 
-/* CR LF, LF and CR end a line; the byte there becomes zero. */
+/* Splits the text into lines at CR LF, LF and CR; the line end becomes a zero byte. */
 static bool find_lines(text_lines *lines, size_t length)
 {
     size_t n = 1, pairs = 0;

@@ -1,4 +1,4 @@
-/* Tables of a text export to the spectrum of a lever's noise.
+/* Converts a table of a text export to the noise spectrum of a cantilever.
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
@@ -14,7 +14,7 @@ typedef struct point {
     double frequency, density;
 } point;
 
-/* The densities that a table may have, the first that is there counts. */
+/* The possible densities of a table; the first that exists is used. */
 static const struct {
     wt_quantity quantity;
     bool volts, amplitude;
@@ -23,7 +23,7 @@ static const struct {
                  {WT_Q_VOLTAGE_NOISE, true, false},
                  {WT_Q_VOLTAGE_DENSITY, true, true}};
 
-/* Rows without a place in the spectrum are left out with a warning. */
+/* Collects the points; rows without a valid frequency are skipped with a warning. */
 static wt_status collect_points(const text_file *file, wt_log *log, point *points,
                                 wt_noise_spectrum *spectrum, wt_error *err)
 {

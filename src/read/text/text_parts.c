@@ -1,4 +1,4 @@
-/* What a description finds in a text, as a whole or part by part.
+/* Runs a description over a text, as a whole or part by part.
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
@@ -8,14 +8,14 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Bytes that are read together of a file that is larger. */
+/* Piece size for larger files [byte]. */
 #define PIECE ((size_t)1 << 20)
 
 struct text_parts {
     text_scanner s;
     text_file file;
-    wt_read_options options; /* whose texts are borrowed */
-    wt_unit_use *given;      /* [n_units] what tables have had of that column */
+    wt_read_options options; /* its texts are borrowed */
+    wt_unit_use *given;      /* [n_units] use of the units of the user */
 };
 
 static void free_table(text_table *t)
@@ -27,7 +27,7 @@ static void free_table(text_table *t)
     free(t->samples);
 }
 
-/* Tables without a row carry nothing. */
+/* Drops tables without rows. */
 static void drop_empty_tables(text_file *file)
 {
     size_t kept = 0;
@@ -48,7 +48,7 @@ static void log_text(const text_file *file, wt_log *log)
                    feed->n_replaced, feed->words);
 }
 
-/* What columns of that name make of the unit given for them. */
+/* Records if columns with this name use the unit of the user. */
 static void use_unit(const text_column *columns, size_t n, const char *name, wt_unit_use *use)
 {
     for (size_t i = 0; i < n; i++) {
@@ -64,7 +64,7 @@ static void use_unit(const text_column *columns, size_t n, const char *name, wt_
     }
 }
 
-/* Whether tables of the part have a column that a unit is given for. */
+/* Records which columns of the part have a unit of the user. */
 static void find_given_units(text_parts *p)
 {
     const text_file *file = &p->file;
@@ -82,8 +82,8 @@ static void find_given_units(text_parts *p)
     }
 }
 
-/* To all files of several kinds. The first to overrule says its unit, which is read when all files
- * are. */
+/* Merges the use of a unit into that of all files, which threads share. The first file that
+ * overrules the unit stores its own one, which is read after all files. */
 static void tell_use(const wt_unit_use *given, wt_unit_use *all)
 {
     if (given->used)
@@ -92,8 +92,8 @@ static void tell_use(const wt_unit_use *given, wt_unit_use *all)
         memcpy(all->stated, given->stated, sizeof all->stated);
 }
 
-/* A unit that is given for a column that is not there is most likely misspelled, and one that is
- * not what the file says is of another file. */
+/* Checks the units of the user. A unit for an absent column is probably misspelled. A unit that
+ * contradicts the file was meant for another file. */
 static wt_status check_given_units(const text_parts *p, wt_error *err)
 {
     for (size_t u = 0; u < p->options.n_units; u++) {
@@ -122,7 +122,7 @@ static wt_status check_given_units(const text_parts *p, wt_error *err)
 
 /* ---- parts -------------------------------------------------------------------------------- */
 
-/* Rows that need nothing but their names row, and steps that part the blocks. */
+/* True if rows depend only on their names row, and steps separate the blocks. */
 static bool can_part(const text_description *d)
 {
     return d->n_steps > 0 && d->encoding == ENCODING_UTF_8 && d->units == UNITS_NAME &&
@@ -187,7 +187,7 @@ static void drop_tables(text_parts *p)
     p->s.table = NULL;
 }
 
-/* The next part; it may have no table. */
+/* Scans the next part, which may have no table. */
 static wt_status next_part(text_parts *p, wt_error *err)
 {
     text_file *const file = &p->file;

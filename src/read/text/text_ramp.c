@@ -1,5 +1,5 @@
-/* Temperature sweeps in the rows of a table: rows of one frequency while the temperature moves, or
- * frequencies in turn while it goes on moving.
+/* Extracts temperature sweeps from the rows of a table: rows of one frequency with a changing
+ * temperature, or cycles of frequencies during a temperature ramp.
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
@@ -8,15 +8,16 @@
 #include <math.h>
 #include <string.h>
 
-/* Fewest points and kelvin of a temperature sweep; a temperature that turns back by more goes the
- * other way. */
+/* Minimum number of points and temperature range [K] of a temperature sweep. A reversal by more
+ * than `turn` [K] ends it. */
 enum { FEWEST = 5 };
 static const double least_span = 5, turn = 2;
-/* What the temperature moves within the frequencies of a turn, of what it moves from turn to turn:
- * next to nothing where it is held for them, more than half in a sweep. */
+/* Minimum share of the temperature change that occurs within a cycle of frequencies. It is near 0
+ * for isotherms and above one half in a ramp. */
 static const double least_drift = 0.25;
 
-/* `turns`: it was heated and cooled, so that its name has to tell. */
+/* Adds a temperature sweep. With `turns` there was heating and cooling, and the source states the
+ * direction. */
 static wt_status add_ramp(sweep_builder *b, const size_t *rows, size_t n, bool turns)
 {
     static const char *const way[] = {" (heated)", " (cooled)"};
@@ -41,7 +42,7 @@ static wt_status add_ramp(sweep_builder *b, const size_t *rows, size_t n, bool t
     return WT_OK;
 }
 
-/* The first of the rows [first, n) behind which the temperature turns back, or n. */
+/* Returns the first row after which the temperature reverses, or n. */
 static size_t turning_point(const sweep_builder *b, const size_t *rows, size_t first, size_t n)
 {
     size_t warmest = first, coldest = first;
@@ -65,10 +66,11 @@ static bool is_ramp(const sweep_builder *b, const size_t *rows, size_t n)
            fabs(sweep_temperature(b, rows[n - 1]) - sweep_temperature(b, rows[0])) >= least_span;
 }
 
-/* Rows of one frequency, cut where the temperature turns; *taken: whether there was a sweep. */
+/* Adds the sweeps of rows of one frequency, split where the temperature reverses. The last argument
+ * is true if there was a sweep. */
 static wt_status add_ramps(sweep_builder *b, const size_t *all, size_t n_all, bool *taken)
 {
-    size_t *const rows = b->rows; /* `all` may be the same ones */
+    size_t *const rows = b->rows; /* `all` may be the same array */
     wt_status status = WT_OK;
     size_t used = 0, n = 0;
     for (size_t i = 0; i < n_all; i++)
@@ -93,7 +95,7 @@ static wt_status add_ramps(sweep_builder *b, const size_t *all, size_t n_all, bo
     return status;
 }
 
-/* Rows that stand one behind the other with the same frequency. */
+/* Extracts the sweeps of consecutive rows with the same frequency. */
 static wt_status take_runs(sweep_builder *b, size_t *rows, size_t *n)
 {
     size_t kept = 0;
@@ -111,14 +113,14 @@ static wt_status take_runs(sweep_builder *b, size_t *rows, size_t *n)
     return status;
 }
 
-/* Kelvin between two rows; 0 if they are not known. */
+/* Returns the temperature difference of two rows [K]; 0 if it is unknown. */
 static double temperature_step(const sweep_builder *b, size_t row, size_t other)
 {
     const double kelvin = fabs(sweep_temperature(b, row) - sweep_temperature(b, other));
     return isnan(kelvin) ? 0 : kelvin;
 }
 
-/* Whether the temperature goes on moving while the frequencies take turns. */
+/* True if the temperature keeps changing during the cycles of frequencies. */
 static bool moves_on(const sweep_builder *b, const size_t *rows, size_t n)
 {
     double within = 0, between = 0;
@@ -139,7 +141,8 @@ static bool moves_on(const sweep_builder *b, const size_t *rows, size_t n)
     return turns >= FEWEST && between >= least_span && within > least_drift * between;
 }
 
-/* Frequencies in turn: the rows of each are a temperature sweep. `chosen` is room for n rows. */
+/* Extracts the sweeps of cycled frequencies, one for each frequency. `chosen` has space for n
+ * rows. */
 static wt_status take_turns(sweep_builder *b, size_t *rows, size_t *n, size_t *chosen)
 {
     wt_status status = WT_OK;

@@ -1,4 +1,4 @@
-/* The reader that runs a description: does it fit the beginning of a file?
+/* Implements the reader that runs a description, and its detection.
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
@@ -7,7 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Some exports have long headers; what is not seen in this much is not there. */
+/* Maximum number of bytes that the detection examines; some exports have long headers. */
 #define PEEK_MAX ((size_t)1 << 18)
 
 typedef enum probe_result {
@@ -17,7 +17,7 @@ typedef enum probe_result {
     PROBE_NO_MEMORY
 } probe_result;
 
-/* A file with these bytes is not text in any encoding. */
+/* True if the bytes are not text in any encoding. */
 static bool is_binary(const file_peek *peek)
 {
     const size_t n = peek->length < 1024 ? peek->length : 1024;
@@ -27,14 +27,14 @@ static bool is_binary(const file_peek *peek)
         zeros += c == 0;
         controls += c > 0 && c < 0x20 && !(c >= '\t' && c <= '\r') && c != 0x1a && c != 0x1b;
     }
-    /* UTF-16 text has at most one zero in two bytes. */
+    /* UTF-16 text has at most one zero in two bytes */
     return 10 * zeros > 6 * n || 20 * controls > n;
 }
 
 static probe_result look_for(const text_description *d, const text_probe *probe,
                              const text_lines *lines, bool whole)
 {
-    /* The last line of a part of a file may be half a line. */
+    /* the last line of a part may be incomplete */
     const size_t complete = whole || lines->n == 0 ? lines->n : lines->n - 1;
     names_row names = {.separator = SEPARATOR_AUTO};
     bool found = false;
@@ -57,13 +57,13 @@ static probe_result look_for(const text_description *d, const text_probe *probe,
     return whole || complete >= probe->within ? PROBE_NOT_FOUND : PROBE_MORE;
 }
 
-/* ---- what the descriptions share ----------------------------------------------------------- */
+/* ---- decoding shared by the descriptions ----------------------------------------------------- */
 
 struct text_peek {
     bool is_text;
-    bool whole;                           /* nothing more will be shown */
-    size_t length;                        /* up to a line end, so that no character is cut in two */
-    const text_lines *as[ENCODING_COUNT]; /* what the encodings asked for come to, in `lines` */
+    bool whole;    /* true if no more bytes will be shown */
+    size_t length; /* length up to a line end, so that no character is split */
+    const text_lines *as[ENCODING_COUNT]; /* decoded text of each encoding, in `lines` */
     text_lines lines[ENCODING_COUNT];
     size_t n_lines;
 };
@@ -91,8 +91,8 @@ void text_peek_free(struct text_peek *peek)
     free(peek);
 }
 
-/* The lines of the peek, decoded once for all descriptions that see the same encoding in it;
- * *lines is NULL if it is no text. */
+/* Returns the decoded lines, which all descriptions with the same encoding share. *lines is NULL if
+ * the bytes are not text. */
 static wt_status peek_lines(file_peek *peek, text_encoding encoding, const text_lines **lines)
 {
     *lines = NULL;

@@ -1,5 +1,5 @@
-/* Tables of a text export to a record of friction: the tables of a file are its steps, and so are
- * the blocks of a table.
+/* Converts the tables of a text export to a friction record. Each table is a step, and so is each
+ * block of a table.
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
@@ -8,7 +8,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-/* The column of a channel, and the line above the table that stands for one that is not there. */
+/* The quantity of a channel, and the header value that replaces an absent column. */
 static const struct {
     wt_quantity quantity;
     header_value header;
@@ -58,7 +58,7 @@ static bool is_known(const wt_record *record, wt_record_channel c, size_t i)
     return record->channel[c] != NULL && isfinite(record->channel[c][i]);
 }
 
-/* Friction, at a time or a lap where these are recorded. */
+/* True for a row with friction, and with time and laps where these are recorded. */
 static bool is_sample(const wt_record *record, size_t i)
 {
     return (is_known(record, WT_RECORD_COEFFICIENT, i) ||
@@ -67,7 +67,7 @@ static bool is_sample(const wt_record *record, size_t i)
            (record->channel[WT_RECORD_LAPS] == NULL || is_known(record, WT_RECORD_LAPS, i));
 }
 
-/* Other rows are left out; *n_left_out counts them. */
+/* Adds the samples of a table. Other rows are skipped and counted in *n_left_out. */
 static void add_table(const text_table *t, wt_record *record, size_t *step, size_t *n_left_out)
 {
     const text_column *column[WT_RECORD_CHANNELS];
@@ -87,8 +87,8 @@ static void add_table(const text_table *t, wt_record *record, size_t *step, size
     }
 }
 
-/* Time, distance and laps that begin anew in a step run on; within a step time and laps must not
- * fall, while a distance that is measured scatters. */
+/* Makes time, distance or laps continue from step to step where they restart. Time and laps must
+ * not decrease within a step; a measured distance may scatter. */
 static wt_status run_on(const text_file *file, wt_record *record, wt_record_channel c,
                         const char *what, wt_error *err)
 {
@@ -111,7 +111,7 @@ static wt_status run_on(const text_file *file, wt_record *record, wt_record_chan
     return WT_OK;
 }
 
-/* Many instruments count a force that presses as negative. */
+/* Reverses the sign of the normal force if it is negative under load, as for many instruments. */
 static void turn_load(const text_file *file, wt_record *record, wt_log *log)
 {
     double *const load = record->channel[WT_RECORD_NORMAL_FORCE];
@@ -128,7 +128,7 @@ static void turn_load(const text_file *file, wt_record *record, wt_log *log)
                "the normal force is negative when it presses; it is turned round");
 }
 
-/* Without a column that is not needed there is a record, but not what the user thinks it holds. */
+/* Warns of unread columns. Without an optional column the record is valid but incomplete. */
 static void log_problems(const text_file *file, const text_table *t, wt_log *log)
 {
     for (size_t i = 0; i < t->n_problems; i++) {
@@ -170,7 +170,7 @@ static wt_status fill(const text_file *file, wt_record *record, wt_log *log, wt_
     return status;
 }
 
-/* A step of a recipe may count its time anew. */
+/* Checks the steps of each block, since a step may restart its time. */
 static void check_steps(const text_file *file, wt_log *log)
 {
     for (size_t i = 0; i < file->n_tables; i++) {

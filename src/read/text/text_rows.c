@@ -1,4 +1,4 @@
-/* Rows of a table: numbers, blocks, kinds of segments.
+/* Reads the rows of a table: numbers, blocks and segment kinds.
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
@@ -43,7 +43,7 @@ static size_t hash_cell(const text_cells *cells, size_t i, size_t hash)
     return hash * 31 + 7;
 }
 
-/* A new block where a group or curve cell changes. */
+/* Begins a new block where a group or curve cell changes. */
 static void follow_groups(text_scanner *s)
 {
     const text_table *t = s->table;
@@ -69,13 +69,13 @@ size_t scan_sample(text_scanner *s, text_span name)
     for (size_t i = list->n; i-- > 0;)
         if (strcmp(list->items[i], text) == 0)
             return i;
-    if (list->n >= SAMPLES_MAX) /* a count of rows, not names */
+    if (list->n >= SAMPLES_MAX) /* then the column counts rows */
         return NO_SAMPLE;
     s->status = text_list_add(s->file, list, SAMPLES_MAX, (text_span){text, strlen(text)}, s->err);
     return s->status == WT_OK ? list->n - 1 : NO_SAMPLE;
 }
 
-/* That of the row before is the likely one. */
+/* Returns the sample of the row. The sample of the previous row is tested first. */
 static size_t row_sample(text_scanner *s)
 {
     const text_table *t = s->table;
@@ -124,7 +124,7 @@ row_quality scan_read_row(text_scanner *s, size_t *bad)
         case CELL_NUMBER:
             values[c] = column->factor * value + column->offset;
             numbers++;
-            if (!isfinite(values[c])) { /* in a unit that is too large for it */
+            if (!isfinite(values[c])) { /* overflow in SI units */
                 values[c] = (double)NAN;
                 warn_of_cell(s, column);
             }
@@ -164,8 +164,8 @@ void scan_bad_row(text_scanner *s, size_t bad)
                       t->decimal == ',' ? "comma" : "point", separator_name(t->separator));
 }
 
-/* Numbers may begin anew within a table, but none is left out. The words are always the same, so
- * that the log counts them in one line. */
+/* Warns of a gap in the row numbers; a restart is allowed. The message is constant, so that the log
+ * merges repetitions. */
 static void watch_number(text_scanner *s)
 {
     const text_table *const t = s->table;

@@ -1,4 +1,4 @@
-/* Rows of a table. SPDX-License-Identifier: GPL-3.0-or-later */
+/* Declares the reading of table rows. SPDX-License-Identifier: GPL-3.0-or-later */
 #ifndef WT_READ_TEXT_ROWS_H
 #define WT_READ_TEXT_ROWS_H
 
@@ -6,20 +6,20 @@
 
 typedef enum row_quality {
     ROW_GOOD,
-    ROW_BROKEN, /* some cells are numbers, one is not */
-    ROW_TEXT    /* no number where numbers belong */
+    ROW_BROKEN, /* some cells are numbers, at least one is not */
+    ROW_TEXT    /* no number in the columns that are read */
 } row_quality;
 
-/* Splits the line into s->row and makes room for it in the table; false on failure. */
+/* Splits the line into s->row and reserves a row of the table; false on failure. */
 bool scan_split_row(text_scanner *s);
-/* Reads the cells of s->row into the next row of the table; *bad is the first cell at fault. */
+/* Reads the cells of s->row into the next row of the table; *bad is the first invalid column. */
 row_quality scan_read_row(text_scanner *s, size_t *bad);
-/* Keeps the row that was read. */
+/* Adds the row that was read to the table. */
 void scan_add_row(text_scanner *s);
-/* The place of a name in the list of samples, where it is put; NO_SAMPLE for a blank one, for
- * one too many, and on failure. */
+/* Returns the index of a name in the list of samples and adds it if necessary. NO_SAMPLE for a
+ * blank name, a full list or a failure. */
 size_t scan_sample(text_scanner *s, text_span name);
-/* Fails for a row that cannot be read. */
+/* Fails for an unreadable row. */
 void scan_bad_row(text_scanner *s, size_t bad);
 
 #endif

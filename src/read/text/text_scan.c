@@ -1,5 +1,5 @@
-/* One walk over the lines of a text: header values, steps, names rows, units, rows. It can halt
- * where a step begins.
+/* Scans the lines of a text: header values, steps, names rows, units and rows. It can stop at the
+ * beginning of a step.
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
@@ -14,7 +14,7 @@
 
 #define TABLES_MAX ((size_t)100000)
 
-/* False behind the last line, and on failure. */
+/* Returns line i; false after the last line and on failure. */
 static bool line_at(text_scanner *s, size_t i, text_span *line)
 {
     if (s->status != WT_OK)
@@ -65,7 +65,7 @@ static bool split_cells(text_scanner *s, text_cells *cells, text_span line,
     return false;
 }
 
-/* Could the row be units? Not if a known column holds a number. */
+/* True if the row may contain units; a number in a known column excludes it. */
 static bool units_row(text_scanner *s, const text_cells *cells)
 {
     const text_description *d = s->d;
@@ -93,7 +93,7 @@ static bool names_have_units(const text_scanner *s)
     return false;
 }
 
-/* Looks for the units row after the names row, and moves there if there is one. */
+/* Looks for the units row after the names row, and moves there if it exists. */
 static void find_units(text_scanner *s)
 {
     text_span line;
@@ -130,8 +130,8 @@ static char choose_decimal(text_scanner *s)
     size_t commas = 0, points = 0;
     if (s->decimal != '\0' || s->d->decimal != '\0')
         return s->decimal != '\0' ? s->decimal : s->d->decimal;
-    /* A comma within a cell of a row that commas part stands in quotes. The first row may be that
-     * of the names. */
+    /* In rows separated by commas, a comma within a cell is quoted. The first row may be the names
+     * row. */
     for (size_t i = s->i + !description_is_nameless(s->d);
          i < s->i + 101 && commas + points < 64 && line_at(s, i, &line); i++) {
         if (!split_cells(s, &s->row, line, s->table->separator))
@@ -141,7 +141,7 @@ static char choose_decimal(text_scanner *s)
     return commas > points ? ',' : '.';
 }
 
-/* Names and units are known: the rows begin after this line. */
+/* Begins the rows after this line, since names and units are complete. */
 static void begin_rows(text_scanner *s)
 {
     s->status = names_resolve(&s->names, s->file, s->table, s->options, s->err);
@@ -152,8 +152,8 @@ static void begin_rows(text_scanner *s)
     s->table->decimal = choose_decimal(s);
 }
 
-/* Names that stand one below the other: each is kept until the line above the rows comes. Where one
- * does not fit, those behind it would be of other columns: there are none. */
+/* Collects names that are listed one per line, up to the line above the rows. If one name does not
+ * fit, none is used, since later names would shift to other columns. */
 static bool gathered_names(text_scanner *s, text_span *line)
 {
     text_span name = *line;
@@ -178,7 +178,7 @@ static bool gathered_names(text_scanner *s, text_span *line)
 
 static void table_line(text_scanner *s);
 
-/* Is the line the first row of a table whose names do not stand in the file? Then opens it. */
+/* Opens a table if the line is its first row and the file has no names. */
 static bool match_row(text_scanner *s)
 {
     if (s->comment || s->state != SCAN_HEADER ||
@@ -195,7 +195,7 @@ static bool match_row(text_scanner *s)
     return true;
 }
 
-/* Is the line a names row? Then opens a table and moves to the last line of names and units. */
+/* Opens a table if the line is a names row, and moves to the last line of names and units. */
 static bool match_names(text_scanner *s)
 {
     const text_description *d = s->d;
@@ -221,7 +221,7 @@ static bool match_names(text_scanner *s)
     return true;
 }
 
-/* ---- the walk ----------------------------------------------------------------------------- */
+/* ---- the scan -------------------------------------------------------------------------------- */
 
 static void header_line(text_scanner *s)
 {
@@ -236,7 +236,7 @@ static void header_line(text_scanner *s)
         (void)match_names(s);
 }
 
-/* Rows that come back after the table seemed to end would be lost without a word. */
+/* Warns of rows after the end of a table, which would be lost otherwise. */
 static void watch_orphan(text_scanner *s)
 {
     size_t bad = 0;
@@ -249,8 +249,8 @@ static void watch_orphan(text_scanner *s)
                    "row of numbers after the end of its table, not read");
 }
 
-/* Whether nothing of a table comes any more: a signature, the remarks of a person. Asked once, as
- * it ends the table or the reading. */
+/* True if no table row follows, only text such as a signature or remarks. It is called once for
+ * each table. */
 static bool rest_is_words(text_scanner *s)
 {
     const text_span line = s->line;

@@ -1,4 +1,4 @@
-/* Tables of a text export to a power spectrum.
+/* Converts the tables of a text export to a power spectrum.
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
@@ -14,8 +14,8 @@ typedef struct point {
     double wavenumber, density;
 } point;
 
-/* What a row says of the spectrum. Wavenumber 0 of an averaged spectrum is the mean height, no
- * wave; anything else that is no point would leave a hole that nobody sees. */
+/* The classes of a row. Wavenumber 0 of an averaged spectrum is the mean height and is skipped. Any
+ * other invalid row would leave an invisible gap, so it is an error. */
 typedef enum row_use { ROW_POINT, ROW_EMPTY, ROW_MEAN, ROW_BAD } row_use;
 
 static row_use use_of(point p)

@@ -1,5 +1,5 @@
-/* Strain sweeps in the rows of a table: rows of one frequency and temperature while the amplitude
- * rises or falls.
+/* Extracts strain sweeps from the rows of a table: rows of one frequency and temperature with
+ * increasing or decreasing amplitude.
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
@@ -8,12 +8,12 @@
 #include <math.h>
 #include <string.h>
 
-/* Fewest points of a strain sweep, and how many times the smallest amplitude the largest is; one
- * that went one way by more than what the first points of a sweep scatter by, and turns back by
- * more than `turn`, goes the other way. */
+/* Minimum number of points of a strain sweep, and minimum ratio of its amplitudes. A sweep ends
+ * where the amplitude reverses by more than the factor `turn`. It must have moved before by more
+ * than `scatter`, the scatter of the first points. */
 enum { FEWEST = 5 };
 static const double least_ratio = 3, turn = 1.5, scatter = 1.1;
-/* Kelvin that the temperature may drift meanwhile: in less than a temperature sweep has. */
+/* Maximum temperature drift [K], less than the range of a temperature sweep. */
 static const double most_drift = 4;
 
 static double strain_of(const sweep_builder *b, size_t row)
@@ -21,7 +21,7 @@ static double strain_of(const sweep_builder *b, size_t row)
     return text_table_value(b->table, row, b->c.strain);
 }
 
-/* A temperature that is not known is the same one. */
+/* True if the row continues the sweep. An unknown temperature counts as equal. */
 static bool goes_on(const sweep_builder *b, size_t first, size_t last, size_t row)
 {
     const double drift = fabs(sweep_temperature(b, row) - sweep_temperature(b, first)),
@@ -31,7 +31,7 @@ static bool goes_on(const sweep_builder *b, size_t first, size_t last, size_t ro
            !(jump > b->file->description->temperature_jump);
 }
 
-/* One past the last of the rows from `first` on whose amplitude goes one way. */
+/* Returns the end of the rows from `first` whose amplitude has one direction. */
 static size_t end_of(const sweep_builder *b, const size_t *rows, size_t first, size_t n)
 {
     size_t largest = first, smallest = first, i = first + 1;
@@ -59,8 +59,8 @@ static bool is_strain_sweep(const sweep_builder *b, const size_t *rows, size_t n
     return fmax(ratio, 1 / ratio) >= least_ratio;
 }
 
-/* Softening is told at a temperature that nobody says, unless a column holds it that cannot be
- * read. */
+/* Sets the temperature of a strain sweep. It may be unknown, unless the table has a temperature
+ * column that cannot be read. */
 static wt_status set_temperature(const sweep_builder *b, double *temperature)
 {
     double spread;
@@ -73,7 +73,8 @@ static wt_status set_temperature(const sweep_builder *b, double *temperature)
     return sweep_set_temperature(&any, temperature, &spread);
 }
 
-/* `turns`: rows of the same frequency and temperature stand before or behind it. */
+/* Adds a strain sweep. With `turns` adjacent rows have the same frequency and temperature, and the
+ * source states the direction. */
 static wt_status add_strain_sweep(sweep_builder *b, const size_t *rows, size_t n, bool turns)
 {
     static const char *const way[] = {" (rising strain)", " (falling strain)"};

@@ -1,4 +1,4 @@
-/* Tables of a text export to the isotherms of a DMA sweep.
+/* Converts the tables of a text export to the sweeps of a DMA measurement.
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
@@ -10,10 +10,10 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* No instrument sweeps so many decades at one temperature. */
+/* Maximum number of decades that an instrument sweeps at one temperature. */
 static const double most_decades = 7;
 
-/* A master curve that another program made looks like one isotherm. */
+/* Warns of a master curve of another program, which looks like one isotherm. */
 static void warn_of_shifted(const sweep_builder *b, double low, double high)
 {
     const double decades = log10(high / low);
@@ -24,7 +24,7 @@ static void warn_of_shifted(const sweep_builder *b, double low, double high)
                    b->c.step != NULL ? "times" : "frequencies", decades);
 }
 
-/* An isotherm of one of several amplitudes has it behind its source. */
+/* Names an isotherm by its source; one of several strain amplitudes also by its amplitude. */
 static void name_isotherm(const sweep_builder *b, wt_isotherm *isotherm)
 {
     char amplitude[24] = "";
@@ -34,7 +34,7 @@ static void name_isotherm(const sweep_builder *b, wt_isotherm *isotherm)
     strcat(isotherm->source, amplitude);
 }
 
-/* The rows collected so far become an isotherm, if their frequency was swept. */
+/* Creates an isotherm from the collected rows, if the frequency varies. */
 static wt_status end_isotherm(sweep_builder *b)
 {
     double low = (double)INFINITY, high = 0;
@@ -72,7 +72,7 @@ static wt_status end_isotherm(sweep_builder *b)
     return status;
 }
 
-/* Whether a row is of the block and temperature of the one before it. */
+/* True if a row has the block and temperature of the previous one. */
 static bool goes_on(const sweep_builder *b, size_t last, size_t row)
 {
     const double jump = b->file->description->temperature_jump;
@@ -80,8 +80,8 @@ static bool goes_on(const sweep_builder *b, size_t last, size_t row)
            !(fabs(sweep_temperature(b, row) - sweep_temperature(b, last)) > jump);
 }
 
-/* An isotherm ends where a block ends, where the frequency turns back or where the temperature
- * jumps. */
+/* Splits rows into isotherms: at the end of a block, a reversal of the frequency or a jump of the
+ * temperature. */
 static wt_status split_rows(sweep_builder *b, const size_t *rows, size_t n)
 {
     int direction = 0;
@@ -103,7 +103,7 @@ static wt_status split_rows(sweep_builder *b, const size_t *rows, size_t n)
     return status == WT_OK ? end_isotherm(b) : status;
 }
 
-/* Amplitudes of one set strain are held better than this. */
+/* Maximum ratio of amplitudes with the same set value. */
 static const double same_amplitude = 1.5;
 
 static bool other_amplitude(const sweep_builder *b, size_t row, size_t other)
@@ -113,8 +113,8 @@ static bool other_amplitude(const sweep_builder *b, size_t row, size_t other)
     return ratio > same_amplitude || ratio < 1 / same_amplitude;
 }
 
-/* Several amplitudes in turn at each frequency: the rows of each are moved together, so that the
- * frequency turns back between them. */
+/* Groups the rows by amplitude if several amplitudes alternate at each frequency. The frequency
+ * then reverses between the groups. */
 static void part_amplitudes(sweep_builder *b, size_t *rows, size_t n)
 {
     bool turns = false;
@@ -123,7 +123,7 @@ static void part_amplitudes(sweep_builder *b, size_t *rows, size_t n)
                 sweep_way(b, rows[i - 1], rows[i]) == 0 && other_amplitude(b, rows[i], rows[i - 1]);
     b->amplitudes = turns;
     for (size_t first = 0, end, done; turns && first < n; first = done) {
-        /* one block at one temperature */
+        /* a block at one temperature */
         for (end = first + 1; end < n && goes_on(b, rows[end - 1], rows[end]);)
             end++;
         const size_t like = rows[first];
@@ -138,7 +138,7 @@ static void part_amplitudes(sweep_builder *b, size_t *rows, size_t n)
     }
 }
 
-/* Rows of one sample. */
+/* Splits the rows of one sample into sweeps. */
 static wt_status split_sample(sweep_builder *b, size_t *rows, size_t n)
 {
     const bool swept = b->c.step == NULL;
@@ -150,7 +150,7 @@ static wt_status split_sample(sweep_builder *b, size_t *rows, size_t n)
     return status == WT_OK ? split_rows(b, rows, n) : status;
 }
 
-/* What was added since `from` is of the sample of the builder, or of the file. */
+/* Sets the sample name of the sweeps added since `from`, by the column or the file. */
 static wt_status name_sample(const sweep_builder *b, const wt_sweep *from)
 {
     wt_sweep *const s = b->sweep;
@@ -168,15 +168,15 @@ static wt_status name_sample(const sweep_builder *b, const wt_sweep *from)
     return good ? WT_OK : wt_fail(b->err, WT_E_MEMORY, "no memory for the name of a sample");
 }
 
-/* A column of numbers nearly all of which are different counts something; it names no samples. Nor
- * does one of more names than are kept. */
+/* Ignores a sample column of numbers that nearly all differ, or of too many names; it counts
+ * something. */
 static void drop_counts(const sweep_builder *b)
 {
     const text_table *t = b->table;
     const text_list *names = &b->file->samples;
     bool seen[SAMPLES_MAX] = {false};
     bool numbers = true;
-    size_t n = 0; /* names in this table */
+    size_t n = 0; /* number of names in this table */
     for (size_t row = 0; row < t->n_rows; row++) {
         const size_t i = t->samples[row];
         double value;
@@ -237,7 +237,7 @@ static size_t n_sweeps(const wt_sweep *s)
     return s->n_isotherms + s->n_ramps + s->n_strain_sweeps;
 }
 
-/* Moduli that stand in no column of their own, or in none. */
+/* Notes which moduli were measured and which are derived. */
 static void say_what_follows(const sweep_builder *b)
 {
     const sweep_columns *c = &b->c;
@@ -258,7 +258,7 @@ static void say_what_follows(const sweep_builder *b)
                    "no column of the loss modulus: storage modulus times loss factor");
 }
 
-/* The user may say what names leave open, not what they tell. */
+/* Fails if the user contradicts the deformation that the column names state. */
 static wt_status check_deformation(const sweep_builder *b)
 {
     const wt_read_deformation said = b->options->deformation;
@@ -278,7 +278,7 @@ static wt_status check_deformation(const sweep_builder *b)
     return WT_OK;
 }
 
-/* One master curve is of one kind. */
+/* Fails for sweeps of different loading, since a master curve needs one kind. */
 static wt_status fail_mixed(wt_loading before, wt_loading now, wt_error *err)
 {
     static const char *const words[] = {[WT_OSCILLATION] = "oscillation",
@@ -326,7 +326,7 @@ static wt_status read_table(sweep_builder *b)
     return status;
 }
 
-/* Moves isotherms and other sweeps; all or none. */
+/* Moves all sweeps, or none on failure. */
 static wt_status move_sweeps(wt_sweep *to, wt_sweep *from, wt_error *err)
 {
     const size_t n = to->n_isotherms, n_ramps = to->n_ramps, n_strain = to->n_strain_sweeps;
@@ -371,7 +371,7 @@ wt_status text_sweep(const text_file *file, const wt_read_options *options, wt_l
     wt_status status = WT_OK;
     const text_table *lacking = NULL;
     size_t n_steps = 0;
-    /* Of a file of several tests the steps of strain or stress only if it has no sweep. */
+    /* tests of relaxation or creep are read only if the file has no sweep */
     for (int pass = 0; pass < 2 && n_sweeps(&made) == 0; pass++)
         for (size_t i = 0; i < file->n_tables && status == WT_OK; i++) {
             sweep_builder b = {.file = file,

@@ -1,5 +1,5 @@
-/* What a table of a DMA sweep says against itself: rows that are there twice, a loss factor that is
- * not that of the moduli beside it.
+/* Checks a table of a DMA sweep for repeated rows and for a loss factor that contradicts the
+ * moduli.
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
@@ -20,7 +20,7 @@ static int by_values(const void *a, const void *b, void *user)
     return order != 0 ? order : (p > q) - (p < q);
 }
 
-/* A measurement gives no row a second time, to the last digit of all that is read of it. */
+/* Warns of repeated rows: a measurement does not repeat all values to the last digit. */
 static wt_status warn_of_doubles(const text_file *file, text_table *t, wt_log *log, wt_error *err)
 {
     enum { COLUMNS_LEAST = 3 };
@@ -51,16 +51,16 @@ static wt_status warn_of_doubles(const text_file *file, text_table *t, wt_log *l
     return WT_OK;
 }
 
-/* Of a row, E''/E' less the loss factor; not a number if it lacks one of them. */
+/* Returns E''/E' minus the loss factor of a row; NaN if one is missing. */
 static double factor_gap(const text_table *t, const sweep_columns *c, size_t row)
 {
     return text_table_value(t, row, c->loss) / text_table_value(t, row, c->storage) -
            text_table_value(t, row, c->factor);
 }
 
-/* Where the loss factors of most rows are those of their moduli, one that is not is a wrong number
- * in its row. Two digits leave 5 %; a table of fixed decimals, and the noise of an instrument that
- * averages all three, leave in most rows the like of half of them. */
+/* Warns of a loss factor that is not the ratio of the moduli although it is in most rows. Two
+ * digits allow 5 %. Fixed decimals, or an instrument that averages all three, give similar
+ * deviations in most rows. */
 static wt_status warn_of_factors(const text_file *file, const text_table *t, wt_log *log,
                                  wt_error *err)
 {

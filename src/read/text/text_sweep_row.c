@@ -1,4 +1,4 @@
-/* What a row of a table says of a sweep.
+/* Computes the quantities of a sweep from a row of a table.
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
@@ -7,7 +7,8 @@
 #include <math.h>
 #include <string.h>
 
-/* A table with a frequency is of an oscillation, whatever else it has. */
+/* Finds the columns of relaxation or creep. A table with a frequency is an oscillation in any
+ * case. */
 static void find_step(const text_table *t, bool tension, sweep_columns *c)
 {
     const text_column *const modulus =
@@ -18,15 +19,15 @@ static void find_step(const text_table *t, bool tension, sweep_columns *c)
         return;
     c->step = modulus != NULL ? modulus : compliance;
     c->loading = modulus != NULL ? WT_RELAXATION : WT_CREEP;
-    c->has_storage = true; /* in its place */
+    c->has_storage = true; /* the step modulus replaces it */
     c->has_loss = false;
-    c->strain = c->factor = NULL; /* a strain that creeps is no amplitude */
+    c->strain = c->factor = NULL; /* a creep strain is no amplitude */
 }
 
 sweep_columns sweep_find_columns(const text_table *t, wt_read_deformation said)
 {
     sweep_columns c = {.to_angular = 1};
-    /* A loss factor alone is of either. */
+    /* a loss factor alone fits either deformation */
     const bool tension = (t->quantities & MODULI_OF_TENSION) != 0 ||
                          ((t->quantities & MODULI_OF_SHEAR) == 0 && said != WT_DEFORMATION_SHEAR);
     c.deformation = tension ? WT_TENSION : WT_SHEAR;
@@ -117,17 +118,18 @@ int sweep_way(const sweep_builder *b, size_t from, size_t to)
 bool sweep_is_point(const sweep_builder *b, size_t row)
 {
     const sweep_columns *c = &b->c;
-    /* Some programs part segments by rows of a negative time. */
+    /* some programs separate segments by rows of negative time */
     const bool marker = c->time != NULL && text_table_value(b->table, row, c->time) < 0;
     const bool alone = !c->has_storage && !c->has_loss;
-    /* The step itself is at no time, and nothing has crept yet: neither is finite. */
+    /* the step itself is at time 0 without creep, so neither value is finite */
     return !marker && sweep_angular(b, row) > 0 && isfinite(sweep_angular(b, row)) &&
            (!c->has_storage || isfinite(sweep_storage(b, row))) &&
            (!c->has_loss || isfinite(sweep_loss(b, row))) &&
            (!alone || isfinite(sweep_factor(b, row)));
 }
 
-/* "FILE, TITLE OF THE STEP"; the title is what tells the isotherms apart, so the name gives way. */
+/* Formats the source as "FILE, TITLE OF THE STEP". The title distinguishes the isotherms, so a long
+ * file name is cut. */
 void sweep_source(const sweep_builder *b, char *source, size_t size)
 {
     const text_table *t = b->table;
@@ -144,7 +146,7 @@ void sweep_source(const sweep_builder *b, char *source, size_t size)
     memcpy(source + strlen(source), end, length + 1);
 }
 
-/* A number at the beginning of the text, as long as it can be; its length, or 0. */
+/* Returns the length of the longest number at the beginning of the text, or 0. */
 static size_t number_length(const char *text)
 {
     const char *at = text + strspn(text, "+-");
@@ -157,7 +159,7 @@ static size_t number_length(const char *text)
     return (size_t)(at - text);
 }
 
-/* Whether the name is of the pattern; *value: what stands for its "#". A number is taken whole. */
+/* True if the name matches the pattern. *value is the number at "#", which is read as a whole. */
 static bool match_name(const char *pattern, const char *name, double *value)
 {
     for (; *pattern != '\0'; pattern++, name++) {
@@ -200,7 +202,8 @@ wt_status sweep_set_temperature(const sweep_builder *b, double *temperature, dou
     const bool fallback = b->table->header.fallback[HEADER_TEMPERATURE];
     double mean = 0, scatter = 0;
     size_t n = 0;
-    /* Welford's recurrence: the scatter of 0.01 K about 300 K is not lost to rounding. */
+    /* Welford's recurrence keeps a standard deviation of 0.01 K at 300 K free of rounding
+     * errors. */
     for (size_t i = 0; i < b->n; i++) {
         const double t = sweep_temperature(b, b->rows[i]);
         if (isnan(t))

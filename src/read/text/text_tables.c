@@ -1,4 +1,4 @@
-/* What the tables of a scanned file hold, and what to say when that is not enough.
+/* Queries the tables of a scanned file, and formats the errors of incomplete tables.
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
@@ -50,7 +50,7 @@ double text_table_value(const text_table *table, size_t row, const text_column *
     return table->values[row * table->n_columns + (size_t)(column - table->columns)];
 }
 
-/* Units that instruments export it in; no column is taken to be in one of them. */
+/* Returns usual units of a quantity for messages; no column is assumed to have them. */
 static const char *likely_units(wt_quantity quantity)
 {
     switch (quantity) {
@@ -85,7 +85,7 @@ static const char *likely_units(wt_quantity quantity)
     }
 }
 
-/* All columns without a unit at once, so that nobody has to ask one after the other. */
+/* Fails with all columns without a unit at once, so that the user can state them together. */
 static wt_status without_units(const text_table *table, wt_quantity_set lacking, wt_error *err)
 {
     char names[120] = "", options[200] = "", likely[200] = "";
@@ -146,7 +146,8 @@ wt_status text_table_problem(const text_table *table, wt_quantity_set quantities
     return WT_OK;
 }
 
-/* What a sweep may do without, but not where the file has a column of it that is not understood. */
+/* Returns the moduli that a sweep can lack, but not if the file has such a column that is not
+ * understood. */
 static wt_quantity_set not_to_lose(const text_table *table)
 {
     static const wt_quantity_set pairs[] = {
@@ -180,7 +181,7 @@ void text_unknown(const text_file *file, char *names, size_t size)
     names[0] = '\0';
     for (size_t i = 0; i < file->unknown.n; i++) {
         const size_t length = strlen(file->unknown.items[i]) + (i > 0 ? 2 : 0);
-        /* Room for what says that there are more. */
+        /* space for the mark of omission */
         if (used + length + 5 > size) {
             memcpy(names + used, " ...", 5);
             return;
@@ -218,7 +219,7 @@ void text_log_columns(const text_file *file, wt_log *log)
     text_log_unknown(file, log);
 }
 
-/* The first of the tests named in the description of which the file has a line, or NULL. */
+/* Returns the first unread test of the description that the file contains, or NULL. */
 static const char *other_test_of(const text_file *file)
 {
     const text_description *d = file->description;

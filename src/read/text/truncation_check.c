@@ -1,5 +1,5 @@
-/* What speaks for a file that was cut off: a last line without its line end, a last row that is not
- * as whole as those before it, a table without the line that ends it.
+/* Detects truncated files: a last line without a line end, an incomplete last row, or a table
+ * without its end line.
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
@@ -7,7 +7,7 @@
 
 #include "core/base/number.h"
 
-/* How a cell is written. */
+/* The format of a cell. */
 typedef struct cell_form {
     bool number, point, exponent;
     size_t length, digits, exponent_digits;
@@ -32,7 +32,7 @@ static size_t least(size_t a, size_t b)
     return a < b ? a : b;
 }
 
-/* Whether a column that is read has no cell in the row. */
+/* True if the row has no cell for a column that is read. */
 static bool lacks_cells(const text_scanner *s)
 {
     const text_table *const t = s->table;
@@ -68,9 +68,9 @@ void cut_watch(text_scanner *s)
     l->exponents = l->exponents || form.exponent;
 }
 
-/* A number that has lost its end is as short as the shortest, or shorter, or without its point or
- * its exponent. One without a point whose neighbours have different lengths may be a tenth of what
- * it was, and is not believed. With a point, what may be lost are decimals. */
+/* A truncated number is shorter than the others, or lacks its decimal point or exponent. A number
+ * without a point may have lost a digit if the lengths vary, and is not accepted. With a point only
+ * decimals may be lost. */
 bool cut_is_whole(const text_scanner *s)
 {
     const last_cells *const l = &s->last;

@@ -1,5 +1,5 @@
-/* Measurements in this program's own HDF5 files, weartrack-hdf5(5), as `weartrack convert` writes
- * them. The tables are those of the text stream, so they are read by its description.
+/* Reads measurements in HDF5 files of this program, weartrack-hdf5(5), which `weartrack convert`
+ * writes. The tables are converted to a text stream, which its description reads.
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
@@ -11,7 +11,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* The root's attributes, the version among them, stand right behind the signature. */
+/* The attributes of the root, among them the version, follow the signature. */
 static recognition detect(const file_reader *self, file_peek *peek)
 {
     (void)self;
@@ -20,8 +20,8 @@ static recognition detect(const file_reader *self, file_peek *peek)
                       90);
 }
 
-/* Results (a master curve, moduli) have columns of the same names and are no measurements. Beside
- * the spectrum of a measured surface its "roughness" is that once more. */
+/* True for a table of measured data. Results such as a master curve have columns of the same names.
+ * If a file has a measured spectrum, its table "roughness" repeats it. */
 static bool is_measured(const wt_result *result, const char *name)
 {
     if (strcmp(name, "roughness") == 0 && wt_result_find(result, "power_spectrum") != NULL)
@@ -34,7 +34,7 @@ static bool is_measured(const wt_result *result, const char *name)
     return false;
 }
 
-/* What is not read is not lost in silence; what is said of the tables themselves is no loss. */
+/* Warns of tables that are not read. Tables about the file itself are no loss. */
 static void warn_of_others(wt_log *log, const char *name, const wt_result *result)
 {
     char names[160] = "";
@@ -65,7 +65,7 @@ static wt_status read_result(wt_input *input, wt_result **result, wt_error *err)
                            : status;
 }
 
-/* The tables of measurements of the file, as a text stream in memory. */
+/* Converts the tables of measurements to a text stream in memory. */
 static wt_status as_text(const file_reader *self, wt_input *input, wt_log *log, wt_input **text,
                          wt_error *err)
 {

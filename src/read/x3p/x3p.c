@@ -1,9 +1,9 @@
-/* X3P (ISO 25178-72, ISO 5436-2): height maps and profiles in a ZIP archive of main.xml, the
- * heights and a bit for each that is valid, all of them in one folder or none.
+/* Reads X3P files (ISO 25178-72, ISO 5436-2): height maps and profiles in a ZIP archive of
+ * main.xml, the heights and a validity bit for each. All of them are in one folder or at the top.
  *
- * z = raw * Increment + Offset of whole numbers; of floating-point numbers z = raw, for nobody who
- * writes such files applies the increment. The order of lines is that of the file, the first of
- * them at the bottom, as y rises with its index.
+ * Integers are scaled: z = raw * Increment + Offset. Floating-point numbers are used directly,
+ * since the programs that write them do not apply the increment. The first line is at the bottom,
+ * as y increases with its index.
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
@@ -19,20 +19,20 @@
 #include <strings.h>
 
 static const char document_name[] = "main.xml";
-/* A document with a list of its heights is larger than its other parts; at 30 bytes each half a
- * million of them fit. */
+/* Maximum size of main.xml [byte]. A document with a list of heights is large; at 30 bytes each it
+ * fits half a million. */
 #define DOCUMENT_MAX ((size_t)1 << 24)
-/* As images_add has it, of eight bytes. */
+/* Maximum size of the heights, eight bytes for each pixel that images_add allows [byte]. */
 #define DATA_MAX ((size_t)1 << 31)
 
 typedef struct x3p_file {
     zip_archive *archive;
-    char folder[64]; /* of main.xml, with its '/'; "" */
+    char folder[64]; /* folder of main.xml with its '/', or "" */
     x3p_document document;
     byte_buffer data;
 } x3p_file;
 
-/* main.xml at the top, or in one folder, which is not one that Macintosh computers add. */
+/* Finds main.xml at the top or in a folder, except for folders that macOS adds. */
 static bool find_document(x3p_file *f, size_t *at)
 {
     for (size_t i = 0; i < f->archive->n; i++) {
@@ -62,7 +62,7 @@ static wt_status read_document(x3p_file *f, wt_error *err)
     return status;
 }
 
-/* An entry that the document names, beside it. */
+/* Reads an entry that the document names, relative to its folder. */
 static wt_status read_entry(x3p_file *f, const char *link, size_t length, wt_error *err)
 {
     char name[sizeof f->folder + X3P_LINK];
@@ -83,7 +83,7 @@ static wt_status read_entry(x3p_file *f, const char *link, size_t length, wt_err
     return status;
 }
 
-/* Whether the heights are those that were written. */
+/* Checks the MD5 checksum of the heights. */
 static wt_status check_md5(const x3p_file *f, wt_error *err)
 {
     char hex[33];
@@ -120,7 +120,7 @@ static wt_status add_layers(const x3p_document *d, image_list *list, wt_error *e
     return status;
 }
 
-/* Heights of the entry, or of the document itself. */
+/* Fills the layers from the entry, or from the list in the document. */
 static wt_status fill_layers(x3p_file *f, const image_list *list, wt_error *err)
 {
     const x3p_document *d = &f->document;
@@ -154,7 +154,7 @@ static wt_status fill_layers(x3p_file *f, const image_list *list, wt_error *err)
     return WT_OK;
 }
 
-/* One bit for each height, the lowest first. */
+/* Marks invalid heights as missing: one bit for each height, the lowest bit first. */
 static wt_status leave_out_invalid(x3p_file *f, const image_list *list, wt_error *err)
 {
     const x3p_document *d = &f->document;
@@ -185,7 +185,7 @@ static wt_status x3p_images(const file_reader *self, wt_input *input,
     if (status == WT_OK)
         status = read_document(&f, err);
     const x3p_document *d = &f.document;
-    /* before anything is multiplied */
+    /* checked before any product is computed */
     if (status == WT_OK && (d->size[1] > DATA_MAX / 8 / d->size[0] ||
                             d->size[2] > DATA_MAX / 8 / (d->size[0] * d->size[1])))
         status = wt_fail(err, WT_E_CORRUPT, "impossible size of the matrix: %zu x %zu x %zu",
@@ -202,7 +202,7 @@ static wt_status x3p_images(const file_reader *self, wt_input *input,
     return images_end(&list, status, wt_input_name(input), log, images, n_images, err);
 }
 
-/* Names of entries stand unpacked in the archive; spreadsheets have neither of these two. */
+/* Entry names are not packed in the archive. Spreadsheets have none of these names. */
 static recognition detect(const file_reader *self, file_peek *peek)
 {
     (void)self;

@@ -1,4 +1,4 @@
-/* main.xml of an X3P file. SPDX-License-Identifier: GPL-3.0-or-later */
+/* Parses main.xml of an X3P file. SPDX-License-Identifier: GPL-3.0-or-later */
 #include "read/x3p/x3p_document.h"
 
 #include <libxml/parser.h>
@@ -17,7 +17,7 @@ static bool is_called(const xmlNode *node, const char *name)
     return node->type == XML_ELEMENT_NODE && strcmp((const char *)node->name, name) == 0;
 }
 
-/* The first element of that name among the children; NULL. */
+/* Returns the first child element with this name, or NULL. */
 static const xmlNode *child(const xmlNode *of, const char *name)
 {
     for (const xmlNode *c = of != NULL ? of->children : NULL; c != NULL; c = c->next)
@@ -26,7 +26,7 @@ static const xmlNode *child(const xmlNode *of, const char *name)
     return NULL;
 }
 
-/* The text of an element without blanks at its ends; "" if there is none. */
+/* Returns the text of an element without blanks at its ends; "" if there is none. */
 static const char *text_of(const xmlNode *node, size_t *n)
 {
     const xmlNode *inside = node != NULL ? node->children : NULL;
@@ -85,7 +85,7 @@ static wt_status read_axis(const xmlNode *axes, const char *name, x3p_axis *to, 
             to->type = types[i].type;
             return WT_OK;
         }
-    /* That of x and y says nothing where the points are equally spaced. */
+    /* the type of x and y has no meaning for equally spaced points */
     return strcmp(name, "CZ") == 0 ? lacking("DataType of CZ", "I, L, F or D", err) : WT_OK;
 }
 
@@ -95,7 +95,7 @@ static size_t count_of(const xmlNode *node)
     return value >= 1 && value <= 1e9 && value == floor(value) ? (size_t)value : 0;
 }
 
-/* Heights in the document itself; an empty one is missing. */
+/* Reads heights in the document itself; an empty one is missing. */
 static wt_status read_list(const xmlNode *list, x3p_document *to, wt_error *err)
 {
     size_t n = 0;
@@ -165,7 +165,7 @@ static wt_status read_root(const xmlNode *root, x3p_document *to, wt_error *err)
     return status;
 }
 
-/* Says nothing, and takes down whether memory ran out. */
+/* Suppresses messages and records if memory was missing. */
 static void note_shortage(void *user, xmlErrorPtr error)
 {
     bool *const starved = user;
@@ -174,7 +174,7 @@ static void note_shortage(void *user, xmlErrorPtr error)
 
 wt_status x3p_document_parse(const void *xml, size_t length, x3p_document *document, wt_error *err)
 {
-    /* Complaints about an encoding go to standard error unless this thread has a handler. */
+    /* libxml2 prints encoding errors to standard error unless this thread has a handler. */
     const xmlStructuredErrorFunc previous = xmlStructuredError;
     void *const previous_context = xmlStructuredErrorContext;
     wt_status status = WT_OK;
